@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "graph/exploration_space.h"
+
+namespace possibility::actions {
+
+/// Points of E are pelvis poses: x, y, z (m), then the quaternion w, x, y, z.
+graph::Point ToPoint(const Eigen::Isometry3d& X_WR);
+Eigen::Isometry3d ToPose(const graph::Point& point);
+
+/// Heading of the pelvis: yaw of the decomposition Rz(yaw) Ry(pitch) Rx(roll).
+double Heading(const Eigen::Matrix3d& R_WR);
+
+/// A pose between two: straight in position, the shorter way in heading, and along the shortest
+/// rotation in what remains (the tilt); s in [0, 1].
+Eigen::Isometry3d Interpolate(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double s);
+
+/// E for one environment: pelvis poses over its bounds and ground levels.
+class PelvisPoseSpace : public graph::ExplorationSpace {
+ public:
+  /// `rotation_weight`: of a radian beside 1 - rotation_weight for a metre.
+  PelvisPoseSpace(const Eigen::AlignedBox2d& bounds, std::vector<double> ground_levels,
+                  double rotation_weight);
+
+  /// Upright, uniform in x, y and heading, one metre above one of the levels.
+  graph::Point RandomSample(graph::RandomGenerator* generator) const override;
+  double Distance(const graph::Point& a, const graph::Point& b) const override;
+
+ private:
+  Eigen::AlignedBox2d bounds_;
+  std::vector<double> ground_levels_;
+  double rotation_weight_;
+};
+
+}  // namespace possibility::actions

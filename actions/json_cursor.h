@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace possibility::actions {
+
+/// A place in a JSON document that knows its way from the root, so that whatever is wrong there
+/// can be reported with file and path. The path is only spelled out when something is wrong.
+/// A cursor must not outlive the cursor it came from.
+class JsonCursor {
+ public:
+  /// The root. `file` is only named in messages.
+  JsonCursor(const nlohmann::json& value, const std::filesystem::path& file)
+      : value_(&value), file_(&file) {}
+
+  /// @throws InputError unless this is an object with exactly these keys, in any order.
+  void ExpectKeys(std::initializer_list<std::string_view> keys) const;
+
+  /// Members; the key or index must exist.
+  JsonCursor operator[](const char* key) const;
+  JsonCursor operator[](std::size_t index) const;
+
+  const nlohmann::json& value() const { return *value_; }
+
+  /// Values of the expected type. @throws InputError otherwise.
+  double Number() const;
+  std::int64_t Integer(std::int64_t lowest, std::int64_t highest) const;
+  std::uint64_t Unsigned() const;
+  std::string String() const;
+  std::size_t ArraySize() const;
+
+  /// @throws InputError "FILE: PATH: MESSAGE".
+  [[noreturn]] void Fail(const std::string& message) const;
+
+ private:
+  JsonCursor(const nlohmann::json& value, const JsonCursor& parent)
+      : value_(&value), file_(parent.file_), parent_(&parent) {}
+
+  std::string Path() const;
+
+  const nlohmann::json* value_;
+  const std::filesystem::path* file_;
+  const JsonCursor* parent_ = nullptr;
+  const char* key_ = nullptr;
+  std::size_t index_ = 0;
+};
+
+}  // namespace possibility::actions

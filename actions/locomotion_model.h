@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/gait_motion.h"
+#include "actions/nominal_stance.h"
+#include "actions/swept_volume.h"
+#include "actions/transition_motion.h"
+#include "models/robot_model.h"
+
+namespace possibility::actions {
+
+/// Everything about how one robot moves that does not depend on where: the nominal stance and
+/// swept volume of each gait, and the transitions between gaits. Immutable, safe to share.
+struct LocomotionModel {
+  struct GaitEntry {
+    NominalStance stance;
+    std::unique_ptr<GaitMotion> motion;
+    std::vector<Eigen::AlignedBox3d> sweep;  ///< in the stance frame
+  };
+  struct TransitionEntry {
+    int from = 0;  ///< indices into gaits
+    int to = 0;
+    std::unique_ptr<TransitionMotion> motion;
+    std::vector<Eigen::AlignedBox3d> sweep;  ///< in the first gait's stance frame
+  };
+
+  const models::RobotModel* robot = nullptr;
+  std::vector<std::unique_ptr<GaitEntry>> gaits;
+  std::vector<TransitionEntry> transitions;
+
+  /// Index of the gait called `name`, or -1.
+  int GaitIndex(const std::string& name) const;
+};
+
+/// Solves the stances and computes the swept volumes of the gaits called `actions` and the
+/// transitions among them. `robot` must outlive the result.
+/// @throws InputError if a gait does not exist, or its bounds allow a stride that the robot cannot
+///   execute (every extreme stride is generated and checked here).
+LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
+                                     const std::vector<std::string>& actions);
+
+/// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
+/// do, m.
+double ChainLength(const models::RobotModel& robot, const models::ContactPatch& patch);
+
+/// The robot standing in a gait's nominal posture on a ground level.
+struct GroundedStance {
+  int gait = 0;
+  PlanarPose pose;
+  double z = 0;  ///< m, height of the ground
+};
+
+/// The stance whose root pose is `X_WR`, if that is nominal for `gait` (to 1e-6 in tilt).
+std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,
+                                       const Eigen::Isometry3d& X_WR);
+
+}  // namespace possibility::actions

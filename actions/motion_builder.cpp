@@ -1,0 +1,108 @@
+#include "actions/motion_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace possibility::actions {
+
+MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings)
+    : robot_(&robot), settings_(settings), solver_(robot) {}
+
+std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
+                                        const Eigen::VectorXd& guess) {
+  std::vector<Phase> result;
+  Eigen::VectorXd q = guess;
+  double start = 0;
+  for (const MotionPhase& phase : phases) {
+    result.push_back(BuildPhase(phase, start, &q));
+    start += phase.duration;
+  }
+  return result;
+}
+
+Phase MotionBuilder::BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess) {
+  Phase result;
+  std::vector<dynamics::ContactPoint> points;
+  for (int contact : phase.contacts) {
+    const models::ContactPatch& patch = robot_->contacts[contact];
+    result.contacts.push_back(patch.name);
+    for (const Eigen::Vector3d& p : patch.points) points.push_back({patch.link, p});
+  }
+  const int intervals =
+      std::max(2, static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
+  for (int i = 0; i <= intervals; ++i) {
+    Knot knot = MakeKnot(phase, points, phase.duration * i / intervals, guess);
+    knot.t += start;
+    result.knots.push_back(std::move(knot));
+  }
+  return result;
+}
+
+Knot MotionBuilder::MakeKnot(const MotionPhase& phase,
+                             const std::vector<dynamics::ContactPoint>& points, double t,
+                             Eigen::VectorXd* guess) {
+  const WholeBodyState state = solver_.Solve(phase.task(t), *guess);
+  *guess = state.q;
+  CheckLimits(state, t);
+  dynamics::ContactForceSettings force_settings;
+  force_settings.friction = robot_->friction;
+  force_settings.friction_margin = settings_.friction_margin;
+  force_settings.torque_margin = settings_.torque_margin;
+  const std::optional<dynamics::ContactForces> forces =
+      dynamics::DistributeContactForces(&solver_.kinematics(), state.a, points, force_settings);
+  if (!forces) {
+    throw MotionError(fmt::format(
+        "no contact forces within friction cones and torque limits realise the motion at {:.2f} s "
+        "of a phase",
+        t));
+  }
+  Knot knot;
+  knot.t = t;
+  knot.q = state.q;
+  knot.v = state.v;
+  knot.a = state.a;
+  knot.tau = forces->torques;
+  knot.forces = forces->forces;
+  return knot;
+}
+
+void MotionBuilder::CheckLimits(const WholeBodyState& state, double t) const {
+  for (int j = 0; j < robot_->num_joints(); ++j) {
+    const models::Joint& joint = robot_->joints[j];
+    const double q = state.q[7 + j];
+    if (q < joint.lower || q > joint.upper) {
+      throw MotionError(
+          fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s of a phase",
+                      joint.name, q, joint.lower, joint.upper, t));
+    }
+    const double rate = state.v[6 + j];
+    if (std::abs(rate) > settings_.speed_margin * joint.velocity) {
+      throw MotionError(fmt::format("{} at {:.3f}/s is faster than {:.3f}/s at {:.2f} s of a phase",
+                                    joint.name, rate, settings_.speed_margin * joint.velocity, t));
+    }
+  }
+}
+
+std::vector<Phase> Reversed(const std::vector<Phase>& phases) {
+  std::vector<Phase> result(phases.rbegin(), phases.rend());
+  if (result.empty()) return result;
+  const double end = phases.back().knots.back().t;
+  for (Phase& phase : result) {
+    std::reverse(phase.knots.begin(), phase.knots.end());
+    for (Knot& knot : phase.knots) {
+      knot.t = end - knot.t;
+      knot.v = -knot.v;
+    }
+  }
+  return result;
+}
+
+void ShiftTime(double offset, std::vector<Phase>* phases) {
+  for (Phase& phase : *phases) {
+    for (Knot& knot : phase.knots) knot.t += offset;
+  }
+}
+
+}  // namespace possibility::actions

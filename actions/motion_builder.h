@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "actions/plan.h"
+#include "actions/whole_body_task.h"
+#include "dynamics/contact_forces.h"
+#include "models/robot_model.h"
+
+namespace possibility::actions {
+
+/// A stretch of motion with one set of contacts, as tasks over time.
+struct MotionPhase {
+  double duration = 0;                          ///< s
+  std::vector<int> contacts;                    ///< patches that bear
+  std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
+};
+
+struct MotionSettings {
+  double knot_spacing = 0.1;     ///< s, at most
+  double speed_margin = 0.95;    ///< fraction of each joint's speed limit that may be used
+  double friction_margin = 0.9;  ///< fraction of the friction coefficient
+  double torque_margin = 0.95;   ///< fraction of each joint's effort limit
+};
+
+/// Turns task-level motion into knots with joint motion, torques and contact forces that satisfy
+/// inverse dynamics, limits and friction cones. One per thread.
+class MotionBuilder {
+ public:
+  explicit MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings = {});
+
+  /// `guess`: q near the start (nq). Times start at 0.
+  /// @throws MotionError naming the limit that the motion would break and when.
+  std::vector<Phase> Build(const std::vector<MotionPhase>& phases, const Eigen::VectorXd& guess);
+
+ private:
+  Phase BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess);
+  Knot MakeKnot(const MotionPhase& phase, const std::vector<dynamics::ContactPoint>& points,
+                double t, Eigen::VectorXd* guess);
+  void CheckLimits(const WholeBodyState& state, double t) const;
+
+  const models::RobotModel* robot_;
+  MotionSettings settings_;
+  WholeBodySolver solver_;
+};
+
+/// The same motion backwards in time: quasi-static or not, the same torques and forces realise it.
+std::vector<Phase> Reversed(const std::vector<Phase>& phases);
+
+/// Adds `offset` (s) to every knot.
+void ShiftTime(double offset, std::vector<Phase>* phases);
+
+}  // namespace possibility::actions

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace possibility::actions {
+
+/// State of the whole robot at one instant. Conventions of q, v, a: models::RobotModel.
+struct Knot {
+  double t = 0;             ///< s since the start of the plan
+  Eigen::VectorXd q;        ///< nq
+  Eigen::VectorXd v;        ///< nv
+  Eigen::VectorXd a;        ///< nv
+  Eigen::VectorXd tau;      ///< num_joints, N m or N
+  Eigen::Matrix3Xd forces;  ///< on the robot at every contact point of the phase, world, N
+};
+
+/// A stretch of time with one set of contacts. Consecutive phases share an instant: the last knot
+/// of one and the first of the next have the same t, q and v; a, tau and forces may jump.
+struct Phase {
+  std::vector<std::string> contacts;  ///< patch names bearing on the ground, in the order of
+                                      ///< the columns of Knot::forces (each patch's points)
+  std::vector<Knot> knots;            ///< at least two, strictly increasing in t
+};
+
+/// One executed edge of the route.
+struct Segment {
+  std::string action;  ///< "walk", "crawl", "walk->crawl", ...
+  std::vector<Phase> phases;
+};
+
+/// A vertex or edge of the explored graph, for pictures only.
+struct ExploredGraph {
+  struct Vertex {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< pelvis, m
+    double yaw = 0;
+  };
+  struct Edge {
+    int from = 0;
+    int to = 0;
+    std::string action;
+  };
+  std::vector<Vertex> vertices;
+  std::vector<Edge> edges;
+};
+
+struct PlanTimings {
+  double preparation_s = 0;   ///< nominal stances, swept volumes, ground map
+  double graph_s = 0;         ///< until every edge of the route was confirmed
+  double confirmation_s = 0;  ///< spent in confirmation jobs
+  double motion_s = 0;        ///< refining the route and generating its motion
+  double verification_s = 0;
+};
+
+/// What `possibility plan` finds (format possibility-plan/1, docs/file_formats.md).
+struct Plan {
+  std::filesystem::path robot_file;
+  std::string robot_hash;
+  std::filesystem::path scenario_file;
+  std::string scenario_hash;
+  std::uint64_t seed = 0;
+  int goal = 0;  ///< index of the goal reached
+  PlanTimings timings;
+  std::map<std::string, std::int64_t> statistics;
+  std::vector<std::string> joints;  ///< names, in the order of q[7...], v[6...] and tau
+  std::vector<Segment> segments;
+  ExploredGraph explored;
+
+  double duration() const;  ///< s
+};
+
+/// q, v, a between two knots of one phase: the quintic Hermite interpolant in time of position
+/// and joints, and of the rotation vector phi with R(t) = exp(phi(t)) R(knot0), which matches q,
+/// v and a at both knots. `t` within [k0.t, k1.t]. Part of the file format: this is what a plan
+/// *means* between its knots. tau and forces are interpolated linearly.
+Knot Interpolate(const Knot& k0, const Knot& k1, double t);
+
+/// Writes plan.json: one value of the same plan, the same bytes. Numbers of the motion are rounded
+/// to 12 significant digits, so the plan that is read back is the one to verify. The file is
+/// complete or absent: it is written under another name in the same folder and renamed.
+/// @throws InputError if the file cannot be written; std::invalid_argument if a number is not
+///   finite.
+void WritePlan(const Plan& plan, const std::filesystem::path& file);
+
+/// Reads DIR/plan.json or a plan file. Paths inside are resolved against the plan's folder.
+/// @throws InputError naming the file, the key, and what was expected (truncated JSON, another
+/// format version, wrong sizes, numbers that are not finite, times out of order within a phase).
+Plan ReadPlan(const std::filesystem::path& file_or_directory);
+
+/// The same for the contents of `file`, which need not exist.
+Plan ParsePlan(const std::string& text, const std::filesystem::path& file);
+
+}  // namespace possibility::actions

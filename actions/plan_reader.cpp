@@ -1,0 +1,290 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "actions/json_cursor.h"
+#include "actions/plan.h"
+#include "models/input_error.h"
+
+namespace possibility::actions {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kFormat = "possibility-plan/1";
+constexpr double kTimeTolerance = 1e-6;  // s, of the durations that repeat what the knots say
+
+std::string ReadText(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError(
+        fmt::format("{}: no such file, expected a plan.json ({})", file.string(), kFormat));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) {
+    throw InputError(
+        fmt::format("{}: cannot be read, expected a plan.json ({})", file.string(), kFormat));
+  }
+  return text.str();
+}
+
+/// Refuses a key that an object holds twice: the parser alone would keep the last one.
+class DuplicateKeyGuard {
+ public:
+  explicit DuplicateKeyGuard(const std::filesystem::path& file) : file_(&file) {}
+
+  bool operator()(int, json::parse_event_t event, const json& parsed) {
+    if (event == json::parse_event_t::object_start) keys_.emplace_back();
+    if (event == json::parse_event_t::object_end) keys_.pop_back();
+    if (event == json::parse_event_t::key && !keys_.back().insert(parsed).second) {
+      throw InputError(fmt::format("{}: key {} stands twice in one object, expected once",
+                                   file_->string(), parsed.dump()));
+    }
+    return true;
+  }
+
+ private:
+  const std::filesystem::path* file_;
+  std::vector<std::set<std::string>> keys_;
+};
+
+json Parse(const std::string& text, const std::filesystem::path& file) {
+  try {
+    DuplicateKeyGuard guard(file);
+    return json::parse(text, std::ref(guard));
+  } catch (const json::parse_error& error) {
+    throw InputError(fmt::format("{}: not valid JSON at byte {} of {}, expected a complete {} file",
+                                 file.string(), error.byte, text.size(), kFormat));
+  } catch (const json::exception&) {
+    throw InputError(
+        fmt::format("{}: not valid JSON (a number is out of range), expected a {} file",
+                    file.string(), kFormat));
+  }
+}
+
+void CheckFormat(const JsonCursor& root) {
+  if (!root.value().is_object() || !root.value().contains("format")) {
+    root.Fail(fmt::format("no \"format\", expected \"{}\"", kFormat));
+  }
+  const std::string format = root["format"].String();
+  if (format != kFormat) {
+    root["format"].Fail(fmt::format("{}, expected \"{}\"", root["format"].value().dump(), kFormat));
+  }
+}
+
+/// nlohmann checks that strings are UTF-8; an embedded zero would cut a path short.
+std::filesystem::path ReadPath(const JsonCursor& cursor, const std::filesystem::path& folder) {
+  const std::string text = cursor.String();
+  if (text.find('\0') != std::string::npos) cursor.Fail("expected a path, got a zero byte");
+  if (text.empty()) return {};
+  std::error_code error;
+  const std::filesystem::path joined = folder / text;
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(joined, error);
+  return error ? joined : resolved;
+}
+
+std::vector<std::string> ReadStrings(const JsonCursor& cursor) {
+  std::vector<std::string> strings;
+  for (std::size_t i = 0, n = cursor.ArraySize(); i < n; ++i) {
+    strings.push_back(cursor[i].String());
+  }
+  return strings;
+}
+
+/// Fills `numbers` (its size says how many are expected).
+template <typename Numbers>
+void ReadNumbers(const JsonCursor& cursor, Numbers* numbers) {
+  const std::size_t expected = numbers->size();
+  if (cursor.ArraySize() != expected) {
+    cursor.Fail(fmt::format("expected {} numbers, got {}", expected, cursor.ArraySize()));
+  }
+  for (std::size_t i = 0; i < expected; ++i) numbers->data()[i] = cursor[i].Number();
+}
+
+Eigen::VectorXd ReadVector(const JsonCursor& cursor, std::size_t size) {
+  Eigen::VectorXd numbers(size);
+  ReadNumbers(cursor, &numbers);
+  return numbers;
+}
+
+Eigen::Matrix3Xd ReadForces(const JsonCursor& cursor) {
+  const std::size_t size = cursor.ArraySize();
+  if (size % 3 != 0) cursor.Fail(fmt::format("expected 3 numbers per contact point, got {}", size));
+  Eigen::Matrix3Xd forces(3, size / 3);
+  ReadNumbers(cursor, &forces);
+  return forces;
+}
+
+Knot ReadKnot(const JsonCursor& phase, std::size_t i, std::size_t num_joints) {
+  const JsonCursor t = phase["t"];
+  const JsonCursor q = phase["q"];
+  const JsonCursor v = phase["v"];
+  const JsonCursor a = phase["a"];
+  const JsonCursor tau = phase["tau"];
+  const JsonCursor forces = phase["forces"];
+  Knot knot;
+  knot.t = t[i].Number();
+  knot.q = ReadVector(q[i], 7 + num_joints);
+  knot.v = ReadVector(v[i], 6 + num_joints);
+  knot.a = ReadVector(a[i], 6 + num_joints);
+  knot.tau = ReadVector(tau[i], num_joints);
+  knot.forces = ReadForces(forces[i]);
+  if (!(std::abs(knot.q.head<4>().norm() - 1) <= 1e-6)) {
+    q[i].Fail("expected a unit quaternion (w, x, y, z) in front");
+  }
+  return knot;
+}
+
+Phase ReadPhase(const JsonCursor& cursor, std::size_t num_joints) {
+  cursor.ExpectKeys({"contacts", "t", "q", "v", "a", "tau", "forces"});
+  Phase phase;
+  phase.contacts = ReadStrings(cursor["contacts"]);
+  const std::size_t num_knots = cursor["t"].ArraySize();
+  if (num_knots < 2) cursor["t"].Fail(fmt::format("expected at least 2 knots, got {}", num_knots));
+  for (const char* key : {"q", "v", "a", "tau", "forces"}) {
+    const JsonCursor array = cursor[key];
+    if (array.ArraySize() != num_knots) {
+      array.Fail(fmt::format("expected {} knots as in t, got {}", num_knots, array.ArraySize()));
+    }
+  }
+  for (std::size_t i = 0; i < num_knots; ++i) {
+    Knot knot = ReadKnot(cursor, i, num_joints);
+    if (i > 0 && knot.forces.cols() != phase.knots[0].forces.cols()) {
+      const JsonCursor forces = cursor["forces"];
+      forces[i].Fail(fmt::format("expected {} numbers as in the first knot, got {}",
+                                 phase.knots[0].forces.size(), knot.forces.size()));
+    }
+    if (i > 0 && knot.t <= phase.knots.back().t) {
+      const JsonCursor t = cursor["t"];
+      t[i].Fail(fmt::format("{:.9g} s, expected more than {:.9g} s, the time of the knot before",
+                            knot.t, phase.knots.back().t));
+    }
+    phase.knots.push_back(std::move(knot));
+  }
+  return phase;
+}
+
+void ExpectTime(const JsonCursor& cursor, double expected) {
+  const double time = cursor.Number();
+  if (!(std::abs(time - expected) <= kTimeTolerance)) {
+    cursor.Fail(fmt::format("{:.9g} s, expected {:.9g} s, as the knots say", time, expected));
+  }
+}
+
+Segment ReadSegment(const JsonCursor& cursor, std::size_t num_joints) {
+  cursor.ExpectKeys({"action", "start_s", "duration_s", "phases"});
+  Segment segment;
+  segment.action = cursor["action"].String();
+  const JsonCursor phases = cursor["phases"];
+  if (phases.ArraySize() == 0) phases.Fail("expected at least one phase");
+  for (std::size_t i = 0; i < phases.value().size(); ++i) {
+    segment.phases.push_back(ReadPhase(phases[i], num_joints));
+  }
+  const double start = segment.phases.front().knots.front().t;
+  ExpectTime(cursor["start_s"], start);
+  ExpectTime(cursor["duration_s"], segment.phases.back().knots.back().t - start);
+  return segment;
+}
+
+double ReadSeconds(const JsonCursor& cursor) {
+  const double seconds = cursor.Number();
+  if (seconds < 0) cursor.Fail(fmt::format("{:.9g} s, expected zero or more", seconds));
+  return seconds;
+}
+
+PlanTimings ReadTimings(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"preparation_s", "graph_s", "confirmation_s", "motion_s", "verification_s",
+                     "plan_duration_s", "real_time_ratio"});
+  PlanTimings timings;
+  timings.preparation_s = ReadSeconds(cursor["preparation_s"]);
+  timings.graph_s = ReadSeconds(cursor["graph_s"]);
+  timings.confirmation_s = ReadSeconds(cursor["confirmation_s"]);
+  timings.motion_s = ReadSeconds(cursor["motion_s"]);
+  timings.verification_s = ReadSeconds(cursor["verification_s"]);
+  const JsonCursor ratio = cursor["real_time_ratio"];
+  if (!ratio.value().is_null()) ratio.Number();
+  return timings;
+}
+
+std::map<std::string, std::int64_t> ReadStatistics(const JsonCursor& cursor) {
+  if (!cursor.value().is_object()) cursor.Fail("expected an object of integers");
+  std::map<std::string, std::int64_t> statistics;
+  for (const auto& [name, ignored] : cursor.value().items()) {
+    if (name.find('\0') != std::string::npos) cursor.Fail("expected names, got a zero byte");
+    statistics[name] = cursor[name.c_str()].Integer(std::numeric_limits<std::int64_t>::min(),
+                                                    std::numeric_limits<std::int64_t>::max());
+  }
+  return statistics;
+}
+
+ExploredGraph ReadExplored(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"vertices", "edges"});
+  ExploredGraph graph;
+  const JsonCursor vertices = cursor["vertices"];
+  for (std::size_t i = 0, n = vertices.ArraySize(); i < n; ++i) {
+    Eigen::Vector4d numbers;
+    ReadNumbers(vertices[i], &numbers);
+    graph.vertices.push_back({numbers.head<3>(), numbers[3]});
+  }
+  const JsonCursor edges = cursor["edges"];
+  const std::int64_t last = static_cast<std::int64_t>(graph.vertices.size()) - 1;
+  for (std::size_t i = 0, n = edges.ArraySize(); i < n; ++i) {
+    const JsonCursor edge = edges[i];
+    if (edge.ArraySize() != 3) edge.Fail("expected [from, to, action]");
+    graph.edges.push_back({static_cast<int>(edge[std::size_t{0}].Integer(0, last)),
+                           static_cast<int>(edge[1].Integer(0, last)), edge[2].String()});
+  }
+  return graph;
+}
+
+Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
+  CheckFormat(root);
+  root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
+                   "segments", "explored"});
+  Plan plan;
+  const JsonCursor robot = root["robot"];
+  robot.ExpectKeys({"file", "hash"});
+  plan.robot_file = ReadPath(robot["file"], folder);
+  plan.robot_hash = robot["hash"].String();
+  const JsonCursor scenario = root["scenario"];
+  scenario.ExpectKeys({"file", "hash"});
+  plan.scenario_file = ReadPath(scenario["file"], folder);
+  plan.scenario_hash = scenario["hash"].String();
+  plan.seed = root["seed"].Unsigned();
+  plan.goal = static_cast<int>(root["goal"].Integer(0, std::numeric_limits<int>::max()));
+  plan.timings = ReadTimings(root["timings"]);
+  plan.statistics = ReadStatistics(root["statistics"]);
+  plan.joints = ReadStrings(root["joints"]);
+  const JsonCursor segments = root["segments"];
+  for (std::size_t i = 0, n = segments.ArraySize(); i < n; ++i) {
+    plan.segments.push_back(ReadSegment(segments[i], plan.joints.size()));
+  }
+  const JsonCursor timings = root["timings"];
+  ExpectTime(timings["plan_duration_s"], plan.duration());
+  plan.explored = ReadExplored(root["explored"]);
+  return plan;
+}
+
+}  // namespace
+
+Plan ReadPlan(const std::filesystem::path& file_or_directory) {
+  std::error_code error;
+  const bool is_directory = std::filesystem::is_directory(file_or_directory, error);
+  const std::filesystem::path file =
+      is_directory ? file_or_directory / "plan.json" : file_or_directory;
+  return ParsePlan(ReadText(file), file);
+}
+
+Plan ParsePlan(const std::string& text, const std::filesystem::path& file) {
+  const json document = Parse(text, file);
+  return ReadPlan(JsonCursor(document, file), std::filesystem::absolute(file).parent_path());
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,318 @@
+#include "actions/planner.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "actions/exploration_pose.h"
+#include "actions/locomotion_model.h"
+#include "actions/quasi_static_action.h"
+#include "actions/route.h"
+#include "actions/route_flood.h"
+#include "actions/route_motion.h"
+#include "actions/route_refinement.h"
+#include "models/ground_map.h"
+#include "models/input_error.h"
+
+namespace possibility::actions {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string Describe(const models::Stance& stance) {
+  return fmt::format("({:.3f}, {:.3f}, {:.3f}) heading {:.1f} deg", stance.x, stance.y, stance.z,
+                     stance.yaw * 180 / EIGEN_PI);
+}
+
+/// One request, from the checked scenario to a verified plan.
+class TraversalPlanner {
+ public:
+  TraversalPlanner(const models::RobotModel& robot, const models::Scenario& scenario,
+                   const PlanRequest& request)
+      : robot_(robot),
+        scenario_(scenario),
+        request_(request),
+        ground_(scenario.environment),
+        world_{&scenario_.environment, &ground_},
+        model_(BuildLocomotionModel(robot, ActionNames())) {
+    if (ground_.levels().empty()) {
+      throw InputError(
+          fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
+    }
+    space_ = std::make_shared<PelvisPoseSpace>(scenario_.environment.bounds, ground_.levels(),
+                                               scenario_.planner.rotation_weight);
+    for (size_t gait = 0; gait < model_.gaits.size(); ++gait) {
+      actions_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
+                                                             space_, scenario_.planner.step));
+    }
+    start_ = CheckedStance(scenario_.start, "start");
+    for (size_t i = 0; i < scenario_.goals.size(); ++i) {
+      goals_.push_back(CheckedStance(scenario_.goals[i], fmt::format("goals[{}]", i)));
+    }
+    preparation_s_ = clock_.seconds();
+  }
+
+  PlanResult Plan() {
+    PlanResult result;
+    FillHeader(&result.plan);
+    result.plan.timings.preparation_s = preparation_s_;
+    for (std::uint64_t attempt = 0;; ++attempt) {
+      const graph::PathResult path = Explore(attempt);
+      result.plan.timings.graph_s += path.seconds;
+      Record(path, &result);
+      if (path.status != graph::PathStatus::kFound) return result;
+      if (Realise(path, &result)) return result;
+      if (Remaining() <= 0) {
+        result.status = PlanStatus::kTimeLimit;
+        result.plan.segments.clear();
+        return result;
+      }
+    }
+  }
+
+ private:
+  std::vector<std::string> ActionNames() const {
+    const std::vector<std::string>& names =
+        request_.actions.empty() ? scenario_.actions : request_.actions;
+    for (const std::string& name : names) robot_.GaitNamed(name);
+    return names;
+  }
+
+  double Remaining() const { return request_.time_limit - clock_.seconds(); }
+
+  /// @throws InputError unless C_S holds at the stance.
+  GroundedStance CheckedStance(const models::Stance& stance, const std::string& key) const {
+    const int gait = model_.GaitIndex(stance.action);
+    if (gait < 0) {
+      throw InputError(fmt::format("{}: {}.action: '{}' is not among the actions planned with ({})",
+                                   scenario_.file.string(), key, stance.action,
+                                   fmt::join(ActionNames(), ", ")));
+    }
+    if (!scenario_.environment.bounds.contains(Eigen::Vector2d(stance.x, stance.y))) {
+      throw InputError(fmt::format("{}: {}: {} lies outside environment.bounds",
+                                   scenario_.file.string(), key, Describe(stance)));
+    }
+    const GroundedStance grounded{gait, {stance.x, stance.y, stance.yaw}, stance.z};
+    switch (actions_[gait]->Examine(grounded)) {
+      case StanceFault::kNone:
+        return grounded;
+      case StanceFault::kOffGround:
+        throw InputError(fmt::format(
+            "{}: {}: the {} stance at {} is off the ground; every contact point must be on ground "
+            "of height {:.3f}",
+            scenario_.file.string(), key, stance.action, Describe(stance), stance.z));
+      default:
+        throw InputError(fmt::format(
+            "{}: {}: the {} stance at {} is in collision with '{}' (the whole swept volume of the "
+            "gait must be free there)",
+            scenario_.file.string(), key, stance.action, Describe(stance),
+            actions_[gait]->FirstBlocker(grounded)));
+    }
+  }
+
+  void FillHeader(actions::Plan* plan) const {
+    plan->robot_file = robot_.file;
+    plan->robot_hash = robot_.content_hash;
+    plan->scenario_file = scenario_.file;
+    plan->scenario_hash = scenario_.content_hash;
+    plan->seed = request_.seed;
+    for (const models::Joint& joint : robot_.joints) plan->joints.push_back(joint.name);
+  }
+
+  graph::Point PointOf(const GroundedStance& stance) const {
+    return ToPoint(model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
+  }
+
+  graph::PathResult Explore(std::uint64_t attempt) {
+    graph::FindPathSettings settings;
+    settings.time_limit = std::max(Remaining(), 0.0);
+    settings.seed = request_.seed + attempt * 0x9E3779B97F4A7C15u;
+    settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
+    settings.confirmation_threads = std::max(0, request_.threads - 1);
+    settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
+    settings.oracle = [this] { return AskFloods(); };
+    if (request_.progress) {
+      settings.progress = [this](const graph::FindPathProgress& progress) {
+        request_.progress({"exploring", progress, 0});
+      };
+    }
+    std::vector<graph::Point> goals;
+    for (const GroundedStance& goal : goals_) goals.push_back(PointOf(goal));
+    const std::vector<std::shared_ptr<const graph::Action>> actions(actions_.begin(),
+                                                                    actions_.end());
+    return graph::FindPath(PointOf(start_), goals, actions, *space_, settings);
+  }
+
+  graph::RouteOracleAnswer AskFloods() {
+    const double resolution = scenario_.planner.flood_resolution;
+    flood_ = FloodSufficient(model_, world_, start_, goals_, resolution);
+    if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
+    FloodResult necessary = FloodNecessary(model_, world_, start_, goals_, resolution);
+    if (necessary.route_may_exist) return graph::RouteOracleAnswer::kExhausted;
+    flood_ = std::move(necessary);
+    return graph::RouteOracleAnswer::kProvenInfeasible;
+  }
+
+  void Record(const graph::PathResult& path, PlanResult* result) const {
+    result->plan.statistics.insert(path.counters.begin(), path.counters.end());
+    result->plan.statistics["cycles"] = path.statistics.cycles;
+    result->plan.statistics["vertices"] = path.statistics.vertices;
+    result->plan.statistics["edges"] = path.statistics.edges;
+    result->plan.goal = std::max(path.goal, 0);
+    ExploredGraph& explored = result->plan.explored;
+    explored = {};
+    for (const graph::Point& point : path.graph.vertices) {
+      explored.vertices.push_back({point.head<3>(), Heading(ToPose(point).linear())});
+    }
+    for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {
+      explored.edges.push_back({edge.from, edge.to, actions_[edge.action]->name()});
+    }
+    switch (path.status) {
+      case graph::PathStatus::kFound:
+        result->status = PlanStatus::kFound;
+        break;
+      case graph::PathStatus::kProvenInfeasible:
+        result->status = PlanStatus::kProvenInfeasible;
+        break;
+      case graph::PathStatus::kExhausted:
+        result->status = PlanStatus::kExhausted;
+        break;
+      case graph::PathStatus::kTimeLimit:
+        result->status = PlanStatus::kTimeLimit;
+        break;
+    }
+    if (path.status != graph::PathStatus::kFound) result->explanation = Explain(*result);
+  }
+
+  std::string Explain(const PlanResult& result) const {
+    std::string text;
+    if (result.status == PlanStatus::kTimeLimit) {
+      text = fmt::format("no route found within {:.1f} s.", request_.time_limit);
+    } else {
+      text = fmt::format(
+          "{}: the search came within {:.2f} m of a goal, at ({:.2f}, {:.2f}); the way on is "
+          "closed by {}.",
+          result.status == PlanStatus::kProvenInfeasible
+              ? "no route exists within the scenario's bounds, not even for the pelvis alone"
+              : "no route exists that these actions could confirm",
+          flood_->distance, flood_->closest.x(), flood_->closest.y(),
+          flood_->barrier.empty() ? "the bounds"
+                                  : fmt::format("{}", fmt::join(flood_->barrier, ", ")));
+    }
+    text += " Tried:";
+    for (const auto& [name, count] : result.plan.statistics) {
+      text += fmt::format(" {} {};", name, count);
+    }
+    text.back() = '.';
+    return text;
+  }
+
+  /// Turns a confirmed path into a verified plan. On failure the edge at fault is forbidden.
+  bool Realise(const graph::PathResult& path, PlanResult* result) {
+    const Stopwatch motion_clock;
+    const Route found = RouteAlong(model_, path.path);
+    Route route = RefineRoute(model_, found, actions_);
+    if (route.empty()) route = {Pause(start_)};
+    const bool moved = Generate(&route, &result->plan);
+    result->plan.timings.motion_s += motion_clock.seconds();
+    if (!moved) return false;
+
+    const Stopwatch verification_clock;
+    Report("verifying", 0);
+    VerifierSettings settings;
+    settings.threads = request_.threads;
+    result->verification = Verify(result->plan, robot_, scenario_, settings);
+    result->plan.timings.verification_s += verification_clock.seconds();
+    if (result->verification.accepted()) return true;
+    ForbidVerified(result->verification, route);
+    result->plan.statistics["routes refuted by verification"]++;
+    result->plan.segments.clear();
+    return false;
+  }
+
+  bool Generate(Route* route, actions::Plan* plan) {
+    try {
+      plan->segments = GenerateMotion(model_, *route, request_.threads,
+                                      [this](double done) { Report("generating motion", done); });
+      return true;
+    } catch (const LegError& error) {
+      Forbid((*route)[error.leg()]);
+      plan->statistics["routes refuted by motion generation"]++;
+      return false;
+    }
+  }
+
+  /// The route of a plan whose start is its goal.
+  static RouteLeg Pause(const GroundedStance& stance) {
+    RouteLeg leg;
+    leg.gait = stance.gait;
+    leg.from = leg.to = stance.pose;
+    leg.z = stance.z;
+    return leg;
+  }
+
+  void ForbidVerified(const VerificationReport& report, const Route& route) {
+    for (const Violation& violation : report.violations) {
+      if (violation.segment < 0) continue;
+      Forbid(route[violation.segment]);
+    }
+  }
+
+  void Forbid(const RouteLeg& leg) {
+    for (const auto& action : actions_) action->Forbid(LegEdge(model_, leg));
+  }
+
+  void Report(const std::string& stage, double fraction) const {
+    if (request_.progress) request_.progress({stage, {}, fraction});
+  }
+
+  const models::RobotModel& robot_;
+  const models::Scenario& scenario_;
+  const PlanRequest& request_;
+  Stopwatch clock_;
+  models::GroundMap ground_;
+  World world_;
+  LocomotionModel model_;
+  std::shared_ptr<PelvisPoseSpace> space_;
+  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;
+  GroundedStance start_;
+  std::vector<GroundedStance> goals_;
+  double preparation_s_ = 0;
+  std::optional<FloodResult> flood_;
+};
+
+}  // namespace
+
+std::string ToString(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kFound:
+      return "found";
+    case PlanStatus::kProvenInfeasible:
+      return "proven_infeasible";
+    case PlanStatus::kExhausted:
+      return "exhausted";
+    case PlanStatus::kTimeLimit:
+      return "time_limit";
+  }
+  return "unknown";
+}
+
+PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
+                         const PlanRequest& request) {
+  return TraversalPlanner(robot, scenario, request).Plan();
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actions/plan.h"
+#include "actions/verifier.h"
+#include "graph/find_path.h"
+#include "models/robot_model.h"
+#include "models/scenario.h"
+
+namespace possibility::actions {
+
+enum class PlanStatus { kFound, kProvenInfeasible, kExhausted, kTimeLimit };
+
+/// "found", "proven_infeasible", "exhausted", "time_limit": the words of the JSON contract.
+std::string ToString(PlanStatus status);
+
+struct PlanProgress {
+  std::string stage;  ///< "exploring", "generating motion", "verifying"
+  graph::FindPathProgress graph;
+  double fraction = 0;  ///< of the stage, 0 if unknown
+};
+
+struct PlanRequest {
+  std::uint64_t seed = 1;
+  int threads = 1;
+  double time_limit = 60;            ///< s
+  std::vector<std::string> actions;  ///< empty: the scenario's
+  std::function<void(const PlanProgress&)> progress;
+};
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kTimeLimit;
+  Plan plan;                        ///< segments only if kFound; graph and statistics always
+  VerificationReport verification;  ///< accepted if kFound
+  std::string explanation;          ///< one paragraph: which conditions rejected what, and where
+};
+
+/// Plans, generates the motion and verifies it. A plan that fails verification is never
+/// returned: its edge is marked impossible and the search goes on until the time limit.
+/// @throws InputError if start or goal is in collision, off the ground, or an action is unknown.
+PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
+                         const PlanRequest& request);
+
+}  // namespace possibility::actions

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/locomotion_model.h"
+#include "graph/action.h"
+#include "models/collision.h"
+#include "models/ground_map.h"
+
+namespace possibility::actions {
+
+/// The world that actions are tested in.
+struct World {
+  const models::Environment* environment = nullptr;
+  const models::GroundMap* ground = nullptr;
+};
+
+/// Where the conditions of a quasi-static action fail, for messages.
+enum class StanceFault { kNone, kNotNominal, kOffGround, kCollision };
+
+/// Walking and crawling (paper, section "Walk and Crawl"): holonomic, with sufficient conditions
+/// on a swept volume and flat ground in the nominal orientation, and necessary conditions on the
+/// pelvis alone. One exploring thread per instance.
+class QuasiStaticAction : public graph::HolonomicAction {
+ public:
+  /// Between samples of an edge, no point of the swept volume moves farther than this, m.
+  static constexpr double kEdgeInflation = 0.02;
+
+  /// `model` and `world` must outlive the action. `step`: longest ExtendTowards in the metric of
+  /// `space`.
+  QuasiStaticAction(const LocomotionModel& model, int gait, const World& world,
+                    std::shared_ptr<const graph::ExplorationSpace> space, double step);
+
+  std::string name() const override;
+  graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
+  bool CN(const graph::Point& vertex) const override;
+  bool CN(const graph::PointPair& edge) const override;
+  bool CS(const graph::Point& vertex) const override;
+  bool CS(const graph::PointPair& edge) const override;
+
+  /// This action has no job that could decide more than C_S does, so it explores C_S only (the
+  /// paper's experiments do the same).
+  bool Explorable(const graph::Point& vertex) const override { return CS(vertex); }
+  bool Explorable(const graph::PointPair& edge) const override { return CS(edge); }
+
+  std::vector<graph::Point> TransitionFrom(const graph::Point& v) const override;
+  bool IsReversible() const override { return true; }
+  double ExpectedDuration(const graph::PointPair& edge) const override;
+  std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
+      const graph::PointPair& edge) const override;
+  graph::Point Project(const graph::Point& v) const override;
+
+  /// Sufficient conditions on a stance of this gait and on the straight way between two.
+  StanceFault Examine(const GroundedStance& stance) const;
+  /// Name of the first obstacle in the swept volume at `stance`; empty if none.
+  std::string FirstBlocker(const GroundedStance& stance) const;
+  bool IsClear(const GroundedStance& from, const GroundedStance& to) const;
+
+  /// Expected time of the straight way between two stances, s.
+  double ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const;
+
+  /// The edge failed as motion although it met C_S: C_S is false for it from now on.
+  void Forbid(const graph::PointPair& edge);
+  bool IsForbidden(const graph::PointPair& edge) const;
+
+  const LocomotionModel& model() const { return *model_; }
+  int gait() const { return gait_; }
+
+ private:
+  bool GroundHolds(const GroundedStance& stance, double clearance) const;
+  bool BoxesFree(const std::vector<models::PreparedShape>& boxes,
+                 const std::vector<Eigen::Isometry3d>& X_SB, const GroundedStance& stance) const;
+  /// The transition that leads from one point to the other in either direction, and the stance
+  /// of its first gait; null if none does.
+  const LocomotionModel::TransitionEntry* FindTransition(const graph::PointPair& edge,
+                                                         GroundedStance* start) const;
+  bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
+                         const GroundedStance& start) const;
+  bool PelvisIsFree(const Eigen::Isometry3d& X_WR) const;
+  bool SomeFootReachesGround(const Eigen::Isometry3d& X_WR) const;
+
+  struct PreparedSweep {
+    std::vector<models::PreparedShape> boxes;
+    std::vector<Eigen::Isometry3d> X_SB;
+  };
+  PreparedSweep Prepare(const std::vector<Eigen::AlignedBox3d>& boxes, double inflation) const;
+
+  const LocomotionModel* model_;
+  int gait_;
+  World world_;
+  std::shared_ptr<const graph::ExplorationSpace> space_;
+  double step_;
+  mutable models::CollisionChecker checker_;
+  PreparedSweep sweep_;
+  PreparedSweep inflated_sweep_;
+  std::vector<PreparedSweep> transition_sweeps_;  ///< by index of the model's transitions
+  std::vector<std::pair<models::PreparedShape, Eigen::Isometry3d>> pelvis_;
+  double sweep_radius_ = 0;  ///< farthest point of the sweep from the stance's axis, m
+  double leg_reach_ = 0;     ///< no foot point is farther from the root, m
+  std::vector<graph::PointPair> forbidden_;
+};
+
+}  // namespace possibility::actions

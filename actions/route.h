@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/locomotion_model.h"
+#include "actions/plan.h"
+#include "actions/quasi_static_action.h"
+#include "graph/find_path.h"
+
+namespace possibility::actions {
+
+/// One leg of a route, all of it confirmed by C_S: straight on with one gait, or a transition.
+/// Headings continue from leg to leg without wrapping.
+struct RouteLeg {
+  int gait = 0;            ///< of an extension
+  int transition = -1;     ///< index into the model's transitions, or -1 for an extension
+  bool backwards = false;  ///< the transition runs from its second gait to its first
+  PlanarPose from;         ///< stance of the gait that the leg starts in
+  PlanarPose to;           ///< stance of the gait that the leg ends in
+  double z = 0;            ///< m, height of the ground
+};
+
+using Route = std::vector<RouteLeg>;
+
+/// The gait that a leg starts in, and the one it ends in.
+int StartGait(const LocomotionModel& model, const RouteLeg& leg);
+int EndGait(const LocomotionModel& model, const RouteLeg& leg);
+
+/// "walk", "walk->crawl", ...
+std::string LegName(const LocomotionModel& model, const RouteLeg& leg);
+
+/// The edge of E that the leg executes.
+graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg);
+
+/// The route along a confirmed path. `path`: edges between nominal stances, end to end.
+Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge>& path);
+
+/// Expected time to execute, s.
+double ExpectedDuration(const LocomotionModel& model, const Route& route);
+
+}  // namespace possibility::actions

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "actions/locomotion_model.h"
+#include "actions/quasi_static_action.h"
+
+namespace possibility::actions {
+
+struct FloodResult {
+  /// False is a proof at any resolution: every cell errs towards open, so no continuous path
+  /// crosses a closed barrier of cells. True only says that this resolution finds no barrier.
+  bool route_may_exist = true;
+  /// Where the flood came closest to a goal, seen from above, and how far that is, m.
+  Eigen::Vector2d closest = Eigen::Vector2d::Zero();
+  double distance = 0;
+  /// Obstacles that close the cells just beyond `closest`, or "no ground".
+  std::vector<std::string> barrier;
+  std::int64_t cells = 0;  ///< tested
+};
+
+/// Flood over what can be confirmed: cells of (gait, x, y, heading) in which C_S may hold
+/// somewhere, with shapes shrunk by the size of a cell, joined through the transitions.
+FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
+                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                            double resolution);
+
+/// Flood over C_N: cells of the position of the largest ball inside the pelvis that may be free
+/// and within a leg's reach of ground, whatever the orientation. `resolution` is refined until
+/// the ball is larger than a cell.
+FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
+                           const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                           double resolution);
+
+}  // namespace possibility::actions

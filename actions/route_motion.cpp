@@ -1,0 +1,123 @@
+#include "actions/route_motion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace possibility::actions {
+namespace {
+
+/// Durations are stretched by these in turn until the motion keeps all limits.
+constexpr double kTimeScales[] = {1, 1.4, 2};
+
+/// A leg that goes nowhere is a pause, s.
+constexpr double kStandingTime = 0.2;
+
+std::vector<MotionPhase> LegPhases(const LocomotionModel& model, const RouteLeg& leg,
+                                   double time_scale) {
+  if (leg.transition >= 0) {
+    const TransitionMotion& motion = *model.transitions[leg.transition].motion;
+    return motion.Phases(leg.backwards ? leg.to : leg.from, leg.z, time_scale);
+  }
+  const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
+  const std::vector<PlanarPose> strides =
+      PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);
+  if (strides.size() == 1) return {gait.motion->Standing(leg.from, leg.z, kStandingTime)};
+  return gait.motion->Phases(strides, leg.z, time_scale);
+}
+
+/// Configuration at the beginning of LegPhases.
+Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) {
+  const PlanarPose& stance = leg.backwards ? leg.to : leg.from;
+  const int gait = leg.transition >= 0 ? model.transitions[leg.transition].from : leg.gait;
+  Eigen::VectorXd q = model.gaits[gait]->stance.q;
+  q.segment<2>(4) = stance.position();
+  return q;
+}
+
+/// Legs shared out to workers; the first failure in route order wins.
+class LegQueue {
+ public:
+  LegQueue(const LocomotionModel& model, const Route& route,
+           const std::function<void(double)>& progress)
+      : model_(model),
+        route_(route),
+        progress_(progress),
+        motions_(route.size()),
+        errors_(route.size()) {}
+
+  void Work() {
+    for (size_t leg = next_++; leg < route_.size(); leg = next_++) {
+      try {
+        motions_[leg] = GenerateLeg(model_, route_[leg]);
+      } catch (const MotionError& error) {
+        errors_[leg] = error.what();
+      }
+      Report();
+    }
+  }
+
+  std::vector<std::vector<Phase>> TakeMotions() {
+    for (size_t leg = 0; leg < errors_.size(); ++leg) {
+      if (errors_[leg]) throw LegError(static_cast<int>(leg), *errors_[leg]);
+    }
+    return std::move(motions_);
+  }
+
+ private:
+  void Report() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(route_.size()));
+  }
+
+  const LocomotionModel& model_;
+  const Route& route_;
+  const std::function<void(double)>& progress_;
+  std::vector<std::vector<Phase>> motions_;
+  std::vector<std::optional<std::string>> errors_;
+  std::atomic<size_t> next_ = 0;
+  std::mutex mutex_;
+  size_t done_ = 0;
+};
+
+}  // namespace
+
+std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg) {
+  MotionBuilder builder(*model.robot);
+  for (const double scale : kTimeScales) {
+    try {
+      const std::vector<Phase> phases =
+          builder.Build(LegPhases(model, leg, scale), InitialGuess(model, leg));
+      return leg.backwards ? Reversed(phases) : phases;
+    } catch (const MotionError&) {
+      if (scale == std::end(kTimeScales)[-1]) throw;
+    }
+  }
+  return {};
+}
+
+std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
+                                    const std::function<void(double)>& progress) {
+  LegQueue queue(model, route, progress);
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {
+      workers.emplace_back([&queue] { queue.Work(); });
+    }
+    queue.Work();
+  }
+  std::vector<std::vector<Phase>> motions = queue.TakeMotions();
+  std::vector<Segment> segments;
+  double time = 0;
+  for (size_t i = 0; i < route.size(); ++i) {
+    ShiftTime(time, &motions[i]);
+    time = motions[i].back().knots.back().t;
+    segments.push_back({LegName(model, route[i]), std::move(motions[i])});
+  }
+  return segments;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actions/motion_builder.h"
+#include "actions/plan.h"
+#include "actions/route.h"
+
+namespace possibility::actions {
+
+/// Thrown by GenerateMotion: `leg` of the route cannot be turned into motion.
+class LegError : public MotionError {
+ public:
+  LegError(int leg, const std::string& message) : MotionError(message), leg_(leg) {}
+  int leg() const { return leg_; }
+
+ private:
+  int leg_;
+};
+
+/// Motion of one leg, from rest to rest; times start at 0. A motion that is too fast for the
+/// limits is stretched.
+/// @throws MotionError if no stretching helps.
+std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg);
+
+/// Motion of a whole route, legs spread over `threads`; the result does not depend on their
+/// number. `progress`: fraction done, called from any thread but one at a time; may be empty.
+/// @throws LegError for the first leg that fails.
+std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
+                                    const std::function<void(double)>& progress);
+
+}  // namespace possibility::actions

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "actions/quasi_static_action.h"
+#include "actions/route.h"
+
+namespace possibility::actions {
+
+/// A quicker route through the positions of the found one: straight hops between any two of them,
+/// executed heading forward or backward by the gait that the route starts with, or by another one
+/// with a transition before and after, and turns in place between hops, as far as C_S allows. The
+/// found legs remain a choice, so the result is never expected to be slower.
+/// `actions`: by gait index.
+Route RefineRoute(const LocomotionModel& model, const Route& route,
+                  const std::vector<std::shared_ptr<QuasiStaticAction>>& actions);
+
+}  // namespace possibility::actions

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "actions/blockers.h"
+#include "actions/cell_grid.h"
+#include "actions/closest_approach.h"
+#include "actions/route_flood.h"
+#include "models/collision.h"
+#include "models/ground_map.h"
+
+namespace possibility::actions {
+namespace {
+
+using Cell = CellGrid::Cell;
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
+constexpr double kCheckerError = 0.0002;
+constexpr int kHeadings = 24;
+
+/// The flood over C_S. Cells: gait, x, y, heading.
+class SufficientFlood {
+ public:
+  SufficientFlood(const LocomotionModel& model, const World& world, double z, double resolution)
+      : model_(model),
+        world_(world),
+        z_(z),
+        resolution_(resolution),
+        origin_(world.environment->bounds.min() - Vector2d::Constant(Margin(model))),
+        checker_(*world.environment),
+        grid_(GridSize()) {
+    for (const auto& gait : model.gaits) shrunk_.push_back(Shrink(gait->sweep));
+  }
+
+  FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals) {
+    std::set<Cell> goal_cells;
+    for (const GroundedStance& goal : goals) {
+      if (std::abs(goal.z - z_) < 1e-6) goal_cells.insert(CellOf(goal.gait, goal.pose));
+    }
+    FloodResult result;
+    ClosestApproach closest(goals);
+    grid_.Seed(CellOf(start.gait, start.pose));
+    while (!grid_.Empty()) {
+      const Cell cell = grid_.Pop();
+      if (goal_cells.count(cell)) return result;
+      closest.Add(Centre(cell).position(), cell);
+      OfferNeighbours(cell);
+    }
+    result.route_may_exist = false;
+    result.closest = closest.point();
+    result.distance = closest.distance();
+    result.cells = grid_.tested();
+    result.barrier = Barrier(closest.cell(), goals);
+    return result;
+  }
+
+ private:
+  struct ShrunkBox {
+    models::PreparedShape shape;
+    models::Shape plain;
+    Isometry3d X_SB;
+  };
+
+  static double Margin(const LocomotionModel& model) {
+    double margin = 0;
+    for (const auto& transition : model.transitions) {
+      margin = std::max(margin, transition.motion->displacement().position().norm());
+    }
+    return margin;
+  }
+
+  Cell GridSize() const {
+    const Vector2d size =
+        world_.environment->bounds.max() - origin_ + Vector2d::Constant(Margin(model_));
+    return {static_cast<int>(model_.gaits.size()),
+            static_cast<int>(std::ceil(size.x() / resolution_)) + 1,
+            static_cast<int>(std::ceil(size.y() / resolution_)) + 1, kHeadings};
+  }
+
+  double HalfDiagonal() const { return resolution_ * std::numbers::sqrt2 / 2; }
+  static double HalfHeading() { return std::numbers::pi / kHeadings; }
+
+  /// What a box covers wherever in the cell the stance is: every vertical side moved inward.
+  std::vector<ShrunkBox> Shrink(const std::vector<Eigen::AlignedBox3d>& boxes) const {
+    std::vector<ShrunkBox> shrunk;
+    for (const Eigen::AlignedBox3d& box : boxes) {
+      const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
+      const double inward = HalfDiagonal() + far.norm() * HalfHeading() + kCheckerError;
+      Vector3d size = box.sizes() - Vector3d(2 * inward, 2 * inward, 2 * kCheckerError);
+      if (size.minCoeff() <= 0) continue;
+      Isometry3d X_SB = Isometry3d::Identity();
+      X_SB.translation() = box.center();
+      const models::Shape shape = models::Shape::Box(size);
+      shrunk.push_back({models::PreparedShape(shape), shape, X_SB});
+    }
+    return shrunk;
+  }
+
+  Cell CellOf(int gait, const PlanarPose& pose) const {
+    const Vector2d p = (pose.position() - origin_) / resolution_;
+    const double turn = std::floor((pose.yaw + HalfHeading()) / (2 * HalfHeading()));
+    const int heading = static_cast<int>(turn - kHeadings * std::floor(turn / kHeadings));
+    return {gait, static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
+            heading % kHeadings};
+  }
+
+  PlanarPose Centre(const Cell& cell) const {
+    return {origin_.x() + (cell[1] + 0.5) * resolution_,
+            origin_.y() + (cell[2] + 0.5) * resolution_, cell[3] * 2 * HalfHeading()};
+  }
+
+  bool GroundMayHold(const Cell& cell) const {
+    const PlanarPose centre = Centre(cell);
+    for (const auto& points : model_.gaits[cell[0]]->stance.bearing_points) {
+      for (const Vector2d& p_S : points) {
+        const double slack = HalfDiagonal() + p_S.norm() * HalfHeading();
+        if (LargestClearance(centre * p_S) < -slack) return false;
+      }
+    }
+    return true;
+  }
+
+  double LargestClearance(const Vector2d& p) const {
+    double clearance = -std::numeric_limits<double>::infinity();
+    const std::vector<double>& levels = world_.ground->levels();
+    for (size_t level = 0; level < levels.size(); ++level) {
+      if (std::abs(levels[level] - z_) > 1e-6) continue;
+      clearance = std::max(clearance, world_.ground->Clearance(static_cast<int>(level), p));
+    }
+    return clearance;
+  }
+
+  bool MayBeFree(const Cell& cell) {
+    const Isometry3d X_WS = Centre(cell).At(z_);
+    const std::vector<ShrunkBox>& boxes = shrunk_[cell[0]];
+    return std::all_of(boxes.begin(), boxes.end(), [&](const ShrunkBox& box) {
+      return checker_.IsFree(box.shape, X_WS * box.X_SB, 0);
+    });
+  }
+
+  void OfferNeighbours(const Cell& cell) {
+    const auto is_open = [this](const Cell& c) { return GroundMayHold(c) && MayBeFree(c); };
+    const auto offer = [&](Cell c) {
+      c[3] = (c[3] + kHeadings) % kHeadings;
+      grid_.Offer(c, is_open);
+    };
+    for (int axis = 1; axis < 4; ++axis) {
+      for (int step : {-1, 1}) {
+        Cell next = cell;
+        next[axis] += step;
+        offer(next);
+      }
+    }
+    for (const LocomotionModel::TransitionEntry& transition : model_.transitions) {
+      const PlanarPose& d = transition.motion->displacement();
+      if (transition.from == cell[0]) OfferImage(cell, transition.to, d, offer);
+      if (transition.to == cell[0]) OfferImage(cell, transition.from, d.Inverse(), offer);
+    }
+  }
+
+  /// All cells that a stance in `cell` can be displaced into.
+  template <typename Offer>
+  void OfferImage(const Cell& cell, int gait, const PlanarPose& displacement, const Offer& offer) {
+    const PlanarPose image = Centre(cell) * displacement;
+    const double spread = resolution_ / 2 + displacement.position().norm() * HalfHeading();
+    const Cell low = CellOf(gait, {image.x - spread, image.y - spread, image.yaw});
+    const Cell high = CellOf(gait, {image.x + spread, image.y + spread, image.yaw});
+    for (int x = low[1]; x <= high[1]; ++x) {
+      for (int y = low[2]; y <= high[2]; ++y) offer({gait, x, y, low[3]});
+    }
+  }
+
+  /// What closes the cells next to `cell` in the direction of the goals.
+  std::vector<std::string> Barrier(const Cell& cell, const std::vector<GroundedStance>& goals) {
+    std::set<std::string> names;
+    const PlanarPose centre = Centre(cell);
+    for (const GroundedStance& goal : goals) {
+      const Vector2d towards = goal.pose.position() - centre.position();
+      if (towards.norm() < 1e-9) continue;
+      Cell beyond = CellOf(
+          cell[0], {centre.x + 1.5 * resolution_ * towards.x() / towards.norm(),
+                    centre.y + 1.5 * resolution_ * towards.y() / towards.norm(), centre.yaw});
+      if (!grid_.Contains(beyond)) continue;
+      if (!GroundMayHold(beyond)) names.insert("no ground");
+      std::vector<models::PosedShape> posed;
+      for (const ShrunkBox& box : shrunk_[cell[0]]) {
+        posed.push_back({box.plain, Centre(beyond).At(z_) * box.X_SB});
+      }
+      for (std::string& name : Blockers(*world_.environment, posed)) names.insert(std::move(name));
+    }
+    return {names.begin(), names.end()};
+  }
+
+  const LocomotionModel& model_;
+  const World& world_;
+  double z_;
+  double resolution_;
+  Vector2d origin_;
+  models::CollisionChecker checker_;
+  CellGrid grid_;
+  std::vector<std::vector<ShrunkBox>> shrunk_;  ///< by gait
+};
+
+}  // namespace
+
+FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
+                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                            double resolution) {
+  return SufficientFlood(model, world, start.z, resolution).Run(start, goals);
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "actions/plan.h"
+#include "models/robot_model.h"
+#include "models/scenario.h"
+
+namespace possibility::actions {
+
+/// What the verifier looks at; each kind has its own tolerance (docs/verification.md).
+enum class ViolationKind {
+  kFileMismatch,        ///< robot or scenario is not the one planned for
+  kStructure,           ///< no segments, unknown contact, times out of order or apart
+  kStart,               ///< the first state is not the scenario's start at rest
+  kGoal,                ///< the last state is not a goal at rest
+  kPositionContinuity,  ///< q jumps between phases or segments
+  kVelocityContinuity,  ///< v jumps between phases or segments
+  kJointPosition,
+  kJointSpeed,  ///< a joint, or the root, is too fast
+  kJointTorque,
+  kContactMotion,  ///< a bearing point moves
+  kContactGround,  ///< a bearing point is not on ground
+  kPenetration,    ///< a link is inside the environment
+  kSelfCollision,
+  kDynamics,  ///< tau and forces do not realise the motion
+  kFriction,  ///< a contact force leaves its cone or pulls
+};
+
+/// "file_mismatch", "structure", ...: the words of the report.
+std::string ToString(ViolationKind kind);
+
+/// The worst violation of one kind over the whole plan.
+struct Violation {
+  ViolationKind kind = ViolationKind::kStructure;
+  int segment = -1;      ///< index, or -1
+  double time = 0;       ///< s
+  std::string quantity;  ///< what, e.g. "LKP torque", "left_sole point 2 against floor"
+  double value = 0;
+  double limit = 0;  ///< what would have been let pass, tolerance included
+  std::string unit;  ///< empty if the violation has no measure
+};
+
+struct VerificationReport {
+  std::vector<Violation> violations;  ///< at most one (the worst) of each kind; empty: accepted
+  std::int64_t samples = 0;
+  double resolution = 0;  ///< s, largest time between samples
+  double seconds = 0;
+  bool accepted() const { return violations.empty(); }
+};
+
+struct VerifierSettings {
+  double resolution = 0.005;  ///< s
+  int threads = 1;            ///< samples are independent; the report does not depend on it
+};
+
+/// Re-derives from the plan, the robot and the scenario alone that the plan can be executed.
+/// Never uses the planner's constraint functions: its own sampling, exact geometry, Simbody
+/// inverse dynamics. If the plan's structure is broken, or the robot or scenario do not fit its
+/// sizes, only kFileMismatch and kStructure are looked at.
+/// @throws std::invalid_argument if the resolution or the number of threads is not positive;
+///   InputError if the scenario names an action for which the robot has no gait.
+VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,
+                          const models::Scenario& scenario, const VerifierSettings& settings = {});
+
+}  // namespace possibility::actions

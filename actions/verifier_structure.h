@@ -1,0 +1,23 @@
+#pragma once
+
+#include "actions/verifier_log.h"
+#include "actions/verifier_state.h"
+
+namespace possibility::actions {
+
+/// Whether robot and scenario are those the plan was made for.
+void CheckFiles(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
+                ViolationLog* log);
+
+/// Whether the plan has segments, phases and knots of the robot's sizes with finite numbers, known
+/// contacts, and time that runs without gaps. Everything else may only be looked at if so.
+bool CheckStructure(const Plan& plan, const models::RobotModel& robot, ViolationLog* log);
+
+/// Whether q and v are continuous where phases and segments meet.
+void CheckContinuity(const Plan& plan, const models::RobotModel& robot, ViolationLog* log);
+
+/// Whether the plan begins at the scenario's start and ends at its goal, at rest.
+void CheckEnds(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
+               StateEvaluator* evaluator, ViolationLog* log);
+
+}  // namespace possibility::actions

@@ -1,0 +1,30 @@
+#!/bin/sh
+# Installs what is missing, configures and builds the release preset: all of it, or the targets
+# named. Says nothing unless something fails, so that a program's output stays its own.
+set -eu
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+quietly() {
+  if ! "$@" >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "possibility: failed: $*" >&2
+    exit 1
+  fi
+}
+
+cd "$root"
+# Where packages cannot be asked about, say once what is needed.
+if [ ! -f build/release/build.ninja ] || command -v dpkg-query >/dev/null; then
+  sh cmake/install_packages.sh
+fi
+if [ ! -f build/release/build.ninja ]; then
+  quietly cmake --preset release
+fi
+if [ "$#" -gt 0 ]; then
+  quietly cmake --build --preset release --target "$@"
+else
+  quietly cmake --build --preset release
+fi

@@ -1,0 +1,16 @@
+# Every third-party package, all from Debian 12. Headers of each are SYSTEM.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(fmt REQUIRED)
+find_package(Simbody REQUIRED)
+find_package(CLI11 REQUIRED)
+pkg_check_modules(urdfdom REQUIRED IMPORTED_TARGET urdfdom)
+# find_package(Bullet) would give the single-precision build.
+pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+if(BUILD_TESTING)
+  find_package(GTest REQUIRED)
+endif()

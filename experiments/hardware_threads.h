@@ -1,0 +1,10 @@
+#pragma once
+
+namespace possibility::experiments {
+
+inline constexpr int kMaxThreads = 256;
+
+/// Threads that this machine runs at the same time: 1 to kMaxThreads.
+int HardwareThreads();
+
+}  // namespace possibility::experiments

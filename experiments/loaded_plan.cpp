@@ -1,0 +1,60 @@
+#include "experiments/loaded_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "models/input_error.h"
+
+namespace possibility::experiments {
+namespace {
+
+Eigen::Index NumContactPoints(const actions::Phase& phase, const models::RobotModel& robot) {
+  Eigen::Index count = 0;
+  for (const std::string& contact : phase.contacts) {
+    count += static_cast<Eigen::Index>(robot.contacts[robot.ContactIndex(contact)].points.size());
+  }
+  return count;
+}
+
+bool Fits(const actions::Phase& phase, const models::RobotModel& robot) {
+  const Eigen::Index num_points = NumContactPoints(phase, robot);
+  return phase.knots.size() >= 2 &&
+         std::all_of(phase.knots.begin(), phase.knots.end(), [&](const actions::Knot& knot) {
+           return knot.q.size() == robot.nq() && knot.v.size() == robot.nv() &&
+                  knot.a.size() == robot.nv() && knot.tau.size() == robot.num_joints() &&
+                  knot.forces.cols() == num_points;
+         });
+}
+
+}  // namespace
+
+bool LoadedPlan::IsCurrent() const {
+  return plan.robot_hash == robot.content_hash && plan.scenario_hash == scenario.content_hash;
+}
+
+LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory) {
+  LoadedPlan loaded;
+  std::error_code ignored;  // a path that cannot be asked about cannot be read: ReadPlan says so
+  const bool is_folder = std::filesystem::is_directory(file_or_directory, ignored);
+  loaded.file = is_folder ? file_or_directory / "plan.json" : file_or_directory;
+  loaded.plan = actions::ReadPlan(loaded.file);
+  loaded.scenario = models::LoadScenario(loaded.plan.scenario_file);
+  loaded.robot = models::LoadRobotModel(loaded.plan.robot_file);
+  return loaded;
+}
+
+void RequireFit(const LoadedPlan& loaded) {
+  for (std::size_t i = 0; i < loaded.plan.segments.size(); ++i) {
+    for (const actions::Phase& phase : loaded.plan.segments[i].phases) {
+      if (Fits(phase, loaded.robot)) continue;
+      throw InputError(fmt::format(
+          "{}: segments[{}]: sizes do not fit the robot {}, expected {} joints and the forces of "
+          "every contact point",
+          loaded.file.string(), i, loaded.robot.file.string(), loaded.robot.num_joints()));
+    }
+  }
+}
+
+}  // namespace possibility::experiments

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+
+#include "actions/plan.h"
+#include "models/robot_model.h"
+#include "models/scenario.h"
+
+namespace possibility::experiments {
+
+/// A plan with the robot and scenario that it names.
+struct LoadedPlan {
+  std::filesystem::path file;  ///< the plan file itself
+  actions::Plan plan;
+  models::Scenario scenario;
+  models::RobotModel robot;
+
+  /// Whether robot and scenario are still, byte for byte, the ones planned for.
+  bool IsCurrent() const;
+};
+
+/// Reads DIR/plan.json or a plan file, then the robot and scenario it names.
+/// @throws InputError for anything malformed or missing.
+LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory);
+
+/// Makes sure that the sizes of every knot and the contacts of every phase are the robot's, which
+/// the plan's reader cannot know.
+/// @throws InputError naming the file and the segment.
+void RequireFit(const LoadedPlan& loaded);
+
+}  // namespace possibility::experiments

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/commands.h"
+#include "models/input_error.h"
+
+namespace possibility::experiments {
+namespace {
+
+constexpr Command (*kCommands[])(CLI::App&) = {&AddPlanCommand, &AddVerifyCommand, &AddViewCommand,
+                                               &AddExportCommand};
+
+std::string OneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+/// One line for people; with --json also an object, so that a caller always has one to parse.
+ExitCode Fail(ExitCode code, const std::string& message, bool json) {
+  const std::string line = OneLine(message);
+  fmt::print(stderr, "{}\n", line);
+  if (json) {
+    const nlohmann::ordered_json object = {{"status", "error"}, {"error", line}};
+    fmt::print("{}\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  }
+  return code;
+}
+
+ExitCode Run(int argc, char** argv) {
+  const bool json = std::any_of(
+      argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+  CLI::App program("Plans how a humanoid robot gets through an environment.", "possibility");
+  program.require_subcommand(1);
+  std::vector<Command> commands;
+  for (const auto add : kCommands) commands.push_back(add(program));
+  try {
+    program.parse(argc, argv);
+    const auto chosen = std::find_if(commands.begin(), commands.end(), [](const Command& command) {
+      return command.options->parsed();
+    });
+    return chosen->run();
+  } catch (const CLI::Success& help) {
+    program.exit(help);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    return Fail(kBadInput, fmt::format("usage: {} (see possibility --help)", error.what()), json);
+  } catch (const InputError& error) {
+    return Fail(kBadInput, error.what(), json);
+  } catch (const std::exception& error) {
+    return Fail(kInternalError, fmt::format("internal error: {}", error.what()), json);
+  }
+}
+
+}  // namespace
+}  // namespace possibility::experiments
+
+int main(int argc, char** argv) { return possibility::experiments::Run(argc, argv); }

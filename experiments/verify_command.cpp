@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "actions/verification_report.h"
+#include "actions/verifier.h"
+#include "experiments/commands.h"
+#include "experiments/hardware_threads.h"
+#include "experiments/loaded_plan.h"
+
+namespace possibility::experiments {
+namespace {
+
+struct VerifyOptions {
+  std::string plan;
+  bool json = false;
+};
+
+ExitCode RunVerify(const VerifyOptions& options) {
+  const LoadedPlan loaded = LoadPlan(options.plan);
+  actions::VerifierSettings settings;
+  settings.threads = HardwareThreads();
+  const actions::VerificationReport report =
+      actions::Verify(loaded.plan, loaded.robot, loaded.scenario, settings);
+  if (options.json) {
+    fmt::print("{}\n", actions::FormatJson(report));
+  } else {
+    fmt::print("{}", actions::FormatText(report));
+  }
+  return report.accepted() ? kDone : kVerificationFailed;
+}
+
+}  // namespace
+
+Command AddVerifyCommand(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("verify", "Checks a plan from first principles.");
+  auto options = std::make_shared<VerifyOptions>();
+  app->add_option("PLAN", options->plan, "plan.json or its folder")->required();
+  app->add_flag("--json", options->json, "Print one JSON object");
+  return {app, [options] { return RunVerify(*options); }};
+}
+
+}  // namespace possibility::experiments

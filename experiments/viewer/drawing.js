@@ -1,0 +1,340 @@
+'use strict';
+
+/* Everything that is drawn: the world, the explored graph, the route and the robot. */
+
+const kTransitionColour = '#f08a24';
+const kOtherActionColour = '#7768d8';
+const kActionColours = {walk: '#2f9e54', crawl: '#55b4e6', jump: '#e0219f'};
+const kLimbColours = ['#d1495b', '#2667c9', '#e6a117', '#6a4c93', '#1b998b', '#8d5524'];
+const kForceScale = 1 / 800;  // m per N
+const kFieldOfView = 35;      // degrees
+const kLift = 0.004;          // m, keeps flat marks out of the ground's face
+
+function actionColour(action) {
+  if (action.includes('->')) return kTransitionColour;
+  const name = Object.keys(kActionColours).find((known) => action.includes(known));
+  return name ? kActionColours[name] : kOtherActionColour;
+}
+const limbColour = (contact) => kLimbColours[contact % kLimbColours.length];
+
+/* Geometries of a collision shape in its own frame. */
+function shapeGeometries(shape) {
+  const upright = (geometry) => geometry.rotateX(Math.PI / 2);
+  switch (shape.type) {
+    case 'box': return [new THREE.BoxBufferGeometry(...shape.size)];
+    case 'sphere': return [new THREE.SphereBufferGeometry(shape.radius, 24, 16)];
+    case 'cylinder':
+      return [upright(
+          new THREE.CylinderBufferGeometry(shape.radius, shape.radius, shape.length, 28))];
+    case 'capsule': {
+      const side = new THREE.CylinderBufferGeometry(
+          shape.radius, shape.radius, shape.length, 24, 1, true);
+      const ends = [-1, 1].map(
+          (end) => new THREE.SphereBufferGeometry(shape.radius, 24, 14)
+                       .translate(0, 0, end * shape.length / 2));
+      return [upright(side), ...ends];
+    }
+    case 'convex':
+      return [new THREE.ConvexBufferGeometry(
+          shape.vertices.map((vertex) => new THREE.Vector3(...vertex)))];
+  }
+  throw new Error('unknown shape ' + shape.type);
+}
+
+/* Points of a patch in order around its centre, seen from above. */
+function outline(points) {
+  const centre = points.reduce((sum, p) => sum.add(p), new THREE.Vector3())
+                     .divideScalar(points.length);
+  const angle = (p) => Math.atan2(p.y - centre.y, p.x - centre.x);
+  return points.slice().sort((a, b) => angle(a) - angle(b));
+}
+
+function lineMaterial(colour, opacity = 1) {
+  return new THREE.LineBasicMaterial({color: colour, transparent: opacity < 1, opacity});
+}
+
+/* A mark on the ground: a sole's outline and face, or a dot. */
+function footprint(points, colour) {
+  const group = new THREE.Group();
+  const face = new THREE.MeshBasicMaterial(
+      {color: colour, transparent: true, opacity: points.length > 2 ? 0.28 : 0.9,
+       side: THREE.DoubleSide, depthWrite: false});
+  if (points.length > 2) {
+    const ring = outline(points);
+    const geometry = new THREE.BufferGeometry().setFromPoints(ring);
+    group.add(new THREE.LineLoop(geometry, lineMaterial(colour)));
+    const fan = [];
+    for (let i = 1; i + 1 < ring.length; ++i) fan.push(ring[0], ring[i], ring[i + 1]);
+    group.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(fan), face));
+  } else {
+    for (const point of points) {
+      const dot = new THREE.Mesh(new THREE.CircleBufferGeometry(0.025, 20), face);
+      dot.position.copy(point);
+      group.add(dot);
+    }
+  }
+  group.position.z = kLift;
+  return group;
+}
+
+function obstacleMesh(obstacle) {
+  const group = new THREE.Group();
+  const material = obstacle.ground
+      ? new THREE.MeshLambertMaterial({color: '#d0d3d8'})
+      : new THREE.MeshLambertMaterial(
+            {color: '#d9a066', transparent: true, opacity: 0.45, depthWrite: false});
+  for (const geometry of shapeGeometries(obstacle.shape)) {
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.receiveShadow = true;
+    group.add(mesh);
+    group.add(new THREE.LineSegments(
+        new THREE.EdgesGeometry(geometry, 30),
+        lineMaterial(obstacle.ground ? '#aab1ba' : '#9a6a35', 0.8)));
+  }
+  group.applyMatrix(poseMatrix(obstacle.pose));
+  return group;
+}
+
+function linkGroup(link) {
+  const group = new THREE.Group();
+  group.matrixAutoUpdate = false;
+  const material = new THREE.MeshPhongMaterial({color: '#8b99ab', shininess: 25});
+  for (const shape of link.shapes) {
+    for (const geometry of shapeGeometries(shape)) {
+      const mesh = new THREE.Mesh(geometry, material);
+      mesh.applyMatrix(poseMatrix(shape.pose));
+      mesh.castShadow = true;
+      group.add(mesh);
+    }
+  }
+  return group;
+}
+
+function label(text, colour) {
+  const canvas = document.createElement('canvas');
+  canvas.width = 256;
+  canvas.height = 64;
+  const context = canvas.getContext('2d');
+  context.font = '600 34px system-ui, "DejaVu Sans", sans-serif';
+  context.textAlign = 'center';
+  context.fillStyle = colour;
+  context.fillText(text, 128, 44);
+  const map = new THREE.CanvasTexture(canvas);
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false}));
+  sprite.scale.set(0.8, 0.2, 1);
+  return sprite;
+}
+
+/* A ring on the ground with an arrow along the heading. */
+function stanceMarker(stance, text, colour) {
+  const group = new THREE.Group();
+  const material = new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide});
+  group.add(new THREE.Mesh(new THREE.RingBufferGeometry(0.30, 0.34, 48), material));
+  const tip = new THREE.Mesh(new THREE.CircleBufferGeometry(0.1, 3), material);
+  tip.position.x = 0.42;
+  group.add(tip);
+  const name = label(text, colour);
+  name.position.set(0, -0.45, 0.05);
+  group.add(name);
+  group.position.set(stance.x, stance.y, stance.z + kLift);
+  group.rotation.z = stance.yaw;
+  return group;
+}
+
+function exploredGraph(explored) {
+  const group = new THREE.Group();
+  const xyz = decodeFloats(explored.vertices), edges = decodeIntegers(explored.edges);
+  const vertex = (i) => [xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]];
+  const addBuffer = (positions, make) => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    group.add(make(geometry));
+  };
+  explored.actions.forEach((action, index) => {
+    const ends = [];
+    for (let e = 0; e < edges.length; e += 3) {
+      if (edges[e + 2] === index) ends.push(...vertex(edges[e]), ...vertex(edges[e + 1]));
+    }
+    const colour = actionColour(action);
+    addBuffer(ends, (g) => new THREE.LineSegments(g, lineMaterial(colour, 0.55)));
+    addBuffer(ends, (g) => new THREE.Points(g, new THREE.PointsMaterial(
+        {color: colour, size: 3, sizeAttenuation: false})));
+  });
+  return group;
+}
+
+function routeTubes(motion) {
+  const group = new THREE.Group();
+  for (const line of motion.route()) {
+    const points = [];
+    for (const point of line.points) {
+      if (!points.length || points[points.length - 1].distanceTo(point) > 0.02) points.push(point);
+    }
+    if (points.length < 2) continue;
+    const curve = new THREE.CatmullRomCurve3(points);
+    group.add(new THREE.Mesh(
+        new THREE.TubeBufferGeometry(curve, Math.min(2000, 3 * points.length), 0.014, 8),
+        new THREE.MeshBasicMaterial({color: actionColour(line.action)})));
+  }
+  return group;
+}
+
+class Drawing {
+  /* Throws if the browser offers no WebGL. */
+  constructor(canvas, data, motion) {
+    this.motion = motion;
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true});
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    this.renderer.setClearColor('#f7f8fa');
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.05, 500);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.addLights();
+    this.addWorld(data);
+    this.addRobot(data);
+    this.follow = false;
+    this.stale = true;
+    this.controls.addEventListener('change', () => { this.stale = true; });
+  }
+
+  addLights() {
+    this.scene.add(new THREE.HemisphereLight('#ffffff', '#c3c7cd', 0.68));
+    this.sun = new THREE.DirectionalLight('#ffffff', 0.38);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(1024, 1024);
+    Object.assign(this.sun.shadow.camera, {left: -2, right: 2, top: 2, bottom: -2, far: 12});
+    this.scene.add(this.sun, this.sun.target);
+  }
+
+  addWorld(data) {
+    const world = new THREE.Group();
+    data.obstacles.forEach((obstacle) => world.add(obstacleMesh(obstacle)));
+    this.scene.add(world);
+    this.scene.add(stanceMarker(data.start, 'start', '#1d2530'));
+    data.goals.forEach((goal) => this.scene.add(stanceMarker(goal, 'goal', '#c2182b')));
+    this.graph = exploredGraph(data.explored);
+    this.scene.add(this.graph, routeTubes(this.motion));
+    this.footprints = new THREE.Group();
+    this.motion.touchdowns().forEach(({contact, points}) => {
+      this.footprints.add(footprint(points, limbColour(contact)));
+    });
+    this.scene.add(this.footprints);
+    const [x0, y0, x1, y1] = data.bounds;
+    this.bounds = new THREE.Box3(new THREE.Vector3(x0, y0, 0), new THREE.Vector3(x1, y1, 1.2));
+  }
+
+  addRobot(data) {
+    this.links = data.links.map(linkGroup);
+    this.links.forEach((link) => this.scene.add(link));
+    this.patches = data.contacts.map((contact, index) => {
+      const patch = footprint(
+          contact.points.map((p) => new THREE.Vector3(...p)), limbColour(index));
+      patch.position.set(0, 0, 0);
+      patch.traverse((part) => {
+        if (part.material) {
+          Object.assign(part.material, {depthTest: false, transparent: true, opacity: 0.85});
+        }
+      });
+      patch.renderOrder = 1;
+      this.links[contact.link].add(patch);
+      return patch;
+    });
+    this.forces = new THREE.Group();
+    this.forces.visible = false;
+    this.scene.add(this.forces);
+    if (!this.motion.phases.length) this.links.forEach((link) => { link.visible = false; });
+  }
+
+  /* Moves the robot to where it is at time t. */
+  update(t) {
+    this.stale = true;
+    if (!this.motion.phases.length) return;
+    const phase = this.motion.phaseAt(t);
+    this.motion.poseLinks(t, phase).forEach((pose, i) => {
+      this.links[i].matrix.copy(pose);
+      this.links[i].matrixWorldNeedsUpdate = true;
+    });
+    this.patches.forEach((patch, i) => { patch.visible = phase.contacts.includes(i); });
+    this.updateForces(t, phase);
+    const root = new THREE.Vector3().setFromMatrixPosition(this.motion.linkPoses[0]);
+    this.sun.position.copy(root).add(new THREE.Vector3(1.5, -2, 5));
+    this.sun.target.position.copy(root);
+    if (this.follow) this.moveTarget(root);
+  }
+
+  updateForces(t, phase) {
+    if (!this.forces.visible) return;
+    this.forces.remove(...this.forces.children);
+    const points = [].concat(...phase.contacts.map((c) => this.motion.contactPoints(c)));
+    this.motion.contactForces(t, phase).forEach((force, i) => {
+      const length = force.length() * kForceScale;
+      if (length < 1e-3) return;
+      const arrow = new THREE.ArrowHelper(
+          force.clone().normalize(), points[i], length, '#b5179e', 0.25 * length, 0.05);
+      arrow.traverse((part) => {
+        if (part.material) Object.assign(part.material, {depthTest: false, transparent: true});
+        part.renderOrder = 2;
+      });
+      this.forces.add(arrow);
+    });
+  }
+
+  moveTarget(target) {
+    this.camera.position.add(target).sub(this.controls.target);
+    this.controls.target.copy(target);
+    this.controls.update();
+  }
+
+  /* Looks at the robot if it is followed, otherwise at the whole world. */
+  look(view) {
+    const directions = {iso: [-0.62, -0.72, 0.6], top: [0, -1e-3, 1], side: [0, -1, 0.12]};
+    const direction = new THREE.Vector3(...directions[view]).normalize();
+    const target = this.bounds.getCenter(new THREE.Vector3());
+    let distance = 4;
+    if (this.follow && this.motion.phases.length) {
+      target.setFromMatrixPosition(this.motion.linkPoses[0]);
+    } else {
+      distance = this.distanceToSee(direction, target);
+    }
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(direction, distance);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  /* Least distance from which every corner of the world is in view. */
+  distanceToSee(direction, target) {
+    const up = new THREE.Vector3(0, 0, 1);
+    const right = new THREE.Vector3().crossVectors(up, direction).normalize();
+    const above = new THREE.Vector3().crossVectors(direction, right);
+    const vertical = Math.tan(kFieldOfView * Math.PI / 360);
+    const horizontal = vertical * this.camera.aspect;
+    let distance = 1;
+    for (let i = 0; i < 8; ++i) {
+      const corner = new THREE.Vector3(
+          i & 1 ? this.bounds.max.x : this.bounds.min.x,
+          i & 2 ? this.bounds.max.y : this.bounds.min.y,
+          i & 4 ? this.bounds.max.z : this.bounds.min.z).sub(target);
+      distance = Math.max(
+          distance, corner.dot(direction) + Math.max(Math.abs(corner.dot(right)) / horizontal,
+                                                     Math.abs(corner.dot(above)) / vertical));
+    }
+    return 1.06 * distance;
+  }
+
+  resize(width, height) {
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.stale = true;
+  }
+
+  render() {
+    if (!this.stale) return;
+    this.stale = false;
+    this.renderer.render(this.scene, this.camera);
+  }
+}

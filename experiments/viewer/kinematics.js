@@ -1,0 +1,147 @@
+'use strict';
+
+/* The motion of a plan: its knots, and the poses of links at any time between them. */
+
+function decodeBase64(text) {
+  const bytes = atob(text);
+  const buffer = new Uint8Array(bytes.length);
+  for (let i = 0; i < bytes.length; ++i) buffer[i] = bytes.charCodeAt(i);
+  return buffer.buffer;
+}
+const decodeFloats = (text) => new Float32Array(decodeBase64(text));
+const decodeIntegers = (text) => new Int32Array(decodeBase64(text));
+
+/* Pose as stored: quaternion w, x, y, z, then position. */
+function poseMatrix(pose) {
+  return new THREE.Matrix4().compose(
+      new THREE.Vector3(pose[4], pose[5], pose[6]),
+      new THREE.Quaternion(pose[1], pose[2], pose[3], pose[0]), new THREE.Vector3(1, 1, 1));
+}
+
+class Motion {
+  constructor(data) {
+    this.joints = data.joints.map((joint) => ({
+      parent: joint.parent,
+      prismatic: joint.prismatic,
+      axis: new THREE.Vector3(...joint.axis),
+      inParent: poseMatrix(joint.pose),
+    }));
+    this.contacts = data.contacts;
+    this.stride = 8 + this.joints.length;
+    this.knots = decodeFloats(data.knots);
+    this.forces = decodeFloats(data.forces);
+    this.phases = [];
+    data.segments.forEach((segment, index) => {
+      for (const phase of segment.phases) this.phases.push(this.addPhase(phase, segment, index));
+    });
+    this.linkPoses = data.links.map(() => new THREE.Matrix4());
+    this.begin = this.phases.length ? this.phases[0].begin : 0;
+    this.end = this.phases.length ? this.phases[this.phases.length - 1].end : 0;
+    this.turn = new THREE.Quaternion();
+    this.rotation = new THREE.Matrix4();
+  }
+
+  addPhase(phase, segment, index) {
+    return {
+      segment: index,
+      action: segment.action,
+      contacts: phase.contacts,
+      first: phase.first,
+      count: phase.count,
+      forces: phase.forces,
+      points: phase.contacts.reduce((sum, c) => sum + this.contacts[c].points.length, 0),
+      begin: this.knots[phase.first * this.stride],
+      end: this.knots[(phase.first + phase.count - 1) * this.stride],
+    };
+  }
+
+  /* The last phase that has begun at time t. */
+  phaseAt(t) {
+    let low = 0, high = this.phases.length - 1;
+    while (low < high) {
+      const middle = Math.ceil((low + high) / 2);
+      if (this.phases[middle].begin <= t) low = middle; else high = middle - 1;
+    }
+    return this.phases[low];
+  }
+
+  /* The knot of the phase before t, and how far t lies towards the next one (0 to 1). */
+  locate(phase, t) {
+    let low = phase.first, high = phase.first + phase.count - 2;
+    while (low < high) {
+      const middle = Math.ceil((low + high) / 2);
+      if (this.knots[middle * this.stride] <= t) low = middle; else high = middle - 1;
+    }
+    const t0 = this.knots[low * this.stride], t1 = this.knots[(low + 1) * this.stride];
+    return {knot: low, fraction: Math.min(1, Math.max(0, (t - t0) / (t1 - t0)))};
+  }
+
+  /* Poses of all links at t: slerp of the root, linear in between for everything else. */
+  poseLinks(t, phase) {
+    const {knot, fraction} = this.locate(phase, t);
+    const k0 = knot * this.stride + 1, k1 = k0 + this.stride, q = this.knots;
+    const mix = (i) => q[k0 + i] + fraction * (q[k1 + i] - q[k0 + i]);
+    const root = new THREE.Quaternion(q[k0 + 1], q[k0 + 2], q[k0 + 3], q[k0]).normalize();
+    root.slerp(new THREE.Quaternion(q[k1 + 1], q[k1 + 2], q[k1 + 3], q[k1]).normalize(), fraction);
+    this.linkPoses[0].makeRotationFromQuaternion(root).setPosition(mix(4), mix(5), mix(6));
+    this.joints.forEach((joint, i) => this.poseLink(i + 1, joint, mix(7 + i)));
+    return this.linkPoses;
+  }
+
+  poseLink(link, joint, value) {
+    const pose = this.linkPoses[link];
+    pose.multiplyMatrices(this.linkPoses[joint.parent], joint.inParent);
+    if (joint.prismatic) {
+      this.rotation.makeTranslation(
+          value * joint.axis.x, value * joint.axis.y, value * joint.axis.z);
+    } else {
+      this.rotation.makeRotationFromQuaternion(this.turn.setFromAxisAngle(joint.axis, value));
+    }
+    pose.multiply(this.rotation);
+  }
+
+  /* World positions of a contact's points at the poses last computed. */
+  contactPoints(contact) {
+    const {link, points} = this.contacts[contact];
+    return points.map((p) => new THREE.Vector3(...p).applyMatrix4(this.linkPoses[link]));
+  }
+
+  /* Forces (N) at the points of the phase's contacts, in their order. */
+  contactForces(t, phase) {
+    const {knot, fraction} = this.locate(phase, t);
+    const k0 = phase.forces + 3 * phase.points * (knot - phase.first), k1 = k0 + 3 * phase.points;
+    const forces = [];
+    for (let i = 0; i < 3 * phase.points; i += 3) {
+      const at = (j) => this.forces[k0 + j] + fraction * (this.forces[k1 + j] - this.forces[k0 + j]);
+      forces.push(new THREE.Vector3(at(i), at(i + 1), at(i + 2)));
+    }
+    return forces;
+  }
+
+  /* Where and when each contact touched down. */
+  touchdowns() {
+    const found = [];
+    let previous = [];
+    for (const phase of this.phases) {
+      const fresh = phase.contacts.filter((c) => !previous.includes(c));
+      if (fresh.length) this.poseLinks(phase.begin, phase);
+      for (const contact of fresh) found.push({contact, points: this.contactPoints(contact)});
+      previous = phase.contacts;
+    }
+    return found;
+  }
+
+  /* Positions of the root at every knot, one list per segment. */
+  route() {
+    const lines = [];
+    for (const phase of this.phases) {
+      if (!lines[phase.segment]) lines[phase.segment] = {action: phase.action, points: []};
+      for (let k = phase.first; k < phase.first + phase.count; ++k) {
+        const q = k * this.stride + 1;
+        lines[phase.segment].points.push(
+            new THREE.Vector3(this.knots[q + 4], this.knots[q + 5], this.knots[q + 6]));
+      }
+    }
+    return lines.filter((line) => line);
+  }
+}

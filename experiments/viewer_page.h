@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "actions/plan.h"
+#include "models/robot_model.h"
+#include "models/scenario.h"
+
+namespace possibility::experiments {
+
+/// One HTML file that draws and plays a plan in a browser and needs nothing else, neither other
+/// files nor a network (docs/viewer.md). Names are escaped: they cannot end up as markup or code.
+/// The sizes of the plan must be the robot's (RequireFit).
+/// @throws InputError if the plan names a contact that the robot does not have.
+std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
+                       const models::Scenario& scenario);
+
+}  // namespace possibility::experiments

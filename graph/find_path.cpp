@@ -1,0 +1,252 @@
+#include "graph/find_path.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "graph/action_exploration.h"
+#include "graph/deadline.h"
+#include "graph/path_confirmation.h"
+#include "graph/possibility_graph.h"
+
+namespace possibility::graph {
+namespace {
+
+void CheckPoint(const Point& point, Eigen::Index size, const std::string& what) {
+  if (point.size() != size || size == 0 || !point.allFinite()) {
+    throw std::invalid_argument("FindPath: " + what + " has " + std::to_string(point.size()) +
+                                " numbers, expected " + std::to_string(size) +
+                                " finite ones, at least one, as many as the start");
+  }
+}
+
+void CheckSettings(const FindPathSettings& settings) {
+  if (!(settings.time_limit >= 0)) {
+    throw std::invalid_argument("FindPath: time_limit is " + std::to_string(settings.time_limit) +
+                                ", expected a number of seconds >= 0");
+  }
+  if (settings.max_transitions_per_cycle < 0) {
+    throw std::invalid_argument("FindPath: max_transitions_per_cycle is " +
+                                std::to_string(settings.max_transitions_per_cycle) +
+                                ", expected >= 0");
+  }
+  if (settings.confirmation_threads < 0) {
+    throw std::invalid_argument("FindPath: confirmation_threads is " +
+                                std::to_string(settings.confirmation_threads) + ", expected >= 0");
+  }
+}
+
+void CheckArguments(const Point& start, const std::vector<Point>& goals,
+                    const std::vector<std::shared_ptr<const Action>>& actions,
+                    const FindPathSettings& settings) {
+  if (actions.empty() || goals.empty()) {
+    throw std::invalid_argument("FindPath: there is no " +
+                                std::string(actions.empty() ? "action" : "goal") +
+                                ", expected at least one");
+  }
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (!actions[i]) {
+      throw std::invalid_argument("FindPath: action " + std::to_string(i) +
+                                  " is null, expected an action");
+    }
+  }
+  CheckPoint(start, start.size(), "the start");
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    CheckPoint(goals[i], start.size(), "goal " + std::to_string(i));
+  }
+  CheckSettings(settings);
+}
+
+/// Algorithm 1 at work.
+class PathFinder {
+ public:
+  PathFinder(const Point& start, const std::vector<Point>& goals,
+             const std::vector<std::shared_ptr<const Action>>& actions,
+             const ExplorationSpace& space, const FindPathSettings& settings)
+      : settings_(settings),
+        space_(space),
+        actions_(actions),
+        deadline_(settings.time_limit),
+        generator_(settings.seed),
+        master_(actions, &space, start, goals),
+        confirmation_(actions, &master_, &q_confirmation_, &deadline_, &result_.counters) {
+    InitializeActionGraphs();
+  }
+
+  PathResult FindPath() {
+    q_confirmation_.LaunchThreads(settings_.confirmation_threads);
+    while (!deadline_.Passed() && !Answered()) {
+      confirmation_.CollectResults();
+      if (!ExplorationIsOver()) {
+        Explore();
+        ++cycles_;
+      } else if (q_confirmation_.num_open() == 0) {
+        break;
+      } else {
+        q_confirmation_.WaitForResult(MaxWait());
+      }
+      if (FindConfirmedPath()) {
+        break;
+      }
+      if (settings_.confirmation_threads == 0) {
+        q_confirmation_.RunTurn([this] { return deadline_.Passed(); });
+      }
+      ReportProgress();
+    }
+    q_confirmation_.Cancel();
+    return TakeResult();
+  }
+
+ private:
+  void InitializeActionGraphs() {
+    const ExplorationContext context = {
+        .space = &space_,
+        .master = &master_,
+        .generator = &generator_,
+        .deadline = &deadline_,
+        .counters = &result_.counters,
+        .max_transitions_per_cycle = settings_.max_transitions_per_cycle};
+    for (std::size_t i = 0; i < actions_.size(); ++i) {
+      explorations_.push_back(MakeActionExploration(*actions_[i], static_cast<int>(i), context));
+      explorations_[i]->AddInitialVertex(master_.start());
+      for (const VertexId goal : master_.goals()) {
+        explorations_[i]->AddInitialVertex(goal);
+      }
+    }
+  }
+
+  void Explore() {
+    for (std::size_t a = 0; a < explorations_.size(); ++a) {
+      NewElements found = explorations_[a]->PerformTransitions();
+      const Point p_target = space_.RandomSample(&generator_);
+      found.Append(explorations_[a]->GrowTowards(p_target));
+      for (std::size_t other = 0; other < explorations_.size(); ++other) {
+        if (other != a) {
+          explorations_[other]->InsertIntoTransitionQueue(found.vertices);
+        }
+      }
+      master_.Append(static_cast<int>(a), found.edges);
+    }
+  }
+
+  bool FindConfirmedPath() {
+    for (std::size_t g = 0; g < master_.goals().size(); ++g) {
+      while (master_.Connected(master_.goals()[g]) && !deadline_.Passed()) {
+        const auto path = master_.ShortestPath(master_.start(), master_.goals()[g]);
+        if (!path) {
+          break;
+        }
+        best_route_seconds_ = Duration(*path);
+        if (confirmation_.ConfirmPath(*path)) {
+          SetFound(static_cast<int>(g), *path);
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  double Duration(const std::vector<EdgeId>& path) const {
+    double duration = 0;
+    for (const EdgeId edge : path) {
+      duration += master_.duration(edge);
+    }
+    return duration;
+  }
+
+  void SetFound(int goal, const std::vector<EdgeId>& path) {
+    result_.status = PathStatus::kFound;
+    result_.goal = goal;
+    for (const EdgeId edge : path) {
+      result_.path.push_back({master_.confirmed_by(edge), master_.points(edge)});
+    }
+  }
+
+  bool ExplorationIsOver() const {
+    return settings_.max_cycles >= 0 && cycles_ >= settings_.max_cycles;
+  }
+
+  /// Whether the oracle, if it is its time, ends the search.
+  bool Answered() {
+    if (oracle_asked_ || !settings_.oracle || cycles_ < settings_.ask_oracle_after) {
+      return false;
+    }
+    oracle_asked_ = true;
+    switch (settings_.oracle()) {
+      case RouteOracleAnswer::kProvenInfeasible:
+        result_.status = PathStatus::kProvenInfeasible;
+        return true;
+      case RouteOracleAnswer::kExhausted:
+        result_.status = PathStatus::kExhausted;
+        return true;
+      case RouteOracleAnswer::kUnknown:
+        break;
+    }
+    return false;
+  }
+
+  /// Without threads no result can come while we wait.
+  std::chrono::milliseconds MaxWait() const {
+    return std::chrono::milliseconds(settings_.confirmation_threads > 0 ? 10 : 0);
+  }
+
+  FindPathProgress Progress() const {
+    return {.seconds = deadline_.Elapsed(),
+            .cycles = static_cast<int>(cycles_),
+            .vertices = master_.topology().num_vertices(),
+            .edges = master_.topology().num_edges(),
+            .jobs = confirmation_.num_jobs(),
+            .best_route_seconds = best_route_seconds_};
+  }
+
+  void ReportProgress() {
+    constexpr double kInterval = 0.1;  // s
+    if (settings_.progress && deadline_.Elapsed() >= next_progress_) {
+      next_progress_ = deadline_.Elapsed() + kInterval;
+      settings_.progress(Progress());
+    }
+  }
+
+  PathResult TakeResult() {
+    result_.statistics = Progress();
+    result_.seconds = result_.statistics.seconds;
+    result_.confirmations = confirmation_.TakeReports();
+    const DirectedGraph& topology = master_.topology();
+    for (VertexId vertex = 0; vertex < topology.num_vertices(); ++vertex) {
+      result_.graph.vertices.push_back(master_.point(vertex));
+    }
+    for (EdgeId edge = 0; edge < topology.num_edges(); ++edge) {
+      if (!topology.removed(edge)) {
+        result_.graph.edges.push_back(
+            {topology.from(edge), topology.to(edge), master_.action(edge)});
+      }
+    }
+    return std::move(result_);
+  }
+
+  const FindPathSettings& settings_;
+  const ExplorationSpace& space_;
+  const std::vector<std::shared_ptr<const Action>>& actions_;
+  Deadline deadline_;
+  RandomGenerator generator_;
+  PathResult result_;
+  PossibilityGraph master_;
+  ConfirmationQueue q_confirmation_;
+  PathConfirmation confirmation_;
+  std::vector<std::unique_ptr<ActionExploration>> explorations_;
+  std::int64_t cycles_ = 0;
+  bool oracle_asked_ = false;
+  double next_progress_ = 0;
+  double best_route_seconds_ = 0;
+};
+
+}  // namespace
+
+PathResult FindPath(const Point& start, const std::vector<Point>& goals,
+                    const std::vector<std::shared_ptr<const Action>>& actions,
+                    const ExplorationSpace& space, const FindPathSettings& settings) {
+  CheckArguments(start, goals, actions, settings);
+  return PathFinder(start, goals, actions, space, settings).FindPath();
+}
+
+}  // namespace possibility::graph

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "graph/action.h"
+#include "graph/directed_graph.h"
+#include "graph/exploration_space.h"
+#include "graph/reachability.h"
+#include "graph/vertex_index.h"
+
+namespace possibility::graph {
+
+/// What is known of an edge beyond that exploration accepted it.
+enum class Possibility {
+  kUnexamined,     ///< not yet on a path that was to be confirmed
+  kIndeterminate,  ///< meets no sufficient conditions; a confirmation job has to tell, or failed to
+  kPossible,       ///< meets sufficient conditions, or its job confirmed it
+  kImpossible,     ///< no action can confirm it
+};
+
+/// An edge found by exploration, on its way into the graphs.
+struct NewEdge {
+  VertexId from = 0;
+  VertexId to = 0;
+  bool reversible = false;  ///< stands for the edge from `to` to `from` as well
+};
+
+/// {V_new, E_new} of Algorithms 1 to 4: what one action found.
+struct NewElements {
+  std::vector<VertexId> vertices;
+  std::vector<NewEdge> edges;
+
+  void Append(const NewElements& other);
+};
+
+/// Gamma_PG: the master graph that combines what all actions found. Knows at any time which
+/// vertices are upstream from a goal and which are downstream from the start.
+class PossibilityGraph {
+ public:
+  /// The graph of `start` and `goals` alone. A goal that is the same point as another vertex
+  /// shares its vertex. `space` must outlive this.
+  PossibilityGraph(const std::vector<std::shared_ptr<const Action>>& actions,
+                   const ExplorationSpace* space, const Point& start,
+                   const std::vector<Point>& goals);
+  PossibilityGraph(const PossibilityGraph&) = delete;
+  PossibilityGraph& operator=(const PossibilityGraph&) = delete;
+
+  VertexId start() const { return start_; }
+  const std::vector<VertexId>& goals() const { return goals_; }
+
+  /// The vertex at `point`, if there is one.
+  std::optional<VertexId> FindVertexAt(const Point& point) const { return index_.Find(point); }
+  /// The vertex at `point`, which is created if there is none.
+  VertexId VertexAt(const Point& point);
+
+  /// Adds the edges that `action` found; edges it has already are left as they are.
+  /// @throws std::invalid_argument if the action's expected duration of one is negative or not
+  /// finite.
+  void Append(int action, const std::vector<NewEdge>& edges);
+
+  /// The edge of `action` between two vertices, if it was ever added, removed or not.
+  std::optional<EdgeId> FindEdge(int action, VertexId from, VertexId to) const;
+
+  /// Takes an edge out of the graph and keeps it in mind.
+  void Remove(EdgeId edge);
+  /// Puts a removed edge back.
+  void Reinsert(EdgeId edge);
+
+  bool UpstreamFromGoal(VertexId vertex) const { return upstream_from_goal_.Reached(vertex); }
+  bool DownstreamFromStart(VertexId vertex) const { return downstream_from_start_.Reached(vertex); }
+  /// Whether a path leads from the start to `goal`.
+  bool Connected(VertexId goal) const { return DownstreamFromStart(goal); }
+
+  /// Edges of the path from one vertex to another with the least expected duration; nothing if
+  /// there is no path.
+  std::optional<std::vector<EdgeId>> ShortestPath(VertexId from, VertexId to) const;
+
+  const DirectedGraph& topology() const { return topology_; }
+  const Point& point(VertexId vertex) const { return points_[vertex]; }
+  PointPair points(EdgeId edge) const;
+  int action(EdgeId edge) const { return edges_[edge].action; }
+  /// Expected duration, s.
+  double duration(EdgeId edge) const { return edges_[edge].duration; }
+  /// The same edge in the opposite direction if its action is reversible.
+  std::optional<EdgeId> opposite(EdgeId edge) const { return edges_[edge].opposite; }
+
+  Possibility possibility(EdgeId edge) const { return edges_[edge].possibility; }
+  /// The action that confirmed the edge, or found it if it is not confirmed.
+  int confirmed_by(EdgeId edge) const { return edges_[edge].confirmed_by; }
+  void SetPossibility(EdgeId edge, Possibility possibility);
+  void SetPossible(EdgeId edge, int confirmed_by);
+
+  /// How often an edge of `action` was removed or put back.
+  int num_changes(int action) const { return num_changes_[action]; }
+
+ private:
+  struct Edge {
+    int action = 0;
+    double duration = 0;
+    std::optional<EdgeId> opposite;
+    Possibility possibility = Possibility::kUnexamined;
+    int confirmed_by = 0;
+  };
+
+  EdgeId AddEdge(int action, VertexId from, VertexId to);
+
+  std::vector<std::shared_ptr<const Action>> actions_;
+  DirectedGraph topology_;
+  std::vector<Point> points_;
+  std::vector<Edge> edges_;
+  VertexIndex index_;
+  Reachability downstream_from_start_{&topology_, Reachability::Direction::kDownstream};
+  Reachability upstream_from_goal_{&topology_, Reachability::Direction::kUpstream};
+  std::vector<int> num_changes_;
+  VertexId start_ = 0;
+  std::vector<VertexId> goals_;
+};
+
+}  // namespace possibility::graph

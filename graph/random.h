@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+#include "graph/exploration_space.h"
+
+namespace possibility::graph {
+
+/// Uniform integer in [0, count), the same on every platform (the standard's distributions are
+/// not). `count` >= 1.
+std::uint64_t UniformIndex(std::uint64_t count, RandomGenerator* generator);
+
+/// Uniform number in [low, high), the same on every platform.
+double UniformReal(double low, double high, RandomGenerator* generator);
+
+}  // namespace possibility::graph

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "graph/directed_graph.h"
+#include "graph/exploration_space.h"
+
+namespace possibility::graph {
+
+/// Q_Transition: vertices of other actions from which one action has yet to try a transition.
+class TransitionQueue {
+ public:
+  /// Queues a vertex, unless it was ever queued before.
+  void Insert(VertexId vertex);
+
+  /// Takes out a vertex, each with equal chance; nothing if the queue is empty.
+  std::optional<VertexId> PopRandom(RandomGenerator* generator);
+
+  int size() const { return static_cast<int>(waiting_.size()); }
+
+ private:
+  std::vector<VertexId> waiting_;
+  std::vector<bool> queued_before_;  ///< per vertex
+};
+
+}  // namespace possibility::graph

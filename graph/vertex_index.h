@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "graph/directed_graph.h"
+#include "graph/exploration_space.h"
+
+namespace possibility::graph {
+
+/// Points closer than this are one point of E.
+inline constexpr double kSamePointDistance = 1e-9;
+
+/// Finds the vertex that lies at a given point. Vertices are ordered by their distance from a
+/// fixed pivot: by the triangle inequality only those at nearly the same distance from it can be
+/// the same point, so a look-up measures few distances, whatever the metric.
+class VertexIndex {
+ public:
+  /// `space` must outlive this.
+  VertexIndex(const ExplorationSpace* space, const Point& pivot) : space_(space), pivot_(pivot) {}
+
+  void Insert(VertexId vertex, const Point& point);
+
+  /// The vertex at `point`, the first inserted if there are several.
+  std::optional<VertexId> Find(const Point& point) const;
+
+ private:
+  struct Entry {
+    VertexId vertex;
+    Point point;
+  };
+  const ExplorationSpace* space_;
+  Point pivot_;
+  std::multimap<double, Entry> by_distance_;
+};
+
+}  // namespace possibility::graph

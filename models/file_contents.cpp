@@ -1,0 +1,52 @@
+#include "models/file_contents.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "models/input_error.h"
+
+namespace possibility::models {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 64u << 20;
+
+}  // namespace
+
+std::string ReadFileContents(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) {
+    throw InputError(fmt::format("{}: no such file", file.string()));
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError(fmt::format("{}: expected a file, got a folder or device", file.string()));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > kLargestFile) {
+    throw InputError(
+        fmt::format("{}: expected at most {} bytes, got {}", file.string(), kLargestFile, size));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string contents(error ? 0 : size, '\0');
+  if (error || !stream.read(contents.data(), static_cast<std::streamsize>(size))) {
+    throw InputError(fmt::format("{}: cannot be read", file.string()));
+  }
+  return contents;
+}
+
+std::string ContentHash(const std::vector<std::string_view>& parts) {
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
+                                                                              XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  for (const std::string_view part : parts) {
+    XXH3_128bits_update(state.get(), part.data(), part.size());
+  }
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+}  // namespace possibility::models

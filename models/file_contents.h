@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace possibility::models {
+
+/// All bytes of a regular file.
+/// @throws InputError if it does not exist, is a folder, cannot be read or exceeds 64 MiB.
+std::string ReadFileContents(const std::filesystem::path& file);
+
+/// XXH3 (128 bits, seed 0) of the concatenated parts, as 32 lower-case hexadecimal digits.
+std::string ContentHash(const std::vector<std::string_view>& parts);
+
+}  // namespace possibility::models

@@ -1,0 +1,281 @@
+#include "models/gait_yaml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "models/named_lookup.h"
+
+namespace possibility::models {
+namespace {
+
+constexpr double kGroundTolerance = 1e-4;  // m
+
+/// A joint's value in the file's units: degrees, or metres if prismatic.
+double ReadJointValue(const YamlNode& node, const Joint& joint) {
+  const double value = joint.type == JointType::kPrismatic ? node.Number() : node.Degrees();
+  constexpr double kRounding = 1e-9;
+  if (value < joint.lower - kRounding || value > joint.upper + kRounding) {
+    const double unit = joint.type == JointType::kPrismatic ? 1 : 180 / std::numbers::pi;
+    node.FailExpected(fmt::format("a value within the limits {:.6g} to {:.6g} of joint '{}'",
+                                  joint.lower * unit, joint.upper * unit, joint.name));
+  }
+  return value;
+}
+
+std::map<int, double> ReadJointValues(const YamlNode& node, const RobotModel& robot) {
+  std::vector<std::string> names;
+  for (const Joint& joint : robot.joints) names.push_back(joint.name);
+  node.MapOf(names);
+  std::map<int, double> values;
+  for (const auto& [name, value] : node.Entries()) {
+    const int joint = robot.JointIndex(name);
+    values[joint] = ReadJointValue(value, robot.joints[joint]);
+  }
+  return values;
+}
+
+void CheckRestIsAllowed(const YamlNode& node, const Posture& posture, const RobotModel& robot) {
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Joint& joint = robot.joints[i];
+    if (posture.joints[i] == 0 && (joint.lower > 0 || joint.upper < 0)) {
+      node.Fail(fmt::format("joint '{}' must be given: 0 is outside its limits", joint.name));
+    }
+  }
+}
+
+Posture ReadPosture(const YamlNode& node, const RobotModel& robot) {
+  node.MapOf({"root_height", "root_pitch_deg", "joints_deg"});
+  Posture posture;
+  posture.root_height = node.At("root_height").Positive();
+  posture.root_pitch = node.At("root_pitch_deg").Degrees();
+  posture.joints = Eigen::VectorXd::Zero(robot.num_joints());
+  for (const auto& [joint, value] : ReadJointValues(node.At("joints_deg"), robot)) {
+    posture.joints[joint] = value;
+  }
+  CheckRestIsAllowed(node.At("joints_deg"), posture, robot);
+  return posture;
+}
+
+bool Moves(const RobotModel& robot, int joint, int link) {
+  while (link > 0 && link != joint + 1) link = robot.joints[link - 1].parent;
+  return link == joint + 1;
+}
+
+GaitLimb ReadLimb(const YamlNode& node, const RobotModel& robot) {
+  node.MapOf({"contact", "hold_orientation", "joints"});
+  GaitLimb limb;
+  limb.contact = IndexOfNamed(node.At("contact"), robot.contacts, "contact");
+  limb.hold_orientation = node.At("hold_orientation").Boolean();
+  const YamlNode joints = node.At("joints");
+  limb.joints = IndicesOfNamed(joints, robot.joints, "joint");
+  const std::size_t rows = limb.hold_orientation ? 6 : 3;
+  if (limb.joints.size() != rows) {
+    joints.Fail(fmt::format("expected {} joints to hold {}, got {}", rows,
+                            limb.hold_orientation ? "a pose" : "a point", limb.joints.size()));
+  }
+  for (const YamlNode& joint : joints.Items()) {
+    if (!Moves(robot, robot.JointIndex(joint.String()), robot.contacts[limb.contact].link)) {
+      joint.Fail(fmt::format("joint '{}' does not move contact '{}'", joint.String(),
+                             robot.contacts[limb.contact].name));
+    }
+  }
+  return limb;
+}
+
+std::vector<GaitLimb> ReadLimbs(const YamlNode& list, const RobotModel& robot) {
+  std::vector<GaitLimb> limbs;
+  std::set<int> contacts;
+  std::set<int> joints;
+  for (const YamlNode& node : list.Items()) {
+    limbs.push_back(ReadLimb(node, robot));
+    if (!contacts.insert(limbs.back().contact).second) {
+      node.At("contact").Fail("this contact already belongs to another limb of the gait");
+    }
+    for (const int joint : limbs.back().joints) {
+      if (joints.insert(joint).second) continue;
+      node.At("joints").Fail(fmt::format("joint '{}' already belongs to another limb of the gait",
+                                         robot.joints[joint].name));
+    }
+  }
+  if (limbs.size() < 2) list.FailExpected("at least two limbs");
+  return limbs;
+}
+
+GaitParameters ReadParameters(const YamlNode& node) {
+  node.MapOf({"forward", "lateral", "turn_deg", "clearance", "com_margin", "swing_time",
+              "com_acceleration", "minimum_shift_time"});
+  GaitParameters parameters;
+  parameters.forward = node.At("forward").Positive();
+  parameters.lateral = node.At("lateral").Positive();
+  node.At("turn_deg").Positive();
+  parameters.turn = node.At("turn_deg").Degrees();
+  parameters.clearance = node.At("clearance").Positive();
+  parameters.com_margin = node.At("com_margin").NonNegative();
+  parameters.swing_time = node.At("swing_time").Positive();
+  parameters.com_acceleration = node.At("com_acceleration").Positive();
+  parameters.minimum_shift_time = node.At("minimum_shift_time").Positive();
+  return parameters;
+}
+
+std::vector<Eigen::Isometry3d> LinkPoses(const RobotModel& robot, const Posture& posture) {
+  const Eigen::VectorXd q = robot.Configuration(posture);
+  std::vector<Eigen::Isometry3d> X_WL(robot.links.size(), Eigen::Isometry3d::Identity());
+  X_WL[0].linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  X_WL[0].translation() = q.segment<3>(4);
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Joint& joint = robot.joints[i];
+    X_WL[i + 1] = X_WL[joint.parent] * joint.X_PJ;
+    if (joint.type == JointType::kPrismatic) {
+      X_WL[i + 1].translate(posture.joints[i] * joint.axis);
+    } else {
+      X_WL[i + 1].rotate(Eigen::AngleAxisd(posture.joints[i], joint.axis));
+    }
+  }
+  return X_WL;
+}
+
+void CheckContactsOnGround(const YamlNode& node, const Gait& gait, const RobotModel& robot) {
+  const std::vector<Eigen::Isometry3d> X_WL = LinkPoses(robot, gait.posture);
+  for (const GaitLimb& limb : gait.limbs) {
+    const ContactPatch& contact = robot.contacts[limb.contact];
+    for (const Eigen::Vector3d& point : contact.points) {
+      const double height = (X_WL[contact.link] * point).z();
+      if (std::abs(height) <= kGroundTolerance) continue;
+      node.Fail(fmt::format("contact '{}' is at height {:.6f} m in this posture, expected 0",
+                            contact.name, height));
+    }
+    if ((X_WL[contact.link].linear() * contact.normal_L).z() > -0.5) {
+      node.Fail(fmt::format("contact '{}' does not face the ground in this posture", contact.name));
+    }
+  }
+}
+
+Gait ReadGait(const YamlNode& node, const RobotModel& robot) {
+  node.MapOf({"name", "posture", "limbs", "parameters"});
+  Gait gait;
+  gait.name = node.At("name").String();
+  gait.posture = ReadPosture(node.At("posture"), robot);
+  gait.limbs = ReadLimbs(node.At("limbs"), robot);
+  gait.parameters = ReadParameters(node.At("parameters"));
+  CheckContactsOnGround(node.At("posture"), gait, robot);
+  return gait;
+}
+
+/// Joints that bearing contacts move, in either gait of a transition.
+std::set<int> BoundJoints(const std::vector<int>& contacts, const Gait& from, const Gait& to) {
+  std::set<int> bound;
+  for (const Gait* gait : {&from, &to}) {
+    for (const GaitLimb& limb : gait->limbs) {
+      if (std::find(contacts.begin(), contacts.end(), limb.contact) == contacts.end()) continue;
+      bound.insert(limb.joints.begin(), limb.joints.end());
+    }
+  }
+  return bound;
+}
+
+bool Uses(const Gait& gait, int contact) {
+  return std::any_of(gait.limbs.begin(), gait.limbs.end(),
+                     [&](const GaitLimb& limb) { return limb.contact == contact; });
+}
+
+/// The keyframe apart from its posture.
+TransitionKeyframe ReadBareKeyframe(const YamlNode& node, const Gait& from, const Gait& to,
+                                    const RobotModel& robot) {
+  TransitionKeyframe keyframe;
+  keyframe.duration = node.At("duration").Positive();
+  const YamlNode contacts = node.At("contacts");
+  keyframe.contacts = IndicesOfNamed(contacts, robot.contacts, "contact");
+  if (keyframe.contacts.empty()) contacts.FailExpected("at least one contact");
+  for (const YamlNode& contact : contacts.Items()) {
+    const int index = robot.ContactIndex(contact.String());
+    if (Uses(from, index) || Uses(to, index)) continue;
+    contact.Fail(fmt::format("neither '{}' nor '{}' uses this contact", from.name, to.name));
+  }
+  return keyframe;
+}
+
+TransitionKeyframe ReadKeyframe(const YamlNode& node, const Gait& from, const Gait& to,
+                                const RobotModel& robot) {
+  node.MapOf({"duration", "contacts", "root_height", "root_pitch_deg", "com_x", "joints_deg"});
+  TransitionKeyframe keyframe = ReadBareKeyframe(node, from, to, robot);
+  keyframe.root_height = node.At("root_height").Positive();
+  keyframe.root_pitch = node.At("root_pitch_deg").Degrees();
+  if (const auto com_x = node.Find("com_x")) keyframe.com_x = com_x->Number();
+  const YamlNode joints = node.At("joints_deg");
+  keyframe.joints = ReadJointValues(joints, robot);
+  for (const int bound : BoundJoints(keyframe.contacts, from, to)) {
+    if (!keyframe.joints.contains(bound)) continue;
+    joints.At(robot.joints[bound].name).Fail("a bearing contact already determines this joint");
+  }
+  return keyframe;
+}
+
+/// The last keyframe is the nominal posture of `to`, which the file does not repeat.
+TransitionKeyframe ReadLastKeyframe(const YamlNode& node, const Gait& from, const Gait& to,
+                                    const RobotModel& robot) {
+  for (const auto& [key, value] : node.Entries()) {
+    if (key == "duration" || key == "contacts") continue;
+    value.Fail(
+        fmt::format("the last keyframe is the nominal posture of '{}', expected only "
+                    "duration and contacts",
+                    to.name));
+  }
+  TransitionKeyframe keyframe = ReadBareKeyframe(node, from, to, robot);
+  keyframe.root_height = to.posture.root_height;
+  keyframe.root_pitch = to.posture.root_pitch;
+  const std::set<int> bound = BoundJoints(keyframe.contacts, from, to);
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (!bound.contains(i)) keyframe.joints[i] = to.posture.joints[i];
+  }
+  return keyframe;
+}
+
+Transition ReadTransition(const YamlNode& node, const RobotModel& robot) {
+  node.MapOf({"from", "to", "keyframes"});
+  const Gait& from = robot.gaits[IndexOfNamed(node.At("from"), robot.gaits, "gait")];
+  const Gait& to = robot.gaits[IndexOfNamed(node.At("to"), robot.gaits, "gait")];
+  if (&from == &to) node.At("to").FailExpected("another gait than 'from'");
+  Transition transition{from.name, to.name, {}};
+  const std::vector<YamlNode> keyframes = node.At("keyframes").Items();
+  if (keyframes.empty()) node.At("keyframes").FailExpected("at least one keyframe");
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const bool is_last = i + 1 == keyframes.size();
+    transition.keyframes.push_back(is_last ? ReadLastKeyframe(keyframes[i], from, to, robot)
+                                           : ReadKeyframe(keyframes[i], from, to, robot));
+  }
+  return transition;
+}
+
+}  // namespace
+
+std::vector<Gait> ReadGaits(const YamlNode& list, const RobotModel& robot) {
+  std::vector<Gait> gaits;
+  for (const YamlNode& node : list.Items()) {
+    Gait gait = ReadGait(node, robot);
+    for (const Gait& other : gaits) {
+      if (other.name == gait.name) node.At("name").Fail("this name is already taken");
+    }
+    gaits.push_back(std::move(gait));
+  }
+  if (gaits.empty()) list.FailExpected("at least one gait");
+  return gaits;
+}
+
+std::vector<Transition> ReadTransitions(const YamlNode& list, const RobotModel& robot) {
+  std::vector<Transition> transitions;
+  for (const YamlNode& node : list.Items()) {
+    transitions.push_back(ReadTransition(node, robot));
+    for (std::size_t i = 0; i + 1 < transitions.size(); ++i) {
+      const auto pair = std::minmax(transitions[i].from, transitions[i].to);
+      if (pair != std::minmax(transitions.back().from, transitions.back().to)) continue;
+      node.Fail("these two gaits already have a transition (it is used in both directions)");
+    }
+  }
+  return transitions;
+}
+
+}  // namespace possibility::models

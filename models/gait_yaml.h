@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "models/robot_model.h"
+#include "models/yaml_reader.h"
+
+namespace possibility::models {
+
+/// Reads the `gaits` list of a robot YAML (docs/file_formats.md). Links, joints and contacts of
+/// `robot` are complete. Nominal postures are checked: joints within limits, contacts on z = 0.
+/// @throws InputError for anything malformed or inconsistent.
+std::vector<Gait> ReadGaits(const YamlNode& list, const RobotModel& robot);
+
+/// Reads the `transitions` list; the gaits of `robot` are complete.
+std::vector<Transition> ReadTransitions(const YamlNode& list, const RobotModel& robot);
+
+}  // namespace possibility::models

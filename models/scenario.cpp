@@ -1,0 +1,124 @@
+#include "models/scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "models/environment_yaml.h"
+#include "models/file_contents.h"
+#include "models/input_error.h"
+#include "models/nearest_name.h"
+#include "models/yaml_reader.h"
+
+namespace possibility::models {
+namespace {
+
+Stance ReadStance(const YamlNode& node, const Scenario& scenario) {
+  node.MapOf({"action", "x", "y", "z", "yaw_deg"});
+  Stance stance;
+  const YamlNode action = node.At("action");
+  stance.action = action.String();
+  const std::vector<std::string>& actions = scenario.actions;
+  if (std::find(actions.begin(), actions.end(), stance.action) == actions.end()) {
+    action.Fail(fmt::format("'{}' is not one of the scenario's actions{}", stance.action,
+                            DidYouMean(stance.action, actions)));
+  }
+  stance.x = node.At("x").Number();
+  stance.y = node.At("y").Number();
+  if (!scenario.environment.bounds.contains(Eigen::Vector2d(stance.x, stance.y))) {
+    node.Fail(fmt::format("({}, {}) lies outside environment.bounds", stance.x, stance.y));
+  }
+  if (const auto z = node.Find("z")) stance.z = z->Number();
+  stance.yaw = node.At("yaw_deg").Degrees();
+  return stance;
+}
+
+std::vector<Stance> ReadGoals(const YamlNode& root, const Scenario& scenario) {
+  const auto goal = root.Find("goal");
+  const auto goals = root.Find("goals");
+  if (goal && goals) goals->Fail("expected either 'goal' or 'goals', got both");
+  if (goal) return {ReadStance(*goal, scenario)};
+  if (!goals) root.Fail("the key 'goal' (or 'goals') is missing");
+  std::vector<Stance> stances;
+  for (const YamlNode& node : goals->Items()) stances.push_back(ReadStance(node, scenario));
+  if (stances.empty()) goals->FailExpected("at least one goal");
+  return stances;
+}
+
+std::vector<std::string> ReadActions(const YamlNode& list) {
+  std::vector<std::string> actions;
+  for (const YamlNode& node : list.Items()) {
+    const std::string action = node.String();
+    if (std::find(actions.begin(), actions.end(), action) != actions.end()) {
+      node.Fail(fmt::format("action '{}' is listed twice", action));
+    }
+    actions.push_back(action);
+  }
+  if (actions.empty()) list.FailExpected("at least one action");
+  return actions;
+}
+
+PlannerSettings ReadPlannerSettings(const YamlNode& node) {
+  node.MapOf({"step", "rotation_weight", "max_transitions_per_cycle", "flood_after_cycles",
+              "flood_resolution"});
+  PlannerSettings settings;
+  if (const auto step = node.Find("step")) settings.step = step->Number(0.001, 100);
+  if (const auto weight = node.Find("rotation_weight")) {
+    settings.rotation_weight = weight->Number(0.001, 0.999);
+  }
+  if (const auto count = node.Find("max_transitions_per_cycle")) {
+    settings.max_transitions_per_cycle = static_cast<int>(count->Integer(1, 1000000));
+  }
+  if (const auto count = node.Find("flood_after_cycles")) {
+    settings.flood_after_cycles = static_cast<int>(count->Integer(0, 1000000000));
+  }
+  if (const auto cell = node.Find("flood_resolution")) {
+    settings.flood_resolution = cell->Number(0.005, 10);
+  }
+  return settings;
+}
+
+constexpr double kLongestTimeLimit = 1e5;  // s
+
+}  // namespace
+
+Scenario LoadScenario(const std::filesystem::path& yaml_file) {
+  const std::string text = ReadFileContents(yaml_file);
+  const YamlNode root = YamlNode::Parse(text, yaml_file);
+  root.MapOf({"name", "robot", "environment", "start", "goal", "goals", "actions", "planner",
+              "time_limit", "seed"});
+  Scenario scenario;
+  scenario.name = root.At("name").String();
+  scenario.file = yaml_file;
+  scenario.content_hash = ContentHash({text});
+  scenario.robot_file = (yaml_file.parent_path() / root.At("robot").String()).lexically_normal();
+  scenario.environment = ReadEnvironment(root.At("environment"));
+  scenario.actions = ReadActions(root.At("actions"));
+  scenario.start = ReadStance(root.At("start"), scenario);
+  scenario.goals = ReadGoals(root, scenario);
+  if (const auto planner = root.Find("planner")) scenario.planner = ReadPlannerSettings(*planner);
+  if (const auto limit = root.Find("time_limit")) {
+    limit->Positive();
+    scenario.time_limit = limit->Number(0, kLongestTimeLimit);
+  }
+  if (const auto seed = root.Find("seed")) {
+    scenario.seed = seed->Integer(0, std::numeric_limits<std::uint64_t>::max());
+  }
+  return scenario;
+}
+
+void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot) {
+  std::vector<std::string> known;
+  for (const Gait& gait : robot.gaits) known.push_back(gait.name);
+  const auto check = [&](const std::string& action, const std::string& key) {
+    if (std::find(known.begin(), known.end(), action) != known.end()) return;
+    throw InputError(fmt::format("{}: {}: robot '{}' has no action '{}'{}", scenario.file.string(),
+                                 key, robot.name, action, DidYouMean(action, known)));
+  };
+  for (const std::string& action : scenario.actions) check(action, "actions");
+  check(scenario.start.action, "start.action");
+  for (const Stance& goal : scenario.goals) check(goal.action, "goal.action");
+}
+
+}  // namespace possibility::models

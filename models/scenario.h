@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "models/environment.h"
+#include "models/robot_model.h"
+
+namespace possibility::models {
+
+/// A stance on the ground: footprint frame of an action's nominal posture.
+struct Stance {
+  std::string action = "walk";
+  double x = 0;    ///< m
+  double y = 0;    ///< m
+  double z = 0;    ///< m, height of the ground
+  double yaw = 0;  ///< rad
+};
+
+struct PlannerSettings {
+  double step = 0.25;                 ///< longest ExtendTowards, weighted metric, m
+  double rotation_weight = 0.137;     ///< of an angle (rad) beside 1 - weight for a metre
+  int max_transitions_per_cycle = 5;  ///< Algorithm 2
+  int flood_after_cycles = 200;       ///< exploration cycles before asking whether a route exists
+  double flood_resolution = 0.1;      ///< m, cell of that flood
+};
+
+/// What to plan: robot, world, start, goals, actions and settings.
+struct Scenario {
+  std::string name;
+  std::filesystem::path file;
+  std::string content_hash;          ///< of the scenario YAML's bytes
+  std::filesystem::path robot_file;  ///< resolved against the scenario's folder
+  Environment environment;
+  Stance start;
+  std::vector<Stance> goals;
+  std::vector<std::string> actions;  ///< in the order in which they are explored
+  PlannerSettings planner;
+  double time_limit = 60;  ///< s
+  std::uint64_t seed = 1;
+};
+
+/// @throws InputError for anything malformed (see docs/file_formats.md).
+Scenario LoadScenario(const std::filesystem::path& yaml_file);
+
+/// Checks what only the robot can tell: every action of the scenario, its start and its goals is
+/// a gait of the robot.
+/// @throws InputError naming the scenario, the action and the nearest known name.
+void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot);
+
+}  // namespace possibility::models

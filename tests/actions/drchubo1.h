@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "actions/locomotion_model.h"
+#include "models/robot_model.h"
+#include "models/scenario.h"
+
+namespace possibility::actions {
+
+/// The shipped robot, loaded once per test program.
+inline const models::RobotModel& DrcHubo1() {
+  static const models::RobotModel robot = models::LoadRobotModel(
+      std::string(POSSIBILITY_SOURCE_DIR) + "/models/drchubo1/drchubo1.yaml");
+  return robot;
+}
+
+/// Its walking, crawling and transitions.
+inline const LocomotionModel& DrcHubo1Locomotion() {
+  static const LocomotionModel model = BuildLocomotionModel(DrcHubo1(), {"walk", "crawl"});
+  return model;
+}
+
+inline models::Scenario ShippedScenario(const std::string& name) {
+  return models::LoadScenario(std::string(POSSIBILITY_SOURCE_DIR) + "/experiments/scenarios/" +
+                              name + ".yaml");
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,274 @@
+#include "actions/plan.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "models/input_error.h"
+#include "tests/actions/random_plan.h"
+
+namespace possibility::actions {
+namespace {
+
+using nlohmann::json;
+using testing::RandomPlan;
+
+class PlanFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("possibility_plan_test_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+    std::mt19937 generator(11);
+    plan_ = RandomPlan(&generator);
+    plan_.robot_file = folder_ / "robots" / "robot.yaml";
+    plan_.scenario_file = folder_ / ".." / "scenario.yaml";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file() const { return folder_ / "plan.json"; }
+
+  std::string Written(const Plan& plan) const {
+    WritePlan(plan, file());
+    std::ifstream stream(file(), std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
+  /// The message of the InputError that reading `text` ends in; empty if it is accepted.
+  std::string Refusal(const std::string& text) const {
+    try {
+      ParsePlan(text, file());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  /// Expects that the plan changed by `change` is refused in one line that holds `words`.
+  void ExpectRefused(const std::function<void(json*)>& change, const std::string& words) const {
+    json document = json::parse(Written(plan_));
+    change(&document);
+    const std::string message = Refusal(document.dump());
+    EXPECT_NE(message.find(words), std::string::npos) << "got: " << message;
+    EXPECT_NE(message.find(file().string()), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+
+  std::filesystem::path folder_;
+  Plan plan_;
+};
+
+TEST_F(PlanFile, ComesBackAsWritten) {
+  WritePlan(plan_, file());
+  const Plan read = ReadPlan(folder_);
+  EXPECT_EQ(read.robot_file, std::filesystem::weakly_canonical(plan_.robot_file));
+  EXPECT_EQ(read.scenario_file, std::filesystem::weakly_canonical(plan_.scenario_file));
+  EXPECT_EQ(read.robot_hash, plan_.robot_hash);
+  EXPECT_EQ(read.scenario_hash, plan_.scenario_hash);
+  EXPECT_EQ(read.seed, plan_.seed);
+  EXPECT_EQ(read.goal, plan_.goal);
+  EXPECT_EQ(read.statistics, plan_.statistics);
+  EXPECT_EQ(read.joints, plan_.joints);
+  EXPECT_EQ(read.timings.motion_s, plan_.timings.motion_s);
+  EXPECT_EQ(read.duration(), plan_.duration());
+  ASSERT_EQ(read.segments.size(), plan_.segments.size());
+  for (std::size_t s = 0; s < plan_.segments.size(); ++s) {
+    EXPECT_EQ(read.segments[s].action, plan_.segments[s].action);
+    ASSERT_EQ(read.segments[s].phases.size(), plan_.segments[s].phases.size());
+    for (std::size_t p = 0; p < plan_.segments[s].phases.size(); ++p) {
+      const Phase& expected = plan_.segments[s].phases[p];
+      const Phase& phase = read.segments[s].phases[p];
+      EXPECT_EQ(phase.contacts, expected.contacts);
+      ASSERT_EQ(phase.knots.size(), expected.knots.size());
+      for (std::size_t k = 0; k < expected.knots.size(); ++k) {
+        EXPECT_EQ(phase.knots[k].t, expected.knots[k].t);
+        EXPECT_TRUE(phase.knots[k].q.isApprox(expected.knots[k].q, 1e-11));
+        EXPECT_TRUE(phase.knots[k].v.isApprox(expected.knots[k].v, 1e-11));
+        EXPECT_TRUE(phase.knots[k].a.isApprox(expected.knots[k].a, 1e-11));
+        EXPECT_TRUE(phase.knots[k].tau.isApprox(expected.knots[k].tau, 1e-11));
+        EXPECT_TRUE(phase.knots[k].forces.isApprox(expected.knots[k].forces, 1e-11));
+      }
+    }
+  }
+  ASSERT_EQ(read.explored.vertices.size(), 2u);
+  EXPECT_EQ(read.explored.vertices[1].position, plan_.explored.vertices[1].position);
+  EXPECT_EQ(read.explored.vertices[1].yaw, plan_.explored.vertices[1].yaw);
+  ASSERT_EQ(read.explored.edges.size(), 1u);
+  EXPECT_EQ(read.explored.edges[0].action, "walk");
+}
+
+TEST_F(PlanFile, IsTheSameBytesEachTimeAndAfterReading) {
+  const std::string first = Written(plan_);
+  EXPECT_EQ(Written(plan_), first);
+  EXPECT_EQ(Written(ReadPlan(file())), first);
+}
+
+TEST_F(PlanFile, NamesFilesRelativeToItsFolder) {
+  const json document = json::parse(Written(plan_));
+  EXPECT_EQ(document["robot"]["file"], "robots/robot.yaml");
+  EXPECT_EQ(document["scenario"]["file"], "../scenario.yaml");
+}
+
+TEST_F(PlanFile, SaysHowMuchFasterThanTheMotionPlanningWas) {
+  const json timings = json::parse(Written(plan_))["timings"];
+  EXPECT_NEAR(timings["plan_duration_s"].get<double>(), 0.8, 1e-12);
+  EXPECT_NEAR(timings["real_time_ratio"].get<double>(), 0.8 / 2.1, 1e-12);
+}
+
+TEST_F(PlanFile, MayHoldNoMotion) {
+  Plan plan;
+  const Plan read = ParsePlan(Written(plan), file());
+  EXPECT_TRUE(read.segments.empty());
+  EXPECT_EQ(read.duration(), 0);
+}
+
+TEST_F(PlanFile, LeavesNothingElseBehind) {
+  WritePlan(plan_, file());
+  const auto files = std::filesystem::directory_iterator(folder_);
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
+TEST_F(PlanFile, RefusesWhatCannotBeWritten) {
+  EXPECT_THROW(WritePlan(plan_, folder_ / "missing" / "plan.json"), InputError);
+  std::filesystem::create_directories(folder_ / "taken" / "plan.json" / "x");
+  EXPECT_THROW(WritePlan(plan_, folder_ / "taken" / "plan.json"), InputError);
+  const auto left = std::filesystem::directory_iterator(folder_ / "taken");
+  EXPECT_EQ(std::distance(begin(left), end(left)), 1);
+  plan_.segments[0].phases[0].knots[1].v[2] = std::nan("");
+  EXPECT_THROW(WritePlan(plan_, file()), std::invalid_argument);
+  EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
+TEST_F(PlanFile, RefusesNamesThatAreNotUtf8) {
+  plan_.segments[0].action = "\xff\xfe";
+  EXPECT_THROW(WritePlan(plan_, file()), InputError);
+}
+
+TEST_F(PlanFile, RefusesWhatIsNotThere) {
+  EXPECT_THROW(ReadPlan(folder_), InputError);
+  EXPECT_THROW(ReadPlan(folder_ / "nothing.json"), InputError);
+}
+
+TEST_F(PlanFile, RefusesEveryTruncation) {
+  const std::string text = Written(plan_);
+  for (std::size_t size = 0; size + 2 < text.size(); size += 97) {
+    const std::string message = Refusal(text.substr(0, size));
+    EXPECT_NE(message.find("not valid JSON"), std::string::npos) << size << ": " << message;
+  }
+}
+
+TEST_F(PlanFile, NamesTheKeyThatIsWrong) {
+  ExpectRefused([](json* d) { (*d)["format"] = "possibility-plan/2"; }, "format: \"possibility-");
+  ExpectRefused([](json* d) { d->erase("format"); }, "no \"format\"");
+  ExpectRefused([](json* d) { *d = json::array(); }, "no \"format\"");
+  ExpectRefused([](json* d) { d->erase("seed"); }, "missing key \"seed\"");
+  ExpectRefused([](json* d) { (*d)["sead"] = 1; }, "unknown key \"sead\"");
+  ExpectRefused([](json* d) { (*d)["seed"] = -1; }, "seed: expected an integer");
+  ExpectRefused([](json* d) { (*d)["goal"] = 0.5; }, "goal: expected an integer");
+  ExpectRefused([](json* d) { (*d)["goal"] = 1e10; }, "goal: expected an integer");
+  ExpectRefused([](json* d) { (*d)["robot"]["file"] = 3; }, "robot.file: expected a string");
+  ExpectRefused([](json* d) { (*d)["robot"]["file"] = std::string("a\0b", 3); },
+                "robot.file: expected a path");
+  ExpectRefused([](json* d) { (*d)["timings"]["graph_s"] = -1; }, "timings.graph_s: -1 s");
+  ExpectRefused([](json* d) { (*d)["timings"]["plan_duration_s"] = 7; },
+                "timings.plan_duration_s: 7 s, expected 0.8 s");
+  ExpectRefused([](json* d) { (*d)["statistics"]["vertices"] = "many"; },
+                "statistics.vertices: expected an integer");
+  ExpectRefused([](json* d) { (*d)["joints"].push_back("LAR"); },
+                "segments[0].phases[0].q[0]: expected 11 numbers, got 10");
+  ExpectRefused([](json* d) { (*d)["segments"][1]["phases"] = json::array(); },
+                "segments[1].phases: expected at least one phase");
+  ExpectRefused([](json* d) { (*d)["segments"][1]["start_s"] = 0; },
+                "segments[1].start_s: 0 s, expected 0.4 s");
+  ExpectRefused([](json* d) { (*d)["explored"]["edges"][0][1] = 2; },
+                "explored.edges[0][1]: expected an integer from 0 to 1");
+}
+
+TEST_F(PlanFile, NamesTheKnotThatIsWrong) {
+  const auto phase = [](json* d) -> json& { return (*d)["segments"][1]["phases"][0]; };
+  const std::string at = "segments[1].phases[0].";
+  ExpectRefused([&](json* d) { phase(d)["q"][1].push_back(0); }, at + "q[1]: expected 10 numbers");
+  ExpectRefused([&](json* d) { phase(d)["v"][2][4] = nullptr; }, at + "v[2][4]: expected a number");
+  ExpectRefused([&](json* d) { phase(d)["a"].erase(2); }, at + "a: expected 3 knots as in t");
+  ExpectRefused([&](json* d) { phase(d)["tau"][0] = "x"; }, at + "tau[0]: expected an array");
+  ExpectRefused([&](json* d) { phase(d)["forces"][1].erase(0); },
+                at + "forces[1]: expected 3 numbers per contact point, got 23");
+  ExpectRefused(
+      [&](json* d) {
+        phase(d)["forces"][1] = json::array({1, 2, 3});
+      },
+      at + "forces[1]: expected 24 numbers as in the first knot, got 3");
+  ExpectRefused([&](json* d) { phase(d)["t"][1] = phase(d)["t"][0]; }, at + "t[1]: 0.4 s");
+  ExpectRefused([&](json* d) { phase(d)["q"][0][0] = 5; }, at + "q[0]: expected a unit quaternion");
+  ExpectRefused([&](json* d) { phase(d)["contacts"][0] = 7; }, at + "contacts[0]: expected a str");
+  ExpectRefused([&](json* d) { phase(d).erase("contacts"); }, "missing key \"contacts\"");
+}
+
+TEST_F(PlanFile, RefusesOddJson) {
+  EXPECT_NE(Refusal("{\"format\": \"a\", \"format\": \"b\"}").find("twice"), std::string::npos);
+  EXPECT_NE(Refusal("").find("not valid JSON at byte"), std::string::npos);
+  EXPECT_NE(Refusal("{\"format\": 1e999}").find("out of range"), std::string::npos);
+  EXPECT_NE(Refusal("{\"format\": \"\xff\"}").find("not valid JSON"), std::string::npos);
+  EXPECT_NE(Refusal(std::string(1000000, '[')).find("not valid JSON"), std::string::npos);
+  EXPECT_NE(Refusal(std::string(100000, '[') + std::string(100000, ']')).find("no \"format\""),
+            std::string::npos);
+}
+
+TEST_F(PlanFile, NeverCrashesOnMutatedText) {
+  const std::string text = Written(plan_);
+  const std::string alphabet = "{}[],:\"0123456789-.eE\\ntrufalse \xc3\xff";
+  std::mt19937 generator(12);
+  std::uniform_int_distribution<std::size_t> place(0, text.size() - 1);
+  std::uniform_int_distribution<std::size_t> letter(0, alphabet.size() - 1);
+  std::uniform_int_distribution<int> kind(0, 2);
+  int refused = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::string mutated = text;
+    for (int change = 0; change <= trial % 3; ++change) {
+      const std::size_t at = std::min(place(generator), mutated.size() - 1);
+      const std::size_t length = std::min<std::size_t>(place(generator) % 40, mutated.size() - at);
+      switch (kind(generator)) {
+        case 0:
+          mutated[at] = alphabet[letter(generator)];
+          break;
+        case 1:
+          mutated.erase(at, length);
+          break;
+        default:
+          mutated.insert(place(generator) % mutated.size(), mutated.substr(at, length));
+      }
+    }
+    const std::string message = Refusal(mutated);  // anything but an InputError fails the test
+    refused += message.empty() ? 0 : 1;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+/// Every value of the document in turn, replaced by one of another kind.
+TEST_F(PlanFile, NeverCrashesOnMutatedValues) {
+  const json valid = json::parse(Written(plan_));
+  const json flat = valid.flatten();
+  const std::vector<json> replacements = {nullptr, -1,  1e300,         "text",
+                                          true,    0.5, json::array(), json::object()};
+  std::mt19937 generator(13);
+  for (const auto& [pointer, value] : flat.items()) {
+    if (generator() % 3 != 0) continue;
+    json document = valid;
+    for (json::json_pointer at(pointer); !at.empty(); at = at.parent_pointer()) {
+      document[at] = replacements[generator() % replacements.size()];
+      const std::string message = Refusal(document.dump());
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions

@@ -1,0 +1,110 @@
+#include "actions/planner.h"
+
+#include <gtest/gtest.h>
+
+#include "actions/verification_report.h"
+#include "models/input_error.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+namespace {
+
+PlanRequest Request(std::uint64_t seed, const std::vector<std::string>& actions) {
+  PlanRequest request;
+  request.seed = seed;
+  request.actions = actions;
+  return request;
+}
+
+void ExpectVerifiedPlans(const std::string& name, const std::vector<std::string>& actions,
+                         std::uint64_t seeds) {
+  const models::Scenario scenario = ShippedScenario(name);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(seed, actions));
+    ASSERT_EQ(result.status, PlanStatus::kFound) << "seed " << seed << ": " << result.explanation;
+    ASSERT_TRUE(result.verification.accepted()) << FormatText(result.verification);
+    EXPECT_FALSE(result.plan.segments.empty());
+    EXPECT_EQ(result.plan.statistics.count("routes refuted by verification"), 0u);
+  }
+}
+
+TEST(PlannerTest, WalksWhereAWalkingRouteExists) {
+  ExpectVerifiedPlans("three_routes_a", {"walk"}, 1);
+}
+
+TEST(PlannerTest, CrawlsUnderTheBars) {
+  ExpectVerifiedPlans("three_routes_b", {"walk", "crawl"}, 1);
+}
+
+TEST(PlannerTest, WalkingAloneIsExhaustedByTheBars) {
+  const PlanResult result =
+      PlanTraversal(DrcHubo1(), ShippedScenario("three_routes_b"), Request(1, {"walk"}));
+  EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
+  EXPECT_NE(result.explanation.find("bar"), std::string::npos) << result.explanation;
+  EXPECT_TRUE(result.plan.segments.empty());
+}
+
+TEST(PlannerTest, ASolidWallIsProvenInfeasible) {
+  const PlanResult result =
+      PlanTraversal(DrcHubo1(), ShippedScenario("closed_room"), Request(1, {}));
+  EXPECT_EQ(result.status, PlanStatus::kProvenInfeasible) << result.explanation;
+  EXPECT_NE(result.explanation.find("dividing_wall"), std::string::npos) << result.explanation;
+}
+
+TEST(PlannerTest, TheTimeLimitIsObeyed) {
+  PlanRequest request = Request(1, {});
+  request.time_limit = 0;
+  const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("three_routes_b"), request);
+  EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
+}
+
+TEST(PlannerTest, AStartThatIsTheGoalIsAPlanOfStanding) {
+  models::Scenario scenario = ShippedScenario("three_routes_a");
+  scenario.goals = {scenario.start};
+  const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(1, {"walk"}));
+  EXPECT_EQ(result.status, PlanStatus::kFound);
+  EXPECT_TRUE(result.verification.accepted()) << FormatText(result.verification);
+  EXPECT_LT(result.plan.duration(), 1);
+}
+
+std::string MessageOf(const models::Scenario& scenario, const PlanRequest& request) {
+  try {
+    PlanTraversal(DrcHubo1(), scenario, request);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PlannerTest, BadStancesAndActionsAreNamed) {
+  const models::Scenario good = ShippedScenario("three_routes_a");
+  models::Scenario scenario = good;
+  scenario.start.x = 5;
+  scenario.start.y = 1.4;
+  EXPECT_NE(MessageOf(scenario, Request(1, {})).find("start: the walk stance"), std::string::npos);
+  EXPECT_NE(MessageOf(scenario, Request(1, {})).find("upper_block"), std::string::npos);
+  scenario = good;
+  scenario.goals[0].z = 0.3;
+  EXPECT_NE(MessageOf(scenario, Request(1, {})).find("goals[0]: the walk stance"),
+            std::string::npos);
+  EXPECT_NE(MessageOf(scenario, Request(1, {})).find("off the ground"), std::string::npos);
+  scenario = good;
+  scenario.start.x = -20;
+  EXPECT_NE(MessageOf(scenario, Request(1, {})).find("outside environment.bounds"),
+            std::string::npos);
+  EXPECT_NE(MessageOf(good, Request(1, {"wlak"})).find("walk"), std::string::npos);
+  EXPECT_NE(MessageOf(good, Request(1, {"crawl"})).find("start.action"), std::string::npos);
+}
+
+TEST(PlannerLong, FiftySeedsOfThreeRoutesAWalking) {
+  ExpectVerifiedPlans("three_routes_a", {"walk"}, 50);
+}
+TEST(PlannerLong, FiftySeedsOfThreeRoutesAWalkingAndCrawling) {
+  ExpectVerifiedPlans("three_routes_a", {"walk", "crawl"}, 50);
+}
+TEST(PlannerLong, FiftySeedsOfThreeRoutesBWalkingAndCrawling) {
+  ExpectVerifiedPlans("three_routes_b", {"walk", "crawl"}, 50);
+}
+
+}  // namespace
+}  // namespace possibility::actions

@@ -1,0 +1,55 @@
+#include "actions/signal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace possibility::actions {
+namespace {
+
+constexpr double kStep = 1e-5;
+
+void ExpectDerivativesMatch(ScalarSignal (*profile)(double, double), double duration) {
+  for (double t = 2 * kStep; t < duration - 2 * kStep; t += duration / 37) {
+    const ScalarSignal s = profile(t, duration);
+    const ScalarSignal before = profile(t - kStep, duration);
+    const ScalarSignal after = profile(t + kStep, duration);
+    EXPECT_NEAR(s.rate, (after.value - before.value) / (2 * kStep), 1e-7);
+    EXPECT_NEAR(s.acceleration, (after.rate - before.rate) / (2 * kStep), 1e-6);
+  }
+}
+
+TEST(SignalTest, DerivativesAreThoseOfTheValue) {
+  ExpectDerivativesMatch(&RestToRest, 0.7);
+  ExpectDerivativesMatch(&Bump, 0.7);
+}
+
+TEST(SignalTest, RestToRestGoesFromZeroToOneAtRest) {
+  for (const double t : {0.0, 2.5}) {
+    const ScalarSignal s = RestToRest(t, 2.5);
+    EXPECT_DOUBLE_EQ(s.value, t > 0 ? 1 : 0);
+    EXPECT_DOUBLE_EQ(s.rate, 0);
+    EXPECT_DOUBLE_EQ(s.acceleration, 0);
+  }
+}
+
+TEST(SignalTest, BumpIsOneInTheMiddleAndAtRestAtBothEnds) {
+  EXPECT_DOUBLE_EQ(Bump(0.5, 1).value, 1);
+  for (const double t : {0.0, 1.0}) {
+    EXPECT_DOUBLE_EQ(Bump(t, 1).value, 0);
+    EXPECT_DOUBLE_EQ(Bump(t, 1).rate, 0);
+    EXPECT_DOUBLE_EQ(Bump(t, 1).acceleration, 0);
+  }
+}
+
+TEST(SignalTest, DurationGivesThePeakAccelerationAskedFor) {
+  const double duration = RestToRestDuration(0.13, 0.6);
+  double peak = 0;
+  for (double t = 0; t <= duration; t += duration / 10000) {
+    peak = std::max(peak, std::abs(Blend(0, 0.13, RestToRest(t, duration)).acceleration));
+  }
+  EXPECT_NEAR(peak, 0.6, 1e-6);
+}
+
+}  // namespace
+}  // namespace possibility::actions

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <random>
+#include <string>
+
+#include "models/robot_model.h"
+
+namespace possibility::dynamics {
+
+inline double Uniform(std::mt19937* random, double lower, double upper) {
+  return std::uniform_real_distribution<double>(lower, upper)(*random);
+}
+
+inline Eigen::VectorXd RandomVector(std::mt19937* random, int size, double bound) {
+  Eigen::VectorXd v(size);
+  for (double& x : v) x = Uniform(random, -bound, bound);
+  return v;
+}
+
+inline Eigen::Isometry3d RandomPose(std::mt19937* random, double distance) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  const Eigen::Vector4d q = RandomVector(random, 4, 1);
+  X.linear() = Eigen::Quaterniond(q).normalized().toRotationMatrix();
+  X.translation() = RandomVector(random, 3, distance);
+  return X;
+}
+
+/// A solid ellipsoid, anywhere near the link's origin.
+inline models::Inertial RandomInertial(std::mt19937* random) {
+  models::Inertial inertial;
+  inertial.mass = Uniform(random, 0.5, 8);
+  inertial.p_LC = RandomVector(random, 3, 0.2);
+  const Eigen::Vector3d squares = RandomVector(random, 3, 0.2).array().square() + 0.0025;
+  const Eigen::Matrix3d R = RandomPose(random, 0).linear();
+  const Eigen::Vector3d moments =
+      inertial.mass / 5 *
+      Eigen::Vector3d(squares.y() + squares.z(), squares.z() + squares.x(),
+                      squares.x() + squares.y());
+  const Eigen::Matrix3d I = R * moments.asDiagonal() * R.transpose();
+  inertial.I_LC = (I + I.transpose()) / 2;
+  return inertial;
+}
+
+/// A tree of random shape with every kind of joint.
+inline models::RobotModel RandomTree(std::mt19937* random, int num_joints) {
+  models::RobotModel model;
+  model.name = "random tree";
+  model.links.resize(num_joints + 1);
+  for (models::Link& link : model.links) link.inertial = RandomInertial(random);
+  for (int i = 0; i < num_joints; ++i) {
+    models::Joint joint;
+    joint.name = "joint " + std::to_string(i);
+    const int kind = static_cast<int>((*random)() % 4);
+    joint.type = kind == 0   ? models::JointType::kPrismatic
+                 : kind == 1 ? models::JointType::kContinuous
+                             : models::JointType::kRevolute;
+    // Mostly chains, with a branch now and then.
+    joint.parent = (*random)() % 3 == 0 ? static_cast<int>((*random)() % (i + 1)) : i;
+    joint.X_PJ = RandomPose(random, 0.3);
+    const Eigen::Vector3d direction = RandomVector(random, 3, 1);
+    joint.axis = direction.normalized();
+    joint.lower = -2;
+    joint.upper = 2;
+    joint.velocity = 10;
+    joint.effort = 500;
+    model.joints.push_back(joint);
+  }
+  return model;
+}
+
+inline Eigen::VectorXd RandomConfiguration(std::mt19937* random, const models::RobotModel& model) {
+  Eigen::VectorXd q = RandomVector(random, model.nq(), 2);
+  q.head<4>().normalize();
+  return q;
+}
+
+/// The configuration after moving along constant v for time t; `v` as in RobotModel.
+inline Eigen::VectorXd Moved(const Eigen::VectorXd& q, const Eigen::VectorXd& v, double t) {
+  Eigen::VectorXd moved = q;
+  const double angle = v.head<3>().norm() * t;
+  if (angle != 0) {
+    const Eigen::Quaterniond turn(
+        Eigen::AngleAxisd(angle, Eigen::Vector3d(v.head<3>()).normalized()));
+    const Eigen::Quaterniond after = turn * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    moved.head<4>() << after.w(), after.x(), after.y(), after.z();
+  }
+  moved.tail(q.size() - 4) += t * v.tail(v.size() - 3);
+  return moved;
+}
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,199 @@
+// The built program as its users run it: exit codes, and what goes to which stream.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "actions/plan.h"
+#include "models/robot_model.h"
+#include "models/scenario.h"
+
+namespace possibility::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ReadText(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Runs the program in the test's own folder; `arguments` are words for the shell.
+  Outcome Run(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" POSSIBILITY_PROGRAM "' " + arguments + " 2>stderr.txt";
+    Outcome outcome;
+    FILE* pipe = ::popen(command.c_str(), "r");
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+      outcome.out += static_cast<char>(c);
+    }
+    const int status = ::pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.err = ReadText(folder_ / "stderr.txt");
+    return outcome;
+  }
+
+  /// plan.json of the robot standing still at the scenario's start.
+  void WriteStandingPlan() const {
+    const models::Scenario scenario = models::LoadScenario(scenario_file_);
+    const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
+    actions::Plan plan;
+    plan.robot_file = robot.file;
+    plan.robot_hash = robot.content_hash;
+    plan.scenario_file = scenario.file;
+    plan.scenario_hash = scenario.content_hash;
+    for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
+    actions::Phase phase;
+    Eigen::Index num_points = 0;
+    for (const models::GaitLimb& limb : robot.GaitNamed("walk").limbs) {
+      phase.contacts.push_back(robot.contacts[limb.contact].name);
+      num_points += static_cast<Eigen::Index>(robot.contacts[limb.contact].points.size());
+    }
+    for (const double t : {0.0, 0.5, 1.0}) {
+      phase.knots.push_back({t,
+                             robot.Configuration(robot.GaitNamed("walk").posture, scenario.start.x,
+                                                 scenario.start.y, scenario.start.yaw),
+                             Eigen::VectorXd::Zero(robot.nv()), Eigen::VectorXd::Zero(robot.nv()),
+                             Eigen::VectorXd::Zero(robot.num_joints()),
+                             Eigen::Matrix3Xd::Zero(3, num_points)});
+    }
+    plan.segments = {{"walk", {phase}}};
+    actions::WritePlan(plan, folder_ / "plan.json");
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("possibility_program_" + std::to_string(::getpid()));
+  const fs::path scenario_file_ =
+      fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/scenarios/three_routes_b.yaml";
+};
+
+TEST_F(Program, HelpIsNoError) {
+  for (const char* arguments :
+       {"--help", "plan --help", "verify --help", "view --help", "export --help"}) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.code, 0) << arguments;
+    EXPECT_FALSE(outcome.out.empty()) << arguments;
+    EXPECT_TRUE(outcome.err.empty()) << arguments << outcome.err;
+  }
+}
+
+TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
+  const std::string scenario = scenario_file_.string();
+  std::ofstream(folder_ / "broken.yaml") << "name: [unclosed\n";
+  std::ofstream(folder_ / "plan.json") << "{\"format\": \"possibility-plan/1\"";
+  std::ofstream(folder_ / "file") << "";
+  const std::string cases[] = {
+      "",
+      "fly",
+      "plan",
+      "plan a.yaml b.yaml",
+      "plan --no-such-option " + scenario,
+      "plan no_such_file.yaml",
+      "plan broken.yaml",
+      "plan .",
+      "plan " + scenario + " --seed -1",
+      "plan " + scenario + " --seed 1.5",
+      "plan " + scenario + " --seed",
+      "plan " + scenario + " --threads 0",
+      "plan " + scenario + " --threads 257",
+      "plan " + scenario + " --time-limit 0",
+      "plan " + scenario + " --time-limit nan",
+      "plan " + scenario + " --time-limit inf",
+      "plan " + scenario + " --actions walk,,crawl",
+      "plan " + scenario + " --actions fly --out out",
+      "plan " + scenario + " --out file",
+      "plan " + scenario + " --out file/below",
+      "verify",
+      "verify no_such_folder",
+      "verify plan.json",
+      "verify .",
+      "view plan.json",
+      "view plan.json --speed 2",
+      "export plan.json",
+      "export plan.json --csv tables",
+      "export plan.json --csv tables --step 0",
+  };
+  for (const std::string& arguments : cases) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_GT(outcome.err.size(), 10u) << arguments;
+  }
+}
+
+TEST_F(Program, JsonErrorsAreOneObject) {
+  for (const char* arguments : {"plan no_such_file.yaml --json", "verify . --json"}) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.code, 1);
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["status"], "error");
+    EXPECT_EQ(json["error"].get<std::string>() + "\n", outcome.err);
+  }
+}
+
+TEST_F(Program, VerifyRejectsAPlanThatBreaksTheLawsOfMotion) {
+  WriteStandingPlan();
+  const Outcome text = Run("verify plan.json");
+  EXPECT_EQ(text.code, 3) << text.err;
+  EXPECT_FALSE(text.out.empty());
+  const Outcome json = Run("verify . --json");
+  EXPECT_EQ(json.code, 3);
+  EXPECT_FALSE(nlohmann::json::parse(json.out)["accepted"]);
+}
+
+TEST_F(Program, ViewWritesThePageBesideThePlanOrWhereTold) {
+  WriteStandingPlan();
+  EXPECT_EQ(Run("view .").code, 0);
+  const std::string page = ReadText(folder_ / "plan.html");
+  EXPECT_NE(page.find("three_routes_b"), std::string::npos);
+  EXPECT_EQ(Run("view plan.json --out elsewhere.html").code, 0);
+  EXPECT_EQ(ReadText(folder_ / "elsewhere.html"), page);
+  EXPECT_EQ(Run("view plan.json --out no_such_folder/page.html").code, 1);
+}
+
+TEST_F(Program, ExportWritesBothTables) {
+  WriteStandingPlan();
+  EXPECT_EQ(Run("export . --csv tables/deep").code, 0);
+  const std::string trajectory = ReadText(folder_ / "tables/deep/trajectory.csv");
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 1 + 3);
+  EXPECT_EQ(Run("export . --csv tables --step 0.1").code, 0);
+  const std::string finer = ReadText(folder_ / "tables/trajectory.csv");
+  EXPECT_EQ(std::count(finer.begin(), finer.end(), '\n'), 1 + 11);
+  EXPECT_TRUE(fs::exists(folder_ / "tables/contact_forces.csv"));
+}
+
+TEST_F(Program, APlanForAnotherRobotIsRefusedByView) {
+  WriteStandingPlan();
+  auto json = nlohmann::json::parse(ReadText(folder_ / "plan.json"));
+  json["segments"][0]["phases"][0]["contacts"][0] = "third_foot";
+  std::ofstream(folder_ / "plan.json") << json;
+  const Outcome outcome = Run("view plan.json");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+}  // namespace
+}  // namespace possibility::experiments

@@ -1,0 +1,308 @@
+// PossibilityGraph, Reachability, VertexIndex, ActionGraph and the queues against brute force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "graph/action_graph.h"
+#include "graph/possibility_graph.h"
+#include "graph/random.h"
+#include "graph/sorted_vertex_queue.h"
+#include "graph/transition_queue.h"
+#include "graph/vertex_index.h"
+#include "tests/graph/stick_figure.h"
+
+namespace possibility::graph {
+namespace {
+
+using test::MakePoint;
+
+/// An action whose edges take as long as a hash of their ends says; sometimes no time at all.
+class TimedAction : public test::BandAction {
+ public:
+  TimedAction() : BandAction("timed", {0, 1}, 0.5, {}) {}
+  double ExpectedDuration(const PointPair& edge) const override {
+    return duration >= 0 ? std::floor(std::fmod(edge.from[0] * 37 + edge.to[0] * 91, 7)) : duration;
+  }
+  double duration = 0;
+};
+
+class RandomGraph : public ::testing::Test {
+ protected:
+  static constexpr int kVertices = 40;
+
+  void Build(int num_goals) {
+    std::vector<Point> goals;
+    for (int g = 0; g < num_goals; ++g) {
+      goals.push_back(MakePoint(1 + g, 0));
+    }
+    graph_ = std::make_unique<PossibilityGraph>(std::vector<std::shared_ptr<const Action>>{action_},
+                                                &room_, MakePoint(0, 0), goals);
+    for (int i = 1 + num_goals; i < kVertices; ++i) {
+      ASSERT_EQ(graph_->VertexAt(MakePoint(i, 0)), i);
+    }
+  }
+
+  int Random(int count) { return static_cast<int>(UniformIndex(count, &generator_)); }
+
+  void AddRandomEdge() {
+    const VertexId from = Random(kVertices);
+    const VertexId to = Random(kVertices);
+    graph_->Append(0, {{from, to, Random(3) == 0}});
+  }
+
+  std::vector<bool> BruteForceReached(const std::vector<VertexId>& roots, bool upstream) const {
+    std::vector<bool> reached(kVertices, false);
+    for (const VertexId root : roots) {
+      reached[root] = true;
+    }
+    const DirectedGraph& topology = graph_->topology();
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (EdgeId edge = 0; edge < topology.num_edges(); ++edge) {
+        const VertexId near = upstream ? topology.to(edge) : topology.from(edge);
+        const VertexId far = upstream ? topology.from(edge) : topology.to(edge);
+        if (!topology.removed(edge) && reached[near] && !reached[far]) {
+          reached[far] = true;
+          changed = true;
+        }
+      }
+    }
+    return reached;
+  }
+
+  RandomGenerator generator_{7};
+  test::Room room_;
+  std::shared_ptr<TimedAction> action_ = std::make_shared<TimedAction>();
+  std::unique_ptr<PossibilityGraph> graph_;
+};
+
+TEST_F(RandomGraph, ReachabilityIsThatOfBruteForceAfterEveryChange) {
+  for (int round = 0; round < 5; ++round) {
+    Build(1 + round);
+    int changes_of_reach = 0;
+    std::vector<bool> before;
+    for (int step = 0; step < 6000; ++step) {
+      const int num_edges = graph_->topology().num_edges();
+      const int what = Random(3);
+      if (num_edges < 160 && (what == 0 || num_edges == 0)) {
+        AddRandomEdge();
+      } else if (what == 1) {
+        graph_->Reinsert(Random(num_edges));
+      } else {
+        graph_->Remove(Random(num_edges));
+      }
+      const auto down = BruteForceReached({graph_->start()}, false);
+      const auto up = BruteForceReached(graph_->goals(), true);
+      for (VertexId v = 0; v < kVertices; ++v) {
+        ASSERT_EQ(graph_->DownstreamFromStart(v), down[v]) << "step " << step << " vertex " << v;
+        ASSERT_EQ(graph_->UpstreamFromGoal(v), up[v]) << "step " << step << " vertex " << v;
+      }
+      changes_of_reach += down != before;
+      before = down;
+    }
+    EXPECT_GT(changes_of_reach, 100);
+  }
+}
+
+TEST_F(RandomGraph, ShortestPathIsThatOfBellmanFord) {
+  int connected = 0;
+  int unconnected = 0;
+  for (int round = 0; round < 200; ++round) {
+    Build(2);
+    const int num_edges = 20 + Random(80);
+    for (int i = 0; i < num_edges; ++i) {
+      AddRandomEdge();
+    }
+    for (int i = 0; i < num_edges / 4; ++i) {
+      graph_->Remove(Random(graph_->topology().num_edges()));
+    }
+    std::vector<double> cost(kVertices, std::numeric_limits<double>::infinity());
+    cost[0] = 0;
+    for (int sweep = 0; sweep < kVertices; ++sweep) {
+      for (EdgeId edge = 0; edge < graph_->topology().num_edges(); ++edge) {
+        if (!graph_->topology().removed(edge)) {
+          double& at_end = cost[graph_->topology().to(edge)];
+          at_end = std::min(at_end, cost[graph_->topology().from(edge)] + graph_->duration(edge));
+        }
+      }
+    }
+    for (const VertexId goal : graph_->goals()) {
+      const auto path = graph_->ShortestPath(0, goal);
+      ASSERT_EQ(path.has_value(), std::isfinite(cost[goal]));
+      ASSERT_EQ(path.has_value(), graph_->Connected(goal));
+      if (!path) {
+        ++unconnected;
+        continue;
+      }
+      ++connected;
+      double duration = 0;
+      VertexId at = 0;
+      for (const EdgeId edge : *path) {
+        ASSERT_EQ(graph_->topology().from(edge), at);
+        ASSERT_FALSE(graph_->topology().removed(edge));
+        at = graph_->topology().to(edge);
+        duration += graph_->duration(edge);
+      }
+      EXPECT_EQ(at, goal);
+      EXPECT_DOUBLE_EQ(duration, cost[goal]);
+    }
+  }
+  EXPECT_GT(connected, 50);
+  EXPECT_GT(unconnected, 50);
+}
+
+TEST_F(RandomGraph, ExpectedDurationsMustBeFiniteAndNotNegative) {
+  Build(1);
+  for (const double bad : {-1.0, -std::numeric_limits<double>::infinity()}) {
+    action_->duration = bad;
+    EXPECT_THROW(graph_->Append(0, {{0, 1, false}}), std::invalid_argument);
+  }
+}
+
+TEST_F(RandomGraph, AnEdgeAddedTwiceIsOneEdgeAndStaysRemoved) {
+  Build(1);
+  graph_->Append(0, {{0, 1, true}});
+  ASSERT_EQ(graph_->topology().num_edges(), 2);
+  EXPECT_EQ(graph_->opposite(0), 1);
+  graph_->Remove(0);
+  graph_->Append(0, {{0, 1, true}});
+  EXPECT_EQ(graph_->topology().num_edges(), 2);
+  EXPECT_FALSE(graph_->Connected(1));
+}
+
+TEST_F(RandomGraph, SubGraphsAreTheWeakComponentsOfTheEdgesThatAreLeft) {
+  for (int round = 0; round < 30; ++round) {
+    Build(1);
+    ActionGraph action_graph(0, graph_.get());
+    NewElements all;
+    all.vertices.resize(kVertices);
+    std::iota(all.vertices.begin(), all.vertices.end(), 0);
+    action_graph.Append(all);
+    for (int i = 0; i < 60; ++i) {
+      const NewEdge edge = {Random(kVertices), Random(kVertices), round % 2 == 0};
+      action_graph.Append({{}, {edge}});
+      graph_->Append(0, {edge});
+      if (i % 3 == 0) {
+        const EdgeId removed = Random(graph_->topology().num_edges());
+        graph_->Remove(removed);
+        if (Random(4) == 0) {
+          graph_->Reinsert(removed);
+        }
+      }
+      std::vector<int> component(kVertices);
+      std::iota(component.begin(), component.end(), 0);
+      for (EdgeId e = 0; e < graph_->topology().num_edges(); ++e) {
+        if (!graph_->topology().removed(e)) {
+          const int kept = component[graph_->topology().from(e)];
+          const int gone = component[graph_->topology().to(e)];
+          std::replace(component.begin(), component.end(), gone, kept);
+        }
+      }
+      std::set<int> members;
+      for (const SubGraph& g : action_graph.SubGraphs()) {
+        for (const VertexId v : g.vertices()) {
+          EXPECT_TRUE(members.insert(v).second);
+          EXPECT_EQ(component[v], component[g.vertices()[0]]);
+        }
+      }
+      EXPECT_EQ(members.size(), kVertices);
+      EXPECT_EQ(action_graph.SubGraphs().size(),
+                std::set<int>(component.begin(), component.end()).size());
+    }
+  }
+}
+
+TEST(SubGraph, FindClosestVertexToIsTheLeastOfAllDistances) {
+  RandomGenerator generator(3);
+  const test::Room room;
+  SubGraph subgraph;
+  std::vector<Point> points;
+  for (int i = 0; i < 300; ++i) {
+    points.push_back(room.RandomSample(&generator));
+    subgraph.AddVertex(1000 + i, points.back());
+    const Point target = room.RandomSample(&generator);
+    const auto closest = subgraph.FindClosestVertexTo(target, room);
+    EXPECT_DOUBLE_EQ(closest.distance, (points[closest.vertex - 1000] - target).norm());
+    for (const Point& point : points) {
+      EXPECT_LE(closest.distance, (point - target).norm());
+    }
+  }
+}
+
+TEST(VertexIndex, FindsExactlyThePointsCloserThanTheTolerance) {
+  RandomGenerator generator(5);
+  const test::Room room;
+  VertexIndex index(&room, MakePoint(0.5, 0.5));
+  std::vector<Point> points;
+  for (int i = 0; i < 500; ++i) {
+    points.push_back(room.RandomSample(&generator));
+    index.Insert(i, points.back());
+  }
+  for (int i = 0; i < 500; ++i) {
+    const double angle = UniformReal(0, 6.28, &generator);
+    const Point direction = MakePoint(std::cos(angle), std::sin(angle));
+    EXPECT_EQ(index.Find(points[i]), i);
+    EXPECT_EQ(index.Find(points[i] + 0.9e-9 * direction), i);
+    EXPECT_EQ(index.Find(points[i] + 1.1e-9 * direction), std::nullopt);
+  }
+}
+
+TEST(SortedVertexQueue, PopsByDistanceThenNumber) {
+  SortedVertexQueue queue;
+  queue.Insert(2, 5);
+  queue.Insert(1, 9);
+  queue.Insert(2, 3);
+  EXPECT_EQ(queue.PopFront(), 9);
+  EXPECT_EQ(queue.Front(), 3);
+  EXPECT_EQ(queue.PopFront(), 3);
+  EXPECT_EQ(queue.PopFront(), 5);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(TransitionQueue, PopsEveryVertexOnceInRandomOrder) {
+  RandomGenerator generator(1);
+  std::vector<int> first_pops(5, 0);
+  for (int round = 0; round < 5000; ++round) {
+    TransitionQueue queue;
+    for (const VertexId v : {0, 1, 2, 3, 4, 3, 0}) {
+      queue.Insert(v);
+    }
+    EXPECT_EQ(queue.size(), 5);
+    ++first_pops[*queue.PopRandom(&generator)];
+    std::set<VertexId> rest;
+    while (const auto v = queue.PopRandom(&generator)) {
+      rest.insert(*v);
+      queue.Insert(*v);
+    }
+    EXPECT_EQ(rest.size(), 4);
+  }
+  for (const int pops : first_pops) {
+    EXPECT_NEAR(pops, 1000, 150);  // five standard deviations
+  }
+}
+
+TEST(Random, IsUniform) {
+  RandomGenerator generator(11);
+  std::vector<int> hits(7, 0);
+  double sum = 0;
+  for (int i = 0; i < 70000; ++i) {
+    ++hits[UniformIndex(7, &generator)];
+    const double real = UniformReal(-1, 3, &generator);
+    ASSERT_TRUE(real >= -1 && real < 3);
+    sum += real;
+  }
+  for (const int hit : hits) {
+    EXPECT_NEAR(hit, 10000, 500);
+  }
+  EXPECT_NEAR(sum / 70000, 1, 0.03);
+}
+
+}  // namespace
+}  // namespace possibility::graph

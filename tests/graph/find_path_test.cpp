@@ -1,0 +1,389 @@
+#include "graph/find_path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/graph/scripted_job.h"
+#include "tests/graph/stick_figure.h"
+
+namespace possibility::graph {
+namespace {
+
+using test::BandAction;
+using test::Ending;
+using test::Goal;
+using test::Interval;
+using test::MakeCrawl;
+using test::MakePoint;
+using test::MakeWalk;
+using test::ScriptedJob;
+using test::Start;
+
+using Actions = std::vector<std::shared_ptr<const Action>>;
+
+const test::Room kRoom;
+
+void ExpectValidPath(const PathResult& result, const Point& start, const std::vector<Point>& goals,
+                     const Actions& actions) {
+  ASSERT_EQ(result.status, PathStatus::kFound);
+  ASSERT_FALSE(result.path.empty());
+  EXPECT_EQ(result.path.front().points.from, start);
+  EXPECT_EQ(result.path.back().points.to, goals.at(result.goal));
+  for (std::size_t i = 0; i < result.path.size(); ++i) {
+    const PathEdge& edge = result.path[i];
+    EXPECT_TRUE(actions[edge.action]->CS(edge.points));
+    if (i > 0) {
+      EXPECT_EQ(edge.points.from, result.path[i - 1].points.to);
+    }
+  }
+}
+
+/// Walks where jobs decide: edges that lie within a stretch of x meet only necessary conditions.
+class UncertainAction : public BandAction {
+ public:
+  using Script = std::function<std::unique_ptr<ConfirmationJob>(const PointPair&)>;
+  UncertainAction(const std::string& name, Interval band, double height, Interval uncertain,
+                  Script script)
+      : BandAction(name, band, height, {}), uncertain_(uncertain), script_(std::move(script)) {}
+  bool CS(const PointPair& edge) const override {
+    return CN(edge) && !uncertain_.Overlaps(edge.from[0], edge.to[0]);
+  }
+  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const override {
+    return script_(edge);
+  }
+  bool Uncertain(const PointPair& edge) const {
+    return uncertain_.Overlaps(edge.from[0], edge.to[0]);
+  }
+
+ private:
+  Interval uncertain_;
+  Script script_;
+};
+
+UncertainAction::Script Always(Ending ending, int slices) {
+  return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, slices); };
+}
+
+/// A walk that can only be done towards greater x.
+class OneWayAction : public BandAction {
+ public:
+  OneWayAction() : BandAction("one way", {0.7, 1.0}, 0.85, {}) {}
+  bool CN(const PointPair& edge) const override {
+    return BandAction::CN(edge) && edge.to[0] >= edge.from[0];
+  }
+  bool CS(const PointPair& edge) const override { return CN(edge); }
+  bool IsReversible() const override { return false; }
+};
+
+TEST(StickFigure, CrawlsUnderTheBarWithEverySeed) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    FindPathSettings settings{.time_limit = 10, .seed = seed};
+    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+    ExpectValidPath(result, Start(), {Goal()}, actions);
+    bool crawled = false;
+    for (const PathEdge& edge : result.path) {
+      crawled = crawled || edge.points.from[1] <= 0.4;
+    }
+    EXPECT_TRUE(crawled);
+    EXPECT_GT(result.counters.at("crawl: transition made"), 0);
+    EXPECT_GT(result.counters.at("edges confirmed by C_S"), 0);
+    EXPECT_EQ(result.statistics.vertices, static_cast<int>(result.graph.vertices.size()));
+    for (const GraphSnapshot::Edge& edge : result.graph.edges) {
+      EXPECT_TRUE(actions[edge.action]->CN(
+          PointPair{result.graph.vertices[edge.from], result.graph.vertices[edge.to]}));
+    }
+  }
+}
+
+TEST(StickFigure, NoTwoVerticesAreTheSamePoint) {
+  const PathResult result = FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom,
+                                     {.time_limit = 10, .max_cycles = 60});
+  const auto& vertices = result.graph.vertices;
+  ASSERT_GT(vertices.size(), 100);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE((vertices[i] - vertices[j]).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(StickFigure, WithoutPassageTheOracleEndsTheSearch) {
+  for (const auto& [answer, status] :
+       {std::pair{RouteOracleAnswer::kExhausted, PathStatus::kExhausted},
+        std::pair{RouteOracleAnswer::kProvenInfeasible, PathStatus::kProvenInfeasible},
+        std::pair{RouteOracleAnswer::kUnknown, PathStatus::kTimeLimit}}) {
+    int asked = 0;
+    FindPathSettings settings{.time_limit = 10, .max_cycles = 80, .ask_oracle_after = 50};
+    settings.oracle = [&asked, answer = answer] {
+      ++asked;
+      return answer;
+    };
+    const PathResult result =
+        FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom, settings);
+    EXPECT_EQ(result.status, status);
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(result.statistics.cycles, answer == RouteOracleAnswer::kUnknown ? 80 : 50);
+    EXPECT_TRUE(result.path.empty());
+    EXPECT_EQ(result.goal, -1);
+  }
+}
+
+TEST(StickFigure, TheSameSeedGivesTheSameResult) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  const auto run = [&](std::uint64_t seed) {
+    return FindPath(Start(), {Goal()}, actions, kRoom, {.time_limit = 10, .seed = seed});
+  };
+  const PathResult a = run(3);
+  const PathResult b = run(3);
+  ASSERT_EQ(a.graph.vertices.size(), b.graph.vertices.size());
+  for (std::size_t i = 0; i < a.graph.vertices.size(); ++i) {
+    EXPECT_EQ(a.graph.vertices[i], b.graph.vertices[i]);
+  }
+  ASSERT_EQ(a.graph.edges.size(), b.graph.edges.size());
+  for (std::size_t i = 0; i < a.graph.edges.size(); ++i) {
+    EXPECT_EQ(a.graph.edges[i].from, b.graph.edges[i].from);
+    EXPECT_EQ(a.graph.edges[i].to, b.graph.edges[i].to);
+    EXPECT_EQ(a.graph.edges[i].action, b.graph.edges[i].action);
+  }
+  ASSERT_EQ(a.path.size(), b.path.size());
+  for (std::size_t i = 0; i < a.path.size(); ++i) {
+    EXPECT_EQ(a.path[i].points.to, b.path[i].points.to);
+  }
+  EXPECT_EQ(a.counters, b.counters);
+  EXPECT_NE(a.graph.vertices.size(), run(4).graph.vertices.size());
+}
+
+TEST(FindPath, AnyReachableGoalWillDo) {
+  const Point unreachable = MakePoint(5, 0.05);
+  const std::vector<Point> goals = {unreachable, Goal(), MakePoint(3, 0.3)};
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const PathResult result =
+        FindPath(Start(), goals, actions, kRoom, {.time_limit = 10, .seed = seed});
+    ExpectValidPath(result, Start(), goals, actions);
+    EXPECT_NE(result.goal, 0);
+  }
+}
+
+TEST(FindPath, AStartThatIsAGoalNeedsNoEdge) {
+  const PathResult result =
+      FindPath(Start(), {Goal(), Start()}, {MakeWalk()}, kRoom, {.time_limit = 10});
+  EXPECT_EQ(result.status, PathStatus::kFound);
+  EXPECT_EQ(result.goal, 1);
+  EXPECT_TRUE(result.path.empty());
+}
+
+TEST(FindPath, IrreversibleActionsGrowFromBothEndsInTheDirectionOfExecution) {
+  const Actions actions = {std::make_shared<OneWayAction>()};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PathResult there =
+        FindPath(Start(), {Goal()}, actions, kRoom, {.time_limit = 10, .seed = seed});
+    ExpectValidPath(there, Start(), {Goal()}, actions);
+    const PathResult back = FindPath(Goal(), {Start()}, actions, kRoom,
+                                     {.time_limit = 10, .seed = seed, .max_cycles = 100});
+    EXPECT_EQ(back.status, PathStatus::kTimeLimit);
+  }
+}
+
+/// The least overshoot of a few searches, s: the machine may be busy with something else.
+double LeastOvershoot(const Actions& actions, const FindPathSettings& settings) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int attempt = 0; attempt < 10 && least >= 0.05; ++attempt) {
+    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+    EXPECT_EQ(result.status, PathStatus::kTimeLimit);
+    EXPECT_GE(result.seconds, settings.time_limit);
+    least = std::min(least, result.seconds - settings.time_limit);
+  }
+  return least;
+}
+
+TEST(FindPath, TheTimeLimitIsObeyed) {
+  for (const double limit : {0.0, 0.1, 0.3}) {
+    EXPECT_LT(LeastOvershoot({MakeWalk(), MakeCrawl(true)}, {.time_limit = limit}), 0.05);
+  }
+}
+
+TEST(FindPath, AnExtensionThatStandsStillEndsConnect) {
+  class Stuck : public BandAction {
+   public:
+    Stuck() : BandAction("stuck", {0, 1}, 0.5, {}) {}
+    Point ExtendTowards(const Point& v0, const Point&) const override { return v0; }
+  };
+  const PathResult result = FindPath(Start(), {Goal()}, {std::make_shared<Stuck>()}, kRoom,
+                                     {.time_limit = 10, .max_cycles = 20});
+  EXPECT_EQ(result.status, PathStatus::kTimeLimit);
+  EXPECT_EQ(result.statistics.cycles, 20);
+  EXPECT_EQ(result.statistics.vertices, 2);
+}
+
+TEST(FindPath, ProgressIsReported) {
+  int calls = 0;
+  FindPathSettings settings{.time_limit = 0.35};
+  settings.progress = [&](const FindPathProgress& progress) {
+    ++calls;
+    EXPECT_GT(progress.cycles, 0);
+  };
+  FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom, settings);
+  EXPECT_GE(calls, 1);
+  EXPECT_LE(calls, 4);
+}
+
+TEST(FindPath, InvalidArgumentsThrow) {
+  const Actions walk = {MakeWalk()};
+  const auto expect_throw = [&](const Point& start, const std::vector<Point>& goals,
+                                const Actions& actions, const FindPathSettings& settings) {
+    EXPECT_THROW(FindPath(start, goals, actions, kRoom, settings), std::invalid_argument);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_throw(Start(), {}, walk, {});
+  expect_throw(Start(), {Goal()}, {}, {});
+  expect_throw(Start(), {Goal()}, {nullptr}, {});
+  expect_throw(Point(), {Goal()}, walk, {});
+  expect_throw(Start(), {Point::Zero(3)}, walk, {});
+  expect_throw(Start(), {MakePoint(nan, 1)}, walk, {});
+  expect_throw(MakePoint(nan, 1), {Goal()}, walk, {});
+  expect_throw(Start(), {Goal()}, walk, {.time_limit = -1});
+  expect_throw(Start(), {Goal()}, walk, {.time_limit = nan});
+  expect_throw(Start(), {Goal()}, walk, {.max_transitions_per_cycle = -1});
+  expect_throw(Start(), {Goal()}, walk, {.confirmation_threads = -1});
+}
+
+class WithJobs : public ::testing::TestWithParam<int> {
+ protected:
+  FindPathSettings Settings() const {
+    return {.time_limit = 10, .confirmation_threads = GetParam()};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(FindPath, WithJobs, ::testing::Values(0, 2));
+
+TEST_P(WithJobs, AnIndeterminateEdgeIsReturnedOnlyAfterItsJobConfirmed) {
+  const auto walk = std::make_shared<UncertainAction>("walk", Interval{0.7, 1}, 0.85,
+                                                      Interval{4, 6}, Always(Ending::kConfirm, 5));
+  const PathResult result = FindPath(Start(), {Goal()}, {walk}, kRoom, Settings());
+  ASSERT_EQ(result.status, PathStatus::kFound);
+  int uncertain = 0;
+  for (const PathEdge& edge : result.path) {
+    if (!walk->Uncertain(edge.points)) {
+      continue;
+    }
+    ++uncertain;
+    bool confirmed = false;
+    for (const ConfirmationReport& report : result.confirmations) {
+      const PointPair& points = report.points;
+      confirmed = confirmed || (report.outcome == JobOutcome::kConfirmed &&
+                                ((points.from == edge.points.from && points.to == edge.points.to) ||
+                                 (points.from == edge.points.to && points.to == edge.points.from)));
+    }
+    EXPECT_TRUE(confirmed);
+  }
+  EXPECT_GT(uncertain, 0);
+  EXPECT_GE(result.counters.at("jobs confirmed"), uncertain);
+  EXPECT_EQ(result.counters.at("jobs refuted"), 0);
+  EXPECT_GE(result.counters.at("jobs spawned"), result.counters.at("jobs confirmed"));
+}
+
+TEST_P(WithJobs, ARefutedFailedOrEndlessRouteIsReplacedByAnother) {
+  for (const Ending ending : {Ending::kRefute, Ending::kThrow, Ending::kNever}) {
+    const auto walk = std::make_shared<UncertainAction>("walk", Interval{0.7, 1}, 0.85,
+                                                        Interval{4, 6}, Always(ending, 3));
+    const Actions actions = {walk, MakeCrawl()};
+    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, Settings());
+    ExpectValidPath(result, Start(), {Goal()}, actions);
+    EXPECT_EQ(result.counters.at("jobs confirmed"), 0);
+    for (const ConfirmationReport& report : result.confirmations) {
+      EXPECT_EQ(report.action, 0);
+      EXPECT_EQ(report.reason, ending == Ending::kRefute ? "torque limit" : "solver broke down");
+    }
+  }
+}
+
+TEST_P(WithJobs, AnEdgeIsExaminedOnlyOnce) {
+  std::vector<PointPair> spawned;
+  const auto script = [&](const PointPair& edge) {
+    spawned.push_back(edge);
+    return std::make_unique<ScriptedJob>(Ending::kRefute, 1);
+  };
+  const auto walk =
+      std::make_shared<UncertainAction>("walk", Interval{0.7, 1}, 0.85, Interval{4.9, 5.1}, script);
+  FindPathSettings settings = Settings();
+  settings.max_cycles = 150;
+  const PathResult result = FindPath(Start(), {Goal()}, {walk}, kRoom, settings);
+  EXPECT_EQ(result.status, PathStatus::kTimeLimit);
+  ASSERT_GT(spawned.size(), 1);
+  for (std::size_t i = 0; i < spawned.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(spawned[i].from == spawned[j].from && spawned[i].to == spawned[j].to);
+      EXPECT_FALSE(spawned[i].from == spawned[j].to && spawned[i].to == spawned[j].from);
+    }
+  }
+  EXPECT_EQ(result.counters.at("jobs refuted"), static_cast<int>(spawned.size()));
+}
+
+TEST_P(WithJobs, AnotherActionMayConfirmWhatTheFirstCannot) {
+  const Interval band = {0.7, 1};
+  const auto walk = std::make_shared<UncertainAction>("walk", band, 0.85, Interval{4, 6},
+                                                      Always(Ending::kRefute, 2));
+  const auto stoop = std::make_shared<UncertainAction>("stoop", band, 0.85, Interval{0, 10},
+                                                       Always(Ending::kConfirm, 2));
+  const PathResult result = FindPath(Start(), {Goal()}, {walk, stoop}, kRoom, Settings());
+  ASSERT_EQ(result.status, PathStatus::kFound);
+  for (const PathEdge& edge : result.path) {
+    if (walk->Uncertain(edge.points)) {
+      EXPECT_EQ(edge.action, 1);
+    }
+  }
+}
+
+TEST_P(WithJobs, AnEdgeWithoutJobStaysOut) {
+  const auto walk = std::make_shared<UncertainAction>(
+      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair&) { return nullptr; });
+  FindPathSettings settings = Settings();
+  settings.max_cycles = 50;
+  const PathResult result = FindPath(Start(), {Goal()}, {walk}, kRoom, settings);
+  EXPECT_EQ(result.status, PathStatus::kTimeLimit);
+  EXPECT_GT(result.counters.at("edges without job"), 0);
+  EXPECT_EQ(result.counters.at("jobs spawned"), 0);
+}
+
+TEST_P(WithJobs, JobsThatNeverEndDoNotHoldUpTheTimeLimit) {
+  int spawned = 0;
+  const auto script = [&](const PointPair&) {
+    ++spawned;
+    return std::make_unique<ScriptedJob>(Ending::kNever, 0, std::chrono::milliseconds(5));
+  };
+  const auto walk =
+      std::make_shared<UncertainAction>("walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, script);
+  FindPathSettings settings = Settings();
+  settings.time_limit = 0.3;
+  EXPECT_LT(LeastOvershoot({walk}, settings), 0.05);
+  EXPECT_GT(spawned, 0);
+}
+
+TEST(FindPath, JobsWithoutThreadsAreReproducible) {
+  const auto run = [] {
+    const auto walk = std::make_shared<UncertainAction>(
+        "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair& edge) {
+          const bool good = edge.from[1] > 0.72;
+          return std::make_unique<ScriptedJob>(good ? Ending::kConfirm : Ending::kRefute, 7);
+        });
+    return FindPath(Start(), {Goal()}, {walk}, kRoom, {.time_limit = 60, .seed = 5});
+  };
+  const PathResult a = run();
+  const PathResult b = run();
+  ASSERT_EQ(a.status, PathStatus::kFound);
+  EXPECT_EQ(a.counters, b.counters);
+  EXPECT_GT(a.counters.at("jobs refuted"), 0);
+  ASSERT_EQ(a.path.size(), b.path.size());
+  for (std::size_t i = 0; i < a.path.size(); ++i) {
+    EXPECT_EQ(a.path[i].points.to, b.path[i].points.to);
+  }
+}
+
+}  // namespace
+}  // namespace possibility::graph
