@@ -11,11 +11,13 @@ MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettin
     : robot_(&robot), settings_(settings), solver_(robot) {}
 
 std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
-                                        const Eigen::VectorXd& guess) {
+                                        const Eigen::VectorXd& guess,
+                                        const std::function<bool()>& keep_going) {
   std::vector<Phase> result;
   Eigen::VectorXd q = guess;
   double start = 0;
   for (const MotionPhase& phase : phases) {
+    if (keep_going && !keep_going()) throw Abandoned();
     result.push_back(BuildPhase(phase, start, &q));
     start += phase.duration;
   }
@@ -31,7 +33,8 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, double start, Eigen::V
     for (const Eigen::Vector3d& p : patch.points) points.push_back({patch.link, p});
   }
   const int intervals =
-      std::max(2, static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
+      std::max(settings_.minimum_intervals,
+               static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
   for (int i = 0; i <= intervals; ++i) {
     Knot knot = MakeKnot(phase, points, phase.duration * i / intervals, guess);
     knot.t += start;
@@ -49,6 +52,8 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase,
   dynamics::ContactForceSettings force_settings;
   force_settings.friction = robot_->friction;
   force_settings.friction_margin = settings_.friction_margin;
+  force_settings.normal_reserve =
+      settings_.normal_reserve * robot_->TotalMass() * dynamics::kGravity;
   force_settings.torque_margin = settings_.torque_margin;
   const std::optional<dynamics::ContactForces> forces =
       dynamics::DistributeContactForces(&solver_.kinematics(), state.a, points, force_settings);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 #include "actions/plan.h"
@@ -17,11 +18,21 @@ struct MotionPhase {
   std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
 };
 
+/// Thrown when a caller's `keep_going` said no.
+class Abandoned : public std::runtime_error {
+ public:
+  Abandoned() : std::runtime_error("abandoned") {}
+};
+
 struct MotionSettings {
-  double knot_spacing = 0.1;     ///< s, at most
-  double speed_margin = 0.95;    ///< fraction of each joint's speed limit that may be used
-  double friction_margin = 0.9;  ///< fraction of the friction coefficient
-  double torque_margin = 0.95;   ///< fraction of each joint's effort limit
+  double knot_spacing = 0.1;  ///< s, at most
+  /// Of every phase, at least: between knots forces are interpolated linearly while the motion's
+  /// accelerations are not, and the difference eats into the margins below.
+  int minimum_intervals = 12;
+  double speed_margin = 0.95;     ///< fraction of each joint's speed limit that may be used
+  double friction_margin = 0.85;  ///< fraction of the friction coefficient
+  double normal_reserve = 0.01;   ///< of the weight, kept at every bearing point
+  double torque_margin = 0.95;    ///< fraction of each joint's effort limit
 };
 
 /// Turns task-level motion into knots with joint motion, torques and contact forces that satisfy
@@ -31,8 +42,10 @@ class MotionBuilder {
   explicit MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings = {});
 
   /// `guess`: q near the start (nq). Times start at 0.
-  /// @throws MotionError naming the limit that the motion would break and when.
-  std::vector<Phase> Build(const std::vector<MotionPhase>& phases, const Eigen::VectorXd& guess);
+  /// `keep_going`: asked before every phase; false abandons the rest. May be empty.
+  /// @throws MotionError naming the limit that the motion would break and when; Abandoned.
+  std::vector<Phase> Build(const std::vector<MotionPhase>& phases, const Eigen::VectorXd& guess,
+                           const std::function<bool()>& keep_going = {});
 
  private:
   Phase BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess);

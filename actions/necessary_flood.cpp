@@ -80,7 +80,8 @@ class NecessaryFlood {
         prepared_(shrunk_),
         grid_(GridSize()) {}
 
-  FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals) {
+  FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                  const std::function<bool()>& keep_going) {
     std::set<Cell> goal_cells;
     for (const GroundedStance& goal : goals) goal_cells.insert(CellOf(BallAt(goal)));
     FloodResult result;
@@ -91,6 +92,7 @@ class NecessaryFlood {
       return GroundIsNear(p) && checker_.IsFree(prepared_, At(p), 0);
     };
     while (!grid_.Empty()) {
+      if (keep_going && !keep_going()) return result;
       const Cell cell = grid_.Pop();
       if (goal_cells.count(cell)) return result;
       closest.Add(Centre(cell).head<2>(), cell);
@@ -186,8 +188,8 @@ class NecessaryFlood {
 
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                           double resolution) {
-  return NecessaryFlood(model, world, resolution).Run(start, goals);
+                           double resolution, const std::function<bool()>& keep_going) {
+  return NecessaryFlood(model, world, resolution).Run(start, goals, keep_going);
 }
 
 }  // namespace possibility::actions

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -74,10 +75,14 @@ class TraversalPlanner {
       result.plan.timings.graph_s += path.seconds;
       Record(path, &result);
       if (path.status != graph::PathStatus::kFound) return result;
-      if (Realise(path, &result)) return result;
-      if (Remaining() <= 0) {
+      try {
+        if (Realise(path, &result)) return result;
+      } catch (const Abandoned&) {
         result.status = PlanStatus::kTimeLimit;
         result.plan.segments.clear();
+        result.explanation = fmt::format(
+            "a route was found in {:.2f} s, but time ran out before its motion was verified.",
+            result.plan.timings.graph_s);
         return result;
       }
     }
@@ -158,16 +163,17 @@ class TraversalPlanner {
 
   graph::RouteOracleAnswer AskFloods() {
     const double resolution = scenario_.planner.flood_resolution;
-    flood_ = FloodSufficient(model_, world_, start_, goals_, resolution);
+    const auto keep_going = [this] { return Remaining() > 0; };
+    flood_ = FloodSufficient(model_, world_, start_, goals_, resolution, keep_going);
     if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
-    FloodResult necessary = FloodNecessary(model_, world_, start_, goals_, resolution);
+    FloodResult necessary = FloodNecessary(model_, world_, start_, goals_, resolution, keep_going);
     if (necessary.route_may_exist) return graph::RouteOracleAnswer::kExhausted;
     flood_ = std::move(necessary);
     return graph::RouteOracleAnswer::kProvenInfeasible;
   }
 
   void Record(const graph::PathResult& path, PlanResult* result) const {
-    result->plan.statistics.insert(path.counters.begin(), path.counters.end());
+    for (const auto& [name, count] : path.counters) result->plan.statistics[name] += count;
     result->plan.statistics["cycles"] = path.statistics.cycles;
     result->plan.statistics["vertices"] = path.statistics.vertices;
     result->plan.statistics["edges"] = path.statistics.edges;
@@ -220,39 +226,45 @@ class TraversalPlanner {
     return text;
   }
 
-  /// Turns a confirmed path into a verified plan. On failure the edge at fault is forbidden.
+  /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.
+  /// @throws Abandoned at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
-    const Route found = RouteAlong(model_, path.path);
-    Route route = RefineRoute(model_, found, actions_);
+    Route route = RefineRoute(model_, RouteAlong(model_, path.path), actions_,
+                              [this] { return Remaining() > 0; });
     if (route.empty()) route = {Pause(start_)};
-    const bool moved = Generate(&route, &result->plan);
+    const bool moved = Generate(route, &result->plan);
     result->plan.timings.motion_s += motion_clock.seconds();
-    if (!moved) return false;
-
-    const Stopwatch verification_clock;
-    Report("verifying", 0);
-    VerifierSettings settings;
-    settings.threads = request_.threads;
-    result->verification = Verify(result->plan, robot_, scenario_, settings);
-    result->plan.timings.verification_s += verification_clock.seconds();
-    if (result->verification.accepted()) return true;
-    ForbidVerified(result->verification, route);
-    result->plan.statistics["routes refuted by verification"]++;
-    result->plan.segments.clear();
-    return false;
+    return moved && IsVerified(route, result);
   }
 
-  bool Generate(Route* route, actions::Plan* plan) {
+  bool Generate(const Route& route, actions::Plan* plan) {
     try {
-      plan->segments = GenerateMotion(model_, *route, request_.threads,
-                                      [this](double done) { Report("generating motion", done); });
+      plan->segments = GenerateMotion(model_, route, request_.threads, [this](double fraction) {
+        return KeepGoing("generating motion", fraction);
+      });
       return true;
     } catch (const LegError& error) {
-      Forbid((*route)[error.leg()]);
+      Forbid(route[static_cast<size_t>(error.leg())]);
       plan->statistics["routes refuted by motion generation"]++;
       return false;
     }
+  }
+
+  bool IsVerified(const Route& route, PlanResult* result) {
+    VerifierSettings settings;
+    settings.threads = request_.threads;
+    settings.keep_going = [this](double fraction) { return KeepGoing("verifying", fraction); };
+    result->verification = Verify(result->plan, robot_, scenario_, settings);
+    result->plan.timings.verification_s += result->verification.seconds;
+    if (result->verification.abandoned) throw Abandoned();
+    if (result->verification.accepted()) return true;
+    for (const Violation& violation : result->verification.violations) {
+      if (violation.segment >= 0) Forbid(route[static_cast<size_t>(violation.segment)]);
+    }
+    result->plan.statistics["routes refuted by verification"]++;
+    result->plan.segments.clear();
+    return false;
   }
 
   /// The route of a plan whose start is its goal.
@@ -264,19 +276,17 @@ class TraversalPlanner {
     return leg;
   }
 
-  void ForbidVerified(const VerificationReport& report, const Route& route) {
-    for (const Violation& violation : report.violations) {
-      if (violation.segment < 0) continue;
-      Forbid(route[violation.segment]);
-    }
-  }
-
   void Forbid(const RouteLeg& leg) {
     for (const auto& action : actions_) action->Forbid(LegEdge(model_, leg));
   }
 
-  void Report(const std::string& stage, double fraction) const {
-    if (request_.progress) request_.progress({stage, {}, fraction});
+  /// Reports progress, from any thread; false once time is up.
+  bool KeepGoing(const std::string& stage, double fraction) const {
+    if (request_.progress) {
+      const std::lock_guard lock(progress_mutex_);
+      request_.progress({stage, {}, fraction});
+    }
+    return Remaining() > 0;
   }
 
   const models::RobotModel& robot_;
@@ -292,6 +302,7 @@ class TraversalPlanner {
   std::vector<GroundedStance> goals_;
   double preparation_s_ = 0;
   std::optional<FloodResult> flood_;
+  mutable std::mutex progress_mutex_;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,17 +21,20 @@ struct FloodResult {
   std::int64_t cells = 0;  ///< tested
 };
 
+/// `keep_going` of both floods: asked at every cell, may be empty; false ends the flood without a
+/// proof (route_may_exist).
+///
 /// Flood over what can be confirmed: cells of (gait, x, y, heading) in which C_S may hold
 /// somewhere, with shapes shrunk by the size of a cell, joined through the transitions.
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                            double resolution);
+                            double resolution, const std::function<bool()>& keep_going = {});
 
 /// Flood over C_N: cells of the position of the largest ball inside the pelvis that may be free
 /// and within a leg's reach of ground, whatever the orientation. `resolution` is refined until
 /// the ball is larger than a cell.
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                           double resolution);
+                           double resolution, const std::function<bool()>& keep_going = {});
 
 }  // namespace possibility::actions

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -41,25 +40,28 @@ Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) 
 class LegQueue {
  public:
   LegQueue(const LocomotionModel& model, const Route& route,
-           const std::function<void(double)>& progress)
+           const std::function<bool(double)>& keep_going)
       : model_(model),
         route_(route),
-        progress_(progress),
+        keep_going_(keep_going),
         motions_(route.size()),
         errors_(route.size()) {}
 
   void Work() {
-    for (size_t leg = next_++; leg < route_.size(); leg = next_++) {
+    for (size_t leg = next_++; leg < route_.size() && !abandoned_; leg = next_++) {
       try {
-        motions_[leg] = GenerateLeg(model_, route_[leg]);
+        motions_[leg] = GenerateLeg(model_, route_[leg], [this] { return KeepGoing(); });
       } catch (const MotionError& error) {
         errors_[leg] = error.what();
+      } catch (const Abandoned&) {
+        abandoned_ = true;
       }
-      Report();
+      ++done_;
     }
   }
 
   std::vector<std::vector<Phase>> TakeMotions() {
+    if (abandoned_) throw Abandoned();
     for (size_t leg = 0; leg < errors_.size(); ++leg) {
       if (errors_[leg]) throw LegError(static_cast<int>(leg), *errors_[leg]);
     }
@@ -67,30 +69,30 @@ class LegQueue {
   }
 
  private:
-  void Report() {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(route_.size()));
+  bool KeepGoing() const {
+    const double fraction = static_cast<double>(done_) / static_cast<double>(route_.size());
+    return !abandoned_ && (!keep_going_ || keep_going_(fraction));
   }
 
   const LocomotionModel& model_;
   const Route& route_;
-  const std::function<void(double)>& progress_;
+  const std::function<bool(double)>& keep_going_;
   std::vector<std::vector<Phase>> motions_;
   std::vector<std::optional<std::string>> errors_;
   std::atomic<size_t> next_ = 0;
-  std::mutex mutex_;
-  size_t done_ = 0;
+  std::atomic<size_t> done_ = 0;
+  std::atomic<bool> abandoned_ = false;
 };
 
 }  // namespace
 
-std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg) {
+std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
+                               const std::function<bool()>& keep_going) {
   MotionBuilder builder(*model.robot);
   for (const double scale : kTimeScales) {
     try {
       const std::vector<Phase> phases =
-          builder.Build(LegPhases(model, leg, scale), InitialGuess(model, leg));
+          builder.Build(LegPhases(model, leg, scale), InitialGuess(model, leg), keep_going);
       return leg.backwards ? Reversed(phases) : phases;
     } catch (const MotionError&) {
       if (scale == std::end(kTimeScales)[-1]) throw;
@@ -100,8 +102,8 @@ std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg
 }
 
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
-                                    const std::function<void(double)>& progress) {
-  LegQueue queue(model, route, progress);
+                                    const std::function<bool(double)>& keep_going) {
+  LegQueue queue(model, route, keep_going);
   {
     std::vector<std::jthread> workers;
     for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {

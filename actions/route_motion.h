@@ -22,13 +22,15 @@ class LegError : public MotionError {
 
 /// Motion of one leg, from rest to rest; times start at 0. A motion that is too fast for the
 /// limits is stretched.
-/// @throws MotionError if no stretching helps.
-std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg);
+/// @throws MotionError if no stretching helps; Abandoned if `keep_going` (may be empty) says no.
+std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
+                               const std::function<bool()>& keep_going = {});
 
 /// Motion of a whole route, legs spread over `threads`; the result does not depend on their
-/// number. `progress`: fraction done, called from any thread but one at a time; may be empty.
-/// @throws LegError for the first leg that fails.
+/// number. `keep_going`: asked now and then, from any thread, with the fraction done; false
+/// abandons the rest. May be empty.
+/// @throws LegError for the first leg that fails; Abandoned.
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
-                                    const std::function<void(double)>& progress);
+                                    const std::function<bool(double)>& keep_going);
 
 }  // namespace possibility::actions

@@ -48,8 +48,10 @@ struct Hop {
 /// the turn before it are tested only once they come first in the queue.
 class RouteRefiner {
  public:
-  RouteRefiner(const LocomotionModel& model, const Actions& actions, const Route& route)
-      : model_(model),
+  RouteRefiner(const LocomotionModel& model, const Actions& actions, const Route& route,
+               const std::function<bool()>& keep_going)
+      : keep_going_(keep_going),
+        model_(model),
         actions_(actions),
         route_(route),
         base_(StartGait(model, route.front())),
@@ -81,7 +83,7 @@ class RouteRefiner {
       }
     };
     expand(-1, 0, 0, route_.front().from.yaw);
-    while (!queue.empty()) {
+    while (!queue.empty() && (!keep_going_ || keep_going_())) {
       const Entry entry = queue.top();
       queue.pop();
       if (previous[entry.hop] != kUnreached || !IsClear(entry.before, entry.hop)) continue;
@@ -286,6 +288,7 @@ class RouteRefiner {
     return route;
   }
 
+  const std::function<bool()>& keep_going_;
   const LocomotionModel& model_;
   const Actions& actions_;
   const Route& route_;
@@ -306,7 +309,8 @@ void Unwrap(Route* route) {
 }
 
 /// One pass over the pieces of a route that start and end in one gait.
-Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions& actions) {
+Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions& actions,
+                 const std::function<bool()>& keep_going) {
   Route refined;
   for (size_t begin = 0; begin < route.size();) {
     const int base = StartGait(model, route[begin]);
@@ -321,7 +325,7 @@ Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions
     }
     const auto first = route.begin() + static_cast<std::ptrdiff_t>(begin);
     const Route piece(first, first + static_cast<std::ptrdiff_t>(end - begin));
-    const Route quicker = RouteRefiner(model, actions, piece).Refine();
+    const Route quicker = RouteRefiner(model, actions, piece, keep_going).Refine();
     refined.insert(refined.end(), quicker.begin(), quicker.end());
     begin = end;
   }
@@ -331,11 +335,12 @@ Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions
 
 }  // namespace
 
-Route RefineRoute(const LocomotionModel& model, const Route& route, const Actions& actions) {
+Route RefineRoute(const LocomotionModel& model, const Route& route, const Actions& actions,
+                  const std::function<bool()>& keep_going) {
   Route best = route;
   double duration = ExpectedDuration(model, best);
   for (int pass = 0; pass < kMaximumPasses; ++pass) {
-    Route refined = RefineOnce(model, best, actions);
+    Route refined = RefineOnce(model, best, actions, keep_going);
     const double refined_duration = ExpectedDuration(model, refined);
     if (refined_duration >= duration) break;
     const bool worthwhile = refined_duration < (1 - kWorthwhileGain) * duration;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace possibility::actions {
 /// executed heading forward or backward by the gait that the route starts with, or by another one
 /// with a transition before and after, and turns in place between hops, as far as C_S allows. The
 /// found legs remain a choice, so the result is never expected to be slower.
-/// `actions`: by gait index.
+/// `actions`: by gait index. `keep_going`: asked now and then, may be empty; false ends with the
+/// best route so far.
 Route RefineRoute(const LocomotionModel& model, const Route& route,
-                  const std::vector<std::shared_ptr<QuasiStaticAction>>& actions);
+                  const std::vector<std::shared_ptr<QuasiStaticAction>>& actions,
+                  const std::function<bool()>& keep_going = {});
 
 }  // namespace possibility::actions

@@ -38,7 +38,8 @@ class SufficientFlood {
     for (const auto& gait : model.gaits) shrunk_.push_back(Shrink(gait->sweep));
   }
 
-  FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals) {
+  FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                  const std::function<bool()>& keep_going) {
     std::set<Cell> goal_cells;
     for (const GroundedStance& goal : goals) {
       if (std::abs(goal.z - z_) < 1e-6) goal_cells.insert(CellOf(goal.gait, goal.pose));
@@ -47,6 +48,7 @@ class SufficientFlood {
     ClosestApproach closest(goals);
     grid_.Seed(CellOf(start.gait, start.pose));
     while (!grid_.Empty()) {
+      if (keep_going && !keep_going()) return result;
       const Cell cell = grid_.Pop();
       if (goal_cells.count(cell)) return result;
       closest.Add(Centre(cell).position(), cell);
@@ -211,8 +213,8 @@ class SufficientFlood {
 
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                            double resolution) {
-  return SufficientFlood(model, world, start.z, resolution).Run(start, goals);
+                            double resolution, const std::function<bool()>& keep_going) {
+  return SufficientFlood(model, world, start.z, resolution).Run(start, goals, keep_going);
 }
 
 }  // namespace possibility::actions

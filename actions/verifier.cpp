@@ -170,15 +170,22 @@ class Tally {
   std::exception_ptr error_;
 };
 
-void VerifyMotion(const Subject& subject, int threads, ViolationLog* log,
+void VerifyMotion(const Subject& subject, const VerifierSettings& settings, ViolationLog* log,
                   VerificationReport* report) {
   const std::vector<Chunk> chunks = Divide(subject.plan);
   std::atomic<std::size_t> next = 0;
+  std::atomic<bool> abandoned = false;
   Tally tally;
   const auto work = [&] {
     try {
       Worker worker(subject);
-      for (std::size_t i = next++; i < chunks.size(); i = next++) worker.Verify(chunks[i]);
+      for (std::size_t i = next++; i < chunks.size() && !abandoned; i = next++) {
+        worker.Verify(chunks[i]);
+        if (settings.keep_going &&
+            !settings.keep_going(static_cast<double>(i + 1) / static_cast<double>(chunks.size()))) {
+          abandoned = true;
+        }
+      }
       tally.Add(worker);
     } catch (...) {
       tally.Fail(std::current_exception());
@@ -186,10 +193,11 @@ void VerifyMotion(const Subject& subject, int threads, ViolationLog* log,
   };
   {
     std::vector<std::jthread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(work);
+    for (int i = 1; i < settings.threads; ++i) others.emplace_back(work);
     work();
   }
   tally.Finish(log, report);
+  report->abandoned = abandoned;
 }
 
 void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
@@ -205,7 +213,7 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
                         models::GroundMap(scenario.environment),
                         FollowContacts(plan, robot, &evaluator),
                         settings.resolution};
-  VerifyMotion(subject, settings.threads, log, report);
+  VerifyMotion(subject, settings, log, report);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,14 @@ struct VerificationReport {
   std::int64_t samples = 0;
   double resolution = 0;  ///< s, largest time between samples
   double seconds = 0;
-  bool accepted() const { return violations.empty(); }
+  bool abandoned = false;  ///< VerifierSettings::keep_going said so
+  bool accepted() const { return violations.empty() && !abandoned; }
 };
 
 struct VerifierSettings {
+  /// Asked now and then, from any thread, with the fraction done; false abandons the rest. May be
+  /// empty.
+  std::function<bool(double)> keep_going;
   double resolution = 0.005;  ///< s
   int threads = 1;            ///< samples are independent; the report does not depend on it
 };

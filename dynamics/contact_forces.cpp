@@ -31,7 +31,7 @@ void CheckArguments(const TreeKinematics& kinematics, const Eigen::Ref<const Vec
     throw std::invalid_argument("DistributeContactForces: an acceleration is not finite");
   }
   for (const double setting : {settings.friction, settings.friction_margin, settings.torque_margin,
-                               settings.minimum_normal}) {
+                               settings.normal_reserve}) {
     if (!(setting >= 0 && std::isfinite(setting))) {
       throw std::invalid_argument(
           "DistributeContactForces: settings must be finite and not negative");
@@ -123,7 +123,7 @@ class ForceProblem {
     program.E = base_loads_;
     program.e = required_.head<6>();
     const int n = static_cast<int>(base_loads_.cols());
-    const int cone_rows = n / 3 * (kConeEdges + (settings_.minimum_normal > 0 ? 1 : 0));
+    const int cone_rows = n / 3 * kConeEdges;
     const int bounded =
         static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [this](int joint) {
           return std::isfinite(model_.joints[joint].effort);
@@ -150,8 +150,8 @@ class ForceProblem {
     program->g.noalias() = -(weighted.transpose() * torques);
   }
 
-  /// A regular octagon inscribed in the circle of radius friction * normal force: eight half
-  /// planes at cos(pi / 8) of the radius. Together they imply a normal force >= 0.
+  /// A regular octagon inscribed in the circle of radius friction * (normal force - reserve): eight
+  /// half planes at cos(pi / 8) of the radius. Together they imply a normal force >= the reserve.
   int WriteCones(QuadraticProgram* program) const {
     const double slope = settings_.friction * settings_.friction_margin * kInside *
                          std::cos(std::numbers::pi / kConeEdges);
@@ -160,10 +160,7 @@ class ForceProblem {
       for (int edge = 0; edge < kConeEdges; ++edge, ++row) {
         const double angle = 2 * std::numbers::pi * edge / kConeEdges;
         program->C.block<1, 3>(row, i) << std::cos(angle), std::sin(angle), -slope;
-      }
-      if (settings_.minimum_normal > 0) {
-        program->C(row, i + 2) = -1;
-        program->d[row++] = -settings_.minimum_normal / unit_;
+        program->d[row] = -slope * settings_.normal_reserve / unit_;
       }
     }
     return row;
@@ -185,10 +182,11 @@ class ForceProblem {
   void MoveIntoCones(VectorXd* x) const {
     const double slope = settings_.friction * settings_.friction_margin * kInside;
     for (Eigen::Index i = 0; i < x->size(); i += 3) {
-      const double normal = std::max(0.0, (*x)[i + 2]);
+      const double reserve = settings_.normal_reserve / unit_;
+      const double normal = std::max(0.0, (*x)[i + 2] - reserve);
       const double tangential = x->segment<2>(i).norm();
       if (tangential > slope * normal) x->segment<2>(i) *= slope * normal / tangential;
-      (*x)[i + 2] = normal;
+      (*x)[i + 2] = normal + reserve;
     }
   }
 

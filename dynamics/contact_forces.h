@@ -18,7 +18,9 @@ struct ContactForceSettings {
   double friction = 0.7;         ///< Coulomb; the cone is linearised from inside with 8 edges
   double friction_margin = 0.9;  ///< fraction of `friction` that may be used
   double torque_margin = 0.95;   ///< fraction of each joint's effort limit that may be used
-  double minimum_normal = 0;     ///< N, at every point
+  /// N: every point's cone starts at this normal force, so that a force that turns out smaller by
+  /// less than it still lies in the cone.
+  double normal_reserve = 0;
 };
 
 struct ContactForces {

@@ -51,11 +51,21 @@ TEST(PlannerTest, ASolidWallIsProvenInfeasible) {
   EXPECT_NE(result.explanation.find("dividing_wall"), std::string::npos) << result.explanation;
 }
 
-TEST(PlannerTest, TheTimeLimitIsObeyed) {
-  PlanRequest request = Request(1, {});
-  request.time_limit = 0;
-  const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("three_routes_b"), request);
-  EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
+/// Whatever stage the limit cuts: no plan, in words, and never a segment that was not verified.
+TEST(PlannerTest, TheTimeLimitEndsEveryStageWithoutAPlan) {
+  const models::Scenario scenario = ShippedScenario("three_routes_b");
+  for (const double time_limit : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9}) {
+    PlanRequest request = Request(1, {});
+    request.time_limit = time_limit;
+    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
+    if (result.status == PlanStatus::kFound) {
+      EXPECT_TRUE(result.verification.accepted());
+      continue;
+    }
+    EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
+    EXPECT_TRUE(result.plan.segments.empty());
+    EXPECT_FALSE(result.explanation.empty());
+  }
 }
 
 TEST(PlannerTest, AStartThatIsTheGoalIsAPlanOfStanding) {

@@ -40,6 +40,7 @@ TEST_P(QuasiStaticActionTest, ProjectKeepsPlaceAndHeadingAndIsIdempotent) {
   graph::RandomGenerator generator(5);
   for (int i = 0; i < 200; ++i) {
     const Point sample = space_->RandomSample(&generator);
+    if (!ground_.LevelBelow(sample.head<2>(), sample[2])) continue;
     const Point projected = action().Project(sample);
     EXPECT_LT((projected.head<2>() - sample.head<2>()).norm(), 1e-12);
     EXPECT_NEAR(WrapAngle(Heading(ToPose(projected).linear()) - Heading(ToPose(sample).linear())),

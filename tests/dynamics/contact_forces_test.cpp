@@ -67,9 +67,11 @@ void ExpectValid(TreeKinematics* kinematics, const VectorXd& a,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d f = result.forces.col(i);
     kinematics->AddPointForce(points[i].link, points[i].p_L, -f, &residual);
-    EXPECT_LE(f.head<2>().norm(), settings.friction * settings.friction_margin * f.z());
+    EXPECT_LE(
+        f.head<2>().norm(),
+        settings.friction * settings.friction_margin * (f.z() - settings.normal_reserve) + 1e-9);
     EXPECT_LE(f.head<2>().norm(), result.friction_utilisation * settings.friction * f.z() + 1e-9);
-    EXPECT_GE(f.z(), settings.minimum_normal - 1e-9);
+    EXPECT_GE(f.z(), settings.normal_reserve - 1e-9);
   }
   EXPECT_LT(residual.head<6>().norm(), 1e-9 * scale);
   EXPECT_LT((residual.tail(result.torques.size()) - result.torques).norm(), 1e-9 * scale);
@@ -196,14 +198,14 @@ TEST(ContactForces, FreeFlight) {
   EXPECT_NEAR(result->torques[0], 0, 1e-12);
 }
 
-TEST(ContactForces, MinimumNormalForceHoldsAtEveryPoint) {
+TEST(ContactForces, NormalReserveHoldsAtEveryPoint) {
   Standing block(Block());
   const std::vector<ContactPoint> points = Rectangle(0, -0.02, 0.2, -0.1, 0.1, -0.5);
-  block.settings.minimum_normal = 4;
+  block.settings.normal_reserve = 4;
   const auto result = block.Forces(points);
   ASSERT_TRUE(result);
   ExpectValid(&block.kinematics, VectorXd::Zero(6), points, block.settings, *result);
-  block.settings.minimum_normal = 5;  // two front points already tip it
+  block.settings.normal_reserve = 5;  // two front points already tip it
   EXPECT_FALSE(block.Forces(points));
 }
 
