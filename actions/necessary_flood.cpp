@@ -7,7 +7,7 @@
 
 #include "actions/blockers.h"
 #include "actions/cell_grid.h"
-#include "actions/closest_approach.h"
+#include "actions/flood_grid.h"
 #include "actions/route_flood.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
@@ -84,32 +84,11 @@ class NecessaryFlood {
                   const std::function<bool()>& keep_going) {
     std::set<Cell> goal_cells;
     for (const GroundedStance& goal : goals) goal_cells.insert(CellOf(BallAt(goal)));
-    FloodResult result;
-    ClosestApproach closest(goals);
-    grid_.Seed(CellOf(BallAt(start)));
-    const auto is_open = [this](const Cell& cell) {
-      const Vector3d p = Centre(cell);
-      return GroundIsNear(p) && checker_.IsFree(prepared_, At(p), 0);
-    };
-    while (!grid_.Empty()) {
-      if (keep_going && !keep_going()) return result;
-      const Cell cell = grid_.Pop();
-      if (goal_cells.count(cell)) return result;
-      closest.Add(Centre(cell).head<2>(), cell);
-      for (int axis = 1; axis < 4; ++axis) {
-        for (int step : {-1, 1}) {
-          Cell next = cell;
-          next[axis] += step;
-          grid_.Offer(next, is_open);
-        }
-      }
-    }
-    result.route_may_exist = false;
-    result.closest = closest.point();
-    result.distance = closest.distance();
-    result.cells = grid_.tested();
-    result.barrier = Barrier(closest.cell(), goals);
-    return result;
+    return FloodGrid(
+        &grid_, CellOf(BallAt(start)), goal_cells, goals, keep_going,
+        [this](const Cell& cell) { return Eigen::Vector2d(Centre(cell).head<2>()); },
+        [this](const Cell& cell) { OfferNeighbours(cell); },
+        [&](const Cell& cell) { return Barrier(cell, goals); });
   }
 
  private:
@@ -156,6 +135,20 @@ class NecessaryFlood {
       if (world_.ground->Clearance(static_cast<int>(level), p.head<2>()) >= -reach) return true;
     }
     return false;
+  }
+
+  void OfferNeighbours(const Cell& cell) {
+    const auto is_open = [this](const Cell& neighbour) {
+      const Vector3d p = Centre(neighbour);
+      return GroundIsNear(p) && checker_.IsFree(prepared_, At(p), 0);
+    };
+    for (int axis = 1; axis < 4; ++axis) {
+      for (int step : {-1, 1}) {
+        Cell next = cell;
+        next[axis] += step;
+        grid_.Offer(next, is_open);
+      }
+    }
   }
 
   std::vector<std::string> Barrier(const Cell& cell, const std::vector<GroundedStance>& goals) {

@@ -73,6 +73,9 @@ class TraversalPlanner {
     for (std::uint64_t attempt = 0;; ++attempt) {
       const graph::PathResult path = Explore(attempt);
       result.plan.timings.graph_s += path.seconds;
+      for (const graph::ConfirmationReport& job : path.confirmations) {
+        result.plan.timings.confirmation_s += job.seconds;
+      }
       Record(path, &result);
       if (path.status != graph::PathStatus::kFound) return result;
       try {
@@ -323,6 +326,7 @@ std::string ToString(PlanStatus status) {
 
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
+  models::CheckScenarioAgainstRobot(scenario, robot);
   return TraversalPlanner(robot, scenario, request).Plan();
 }
 

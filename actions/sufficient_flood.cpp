@@ -7,7 +7,7 @@
 
 #include "actions/blockers.h"
 #include "actions/cell_grid.h"
-#include "actions/closest_approach.h"
+#include "actions/flood_grid.h"
 #include "actions/route_flood.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
@@ -44,22 +44,11 @@ class SufficientFlood {
     for (const GroundedStance& goal : goals) {
       if (std::abs(goal.z - z_) < 1e-6) goal_cells.insert(CellOf(goal.gait, goal.pose));
     }
-    FloodResult result;
-    ClosestApproach closest(goals);
-    grid_.Seed(CellOf(start.gait, start.pose));
-    while (!grid_.Empty()) {
-      if (keep_going && !keep_going()) return result;
-      const Cell cell = grid_.Pop();
-      if (goal_cells.count(cell)) return result;
-      closest.Add(Centre(cell).position(), cell);
-      OfferNeighbours(cell);
-    }
-    result.route_may_exist = false;
-    result.closest = closest.point();
-    result.distance = closest.distance();
-    result.cells = grid_.tested();
-    result.barrier = Barrier(closest.cell(), goals);
-    return result;
+    return FloodGrid(
+        &grid_, CellOf(start.gait, start.pose), goal_cells, goals, keep_going,
+        [this](const Cell& cell) { return Centre(cell).position(); },
+        [this](const Cell& cell) { OfferNeighbours(cell); },
+        [&](const Cell& cell) { return Barrier(cell, goals); });
   }
 
  private:

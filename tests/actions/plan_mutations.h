@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct PlanMutation {
   std::function<void(VerifierSubject*)> apply;
   ViolationKind expected;
 };
+
+inline void PrintTo(const PlanMutation& mutation, std::ostream* stream) {
+  *stream << mutation.name;
+}
 
 inline std::vector<Phase*> PhasesOf(Plan* plan) {
   std::vector<Phase*> phases;

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "actions/route_motion.h"
 #include "actions/verification_report.h"
 #include "models/input_error.h"
 #include "tests/actions/drchubo1.h"
@@ -75,6 +80,49 @@ TEST(PlannerTest, AStartThatIsTheGoalIsAPlanOfStanding) {
   EXPECT_EQ(result.status, PlanStatus::kFound);
   EXPECT_TRUE(result.verification.accepted()) << FormatText(result.verification);
   EXPECT_LT(result.plan.duration(), 1);
+}
+
+std::string BytesOf(PlanResult result, const std::filesystem::path& file) {
+  result.plan.timings = {};
+  WritePlan(result.plan, file);
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(PlannerTest, OneSeedAndOneThreadGiveTheSameBytes) {
+  const models::Scenario scenario = ShippedScenario("three_routes_b");
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "possibility_same_bytes.json";
+  const PlanRequest request = Request(3, {"walk", "crawl"});
+  const std::string first = BytesOf(PlanTraversal(DrcHubo1(), scenario, request), file);
+  const std::string second = BytesOf(PlanTraversal(DrcHubo1(), scenario, request), file);
+  std::filesystem::remove(file);
+  EXPECT_GT(first.size(), 100000u);
+  EXPECT_TRUE(first == second);
+}
+
+TEST(PlannerTest, TheMotionOfARouteDoesNotDependOnTheNumberOfThreads) {
+  const LocomotionModel& model = DrcHubo1Locomotion();
+  Route route;
+  for (int i = 0; i < 5; ++i) {
+    RouteLeg leg;
+    if (i > 0) leg.from = route.back().to;
+    leg.to = leg.from * PlanarPose{0.1, 0.02 * i, 0.05};
+    route.push_back(leg);
+  }
+  const std::vector<Segment> one = GenerateMotion(model, route, 1, {});
+  const std::vector<Segment> three = GenerateMotion(model, route, 3, {});
+  ASSERT_EQ(one.size(), three.size());
+  for (size_t s = 0; s < one.size(); ++s) {
+    ASSERT_EQ(one[s].phases.size(), three[s].phases.size());
+    for (size_t p = 0; p < one[s].phases.size(); ++p) {
+      ASSERT_EQ(one[s].phases[p].knots.size(), three[s].phases[p].knots.size());
+      for (size_t k = 0; k < one[s].phases[p].knots.size(); ++k) {
+        EXPECT_EQ(one[s].phases[p].knots[k].q, three[s].phases[p].knots[k].q);
+        EXPECT_EQ(one[s].phases[p].knots[k].forces, three[s].phases[p].knots[k].forces);
+      }
+    }
+  }
 }
 
 std::string MessageOf(const models::Scenario& scenario, const PlanRequest& request) {
