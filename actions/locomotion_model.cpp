@@ -16,14 +16,15 @@ int LocomotionModel::GaitIndex(const std::string& name) const {
 }
 
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
-                                     const std::vector<std::string>& actions) {
+                                     const std::vector<std::string>& actions,
+                                     const std::function<bool()>& keep_going) {
   LocomotionModel model;
   model.robot = &robot;
   for (const std::string& action : actions) {
     auto entry = std::make_unique<LocomotionModel::GaitEntry>();
     entry->stance = SolveNominalStance(robot, robot.GaitNamed(action));
     entry->motion = std::make_unique<GaitMotion>(robot, entry->stance);
-    entry->sweep = SweepGait(robot, entry->stance).Boxes();
+    entry->sweep = SweepGait(robot, entry->stance, keep_going).Boxes();
     model.gaits.push_back(std::move(entry));
   }
   for (const models::Transition& transition : robot.transitions) {
@@ -33,7 +34,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     if (entry.from < 0 || entry.to < 0) continue;
     entry.motion = std::make_unique<TransitionMotion>(
         robot, transition, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance);
-    entry.sweep = SweepTransition(robot, *entry.motion).Boxes();
+    entry.sweep = SweepTransition(robot, *entry.motion, keep_going).Boxes();
     model.transitions.push_back(std::move(entry));
   }
   return model;

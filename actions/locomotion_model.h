@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,9 +40,11 @@ struct LocomotionModel {
 /// Solves the stances and computes the swept volumes of the gaits called `actions` and the
 /// transitions among them. `robot` must outlive the result.
 /// @throws InputError if a gait does not exist, or its bounds allow a stride that the robot cannot
-///   execute (every extreme stride is generated and checked here).
+///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may
+///   be empty) says no.
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
-                                     const std::vector<std::string>& actions);
+                                     const std::vector<std::string>& actions,
+                                     const std::function<bool()>& keep_going = {});
 
 /// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
 /// do, m.

@@ -48,7 +48,7 @@ class TraversalPlanner {
         request_(request),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
-        model_(BuildLocomotionModel(robot, ActionNames())) {
+        model_(BuildLocomotionModel(robot, ActionNames(), [this] { return Remaining() > 0; })) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -327,7 +327,13 @@ std::string ToString(PlanStatus status) {
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
   models::CheckScenarioAgainstRobot(scenario, robot);
-  return TraversalPlanner(robot, scenario, request).Plan();
+  try {
+    return TraversalPlanner(robot, scenario, request).Plan();
+  } catch (const Abandoned&) {
+    PlanResult result;
+    result.explanation = "time ran out while the robot's swept volumes were computed.";
+    return result;
+  }
 }
 
 }  // namespace possibility::actions

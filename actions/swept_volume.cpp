@@ -40,10 +40,11 @@ std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& param
 /// knot and hands each knot's link poses to `visit`.
 template <typename Visitor>
 void SampleMotion(const models::RobotModel& robot, const std::vector<MotionPhase>& phases,
-                  const Eigen::VectorXd& guess, const Visitor& visit) {
+                  const Eigen::VectorXd& guess, const std::function<bool()>& keep_going,
+                  const Visitor& visit) {
   MotionSettings settings;
   settings.knot_spacing = kSamplingInterval;
-  const std::vector<Phase> motion = MotionBuilder(robot, settings).Build(phases, guess);
+  const std::vector<Phase> motion = MotionBuilder(robot, settings).Build(phases, guess, keep_going);
   const models::Environment nothing;
   models::CollisionChecker checker(robot, nothing);
   dynamics::TreeKinematics kinematics(robot);
@@ -102,13 +103,14 @@ std::vector<AlignedBox3d> SweptVolume::Boxes() const {
   return boxes;
 }
 
-SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stance) {
+SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stance,
+                      const std::function<bool()>& keep_going) {
   const GaitMotion gait(robot, stance);
   SweptVolume volume;
   for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
     const PlanarPose start;
     try {
-      SampleMotion(robot, gait.Phases({start, displacement}, 0, 1), stance.q,
+      SampleMotion(robot, gait.Phases({start, displacement}, 0, 1), stance.q, keep_going,
                    [&](const std::vector<Eigen::Isometry3d>& X_WL) {
                      volume.Add(robot, X_WL, GaitMotion::StrideFrame(start, displacement));
                    });
@@ -123,11 +125,12 @@ SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stan
   return volume;
 }
 
-SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition) {
+SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition,
+                            const std::function<bool()>& keep_going) {
   SweptVolume volume;
   try {
     SampleMotion(
-        robot, transition.Phases(PlanarPose(), 0, 1), transition.from().q,
+        robot, transition.Phases(PlanarPose(), 0, 1), transition.from().q, keep_going,
         [&](const std::vector<Eigen::Isometry3d>& X_WL) { volume.Add(robot, X_WL, PlanarPose()); });
   } catch (const MotionError& error) {
     throw InputError(fmt::format("{}: transitions: {} to {} is not possible: {}",

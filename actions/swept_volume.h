@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
 #include "actions/gait_motion.h"
@@ -34,11 +35,14 @@ class SweptVolume {
 
 /// Volume swept by every stride that the gait's bounds allow, in StrideFrame.
 /// @throws InputError naming the stride if the robot cannot execute one of the bounds' extremes
-///   within its limits, without colliding with itself.
-SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stance);
+///   within its limits, without colliding with itself; Abandoned if `keep_going` (may be empty)
+///   says no.
+SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stance,
+                      const std::function<bool()>& keep_going = {});
 
 /// Volume swept by a transition, in the first gait's stance frame.
 /// @throws InputError as SweepGait.
-SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition);
+SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition,
+                            const std::function<bool()>& keep_going = {});
 
 }  // namespace possibility::actions
