@@ -63,6 +63,7 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase,
         "of a phase",
         t));
   }
+  CheckCoupledTorques(forces->torques, t);
   Knot knot;
   knot.t = t;
   knot.q = state.q;
@@ -87,6 +88,21 @@ void MotionBuilder::CheckLimits(const WholeBodyState& state, double t) const {
       throw MotionError(fmt::format("{} at {:.3f}/s is faster than {:.3f}/s at {:.2f} s of a phase",
                                     joint.name, rate, settings_.speed_margin * joint.velocity, t));
     }
+  }
+}
+
+void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const {
+  Eigen::VectorXd borne = torques;
+  for (int j = 0; j < robot_->num_joints(); ++j) {
+    const auto& mimic = robot_->joints[j].mimic;
+    if (mimic) borne[mimic->joint] += mimic->multiplier * torques[j];
+  }
+  for (int j = 0; j < robot_->num_joints(); ++j) {
+    const models::Joint& joint = robot_->joints[j];
+    if (joint.mimic || std::abs(borne[j]) <= settings_.torque_margin * joint.effort) continue;
+    throw MotionError(
+        fmt::format("{} and its mimics need {:.1f}, more than {:.1f}, at {:.2f} s of a phase",
+                    joint.name, borne[j], settings_.torque_margin * joint.effort, t));
   }
 }
 

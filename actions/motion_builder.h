@@ -52,6 +52,7 @@ class MotionBuilder {
   Knot MakeKnot(const MotionPhase& phase, const std::vector<dynamics::ContactPoint>& points,
                 double t, Eigen::VectorXd* guess);
   void CheckLimits(const WholeBodyState& state, double t) const;
+  void CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const;
 
   const models::RobotModel* robot_;
   MotionSettings settings_;

@@ -112,6 +112,7 @@ class Worker {
     const Instant at{chunk.segment, sample.state.knot.t};
     const PhaseContacts& contacts = subject_->contacts[chunk.phase_index];
     CheckJointLimits(sample.state.knot, subject_->robot, at, &log_);
+    CheckJointCouplings(sample.state.knot, subject_->robot, at, &log_);
     CheckContacts(sample.state, contacts, subject_->robot, subject_->ground, at, &log_);
     CheckForces(sample.state, contacts, subject_->robot, evaluator_.dynamics(), at_knot, at, &log_);
   }
@@ -238,6 +239,8 @@ std::string ToString(ViolationKind kind) {
       return "joint_speed";
     case ViolationKind::kJointTorque:
       return "joint_torque";
+    case ViolationKind::kJointCoupling:
+      return "joint_coupling";
     case ViolationKind::kContactMotion:
       return "contact_motion";
     case ViolationKind::kContactGround:

@@ -21,6 +21,7 @@ enum class ViolationKind {
   kJointPosition,
   kJointSpeed,  ///< a joint, or the root, is too fast
   kJointTorque,
+  kJointCoupling,  ///< a mimic joint does not follow its master
   kContactMotion,  ///< a bearing point moves
   kContactGround,  ///< a bearing point is not on ground
   kPenetration,    ///< a link is inside the environment

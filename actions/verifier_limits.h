@@ -16,7 +16,11 @@ bool IsWithinSpeedLimits(const Knot& knot, const models::RobotModel& robot);
 void CheckJointLimits(const Knot& knot, const models::RobotModel& robot, const Instant& at,
                       ViolationLog* log);
 
-/// `tau` (num_joints) against the effort limits.
+/// Positions, speeds and accelerations of mimic joints against what follows from their masters.
+void CheckJointCouplings(const Knot& knot, const models::RobotModel& robot, const Instant& at,
+                         ViolationLog* log);
+
+/// `tau` (num_joints) against the effort limits; a master bears its mimics' torques as well.
 void CheckTorqueLimits(const Eigen::VectorXd& tau, const models::RobotModel& robot,
                        const Instant& at, ViolationLog* log);
 

@@ -1,5 +1,8 @@
 # find_package(possibility) in somebody else's project.
 include(CMakePackageConfigHelpers)
+# The installed program finds the installed libpossibility_ode wherever the tree is moved to.
+file(RELATIVE_PATH from_bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set_target_properties(possibility PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin_to_lib}")
 install(EXPORT possibilityTargets NAMESPACE possibility::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/possibility)
 configure_package_config_file(cmake/possibilityConfig.cmake.in

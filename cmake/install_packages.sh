@@ -1,5 +1,7 @@
 #!/bin/sh
-# Installs the system packages that the build needs, if any is missing (Debian 12).
+# Installs the system packages that the build needs, if any is missing (Debian 12), and says on
+# standard output which it has installed.
+#   --with-tests   also what tests are better off with: goes on without it if it cannot be had
 set -eu
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev libsimbody-dev
@@ -7,41 +9,56 @@ coinor-libipopt-dev libsundials-dev libbullet-dev liburdfdom-dev libgtest-dev li
 nlohmann-json3-dev libcli11-dev libfmt-dev libxxhash-dev libjs-three
 libopenblas0-serial"
 
+case "${1-}" in
+  "") optional="" ;;
+  --with-tests) optional="libdart-dev" ;;
+  *) echo "usage: install_packages.sh [--with-tests]" >&2; exit 1 ;;
+esac
+
 # Without dpkg nothing can be asked; configuring names what it does not find.
 if ! command -v dpkg-query >/dev/null; then
   echo "possibility: this is not Debian; these packages of Debian 12, or their like, are needed:" \
-       $packages >&2
+       $packages $optional >&2
   exit 0
 fi
 
-installed=$(dpkg-query -W -f '${Package}=${db:Status-Status} ' $packages 2>/dev/null || true)
-missing=""
-for package in $packages; do
-  case " $installed" in
-    *" $package=installed "*) ;;
-    *) missing="$missing $package" ;;
-  esac
-done
-[ -n "$missing" ] || exit 0
+missing_of() {
+  installed=$(dpkg-query -W -f '${Package}=${db:Status-Status} ' "$@" 2>/dev/null || true)
+  for package in "$@"; do
+    case " $installed" in
+      *" $package=installed "*) ;;
+      *) printf ' %s' "$package" ;;
+    esac
+  done
+}
 
 as_root=""
 if [ "$(id -u)" -ne 0 ]; then
   as_root="sudo"
 fi
-for tool in apt-get $as_root; do
-  if ! command -v "$tool" >/dev/null; then
-    echo "possibility: $tool is not here to install what is missing:$missing" >&2
-    exit 1
-  fi
-done
-
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-echo "possibility: installing$missing" >&2
-if ! { $as_root apt-get -q update &&
-       $as_root env DEBIAN_FRONTEND=noninteractive \
-           apt-get -q -y --no-install-recommends install $missing; } >"$log" 2>&1; then
-  cat "$log" >&2
-  echo "possibility: could not install:$missing" >&2
-  exit 1
-fi
+
+install() {
+  for tool in apt-get $as_root; do
+    if ! command -v "$tool" >/dev/null; then
+      echo "possibility: $tool is not here to install what is missing: $*" >&2
+      return 1
+    fi
+  done
+  echo "possibility: installing $*" >&2
+  if ! { $as_root apt-get -q update &&
+         $as_root env DEBIAN_FRONTEND=noninteractive \
+             apt-get -q -y --no-install-recommends install "$@"; } >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "possibility: could not install: $*" >&2
+    return 1
+  fi
+  echo "$*"
+}
+
+missing=$(missing_of $packages)
+[ -z "$missing" ] || install $missing
+[ -n "$optional" ] || exit 0
+missing=$(missing_of $optional)
+[ -z "$missing" ] || install $missing || echo "possibility: going on without:$missing" >&2

@@ -1,12 +1,13 @@
 #include "dynamics/contact_forces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
-#include "dynamics/quadratic_program.h"
+#include "dynamics/cone_forces.h"
+#include "dynamics/multibody_dynamics.h"
 
 namespace possibility::dynamics {
 
@@ -16,85 +17,74 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kConeEdges = 8;
+constexpr const char* kCaller = "DistributeContactForces";
 // Limits are drawn in by this, so that rounding cannot carry a force over the true one.
 constexpr double kInside = 1 - 1e-9;
-// Weight of the torques (as fractions of their limits) beside the forces (as fractions of an
-// equal share of the weight): small, so that the load is shared first.
-constexpr double kTorqueWeight = 0.01;
 // Base wrench left over, as a fraction of the weight (times a metre).
 constexpr double kResidual = 1e-11;
+// Of a normal's length from 1.
+constexpr double kUnit = 1e-9;
 
-void CheckArguments(const TreeKinematics& kinematics, const Eigen::Ref<const VectorXd>& a,
-                    const std::vector<ContactPoint>& points, const ContactForceSettings& settings) {
-  if (!a.allFinite()) {
-    throw std::invalid_argument("DistributeContactForces: an acceleration is not finite");
-  }
+void CheckSettings(const ContactForceSettings& settings) {
   for (const double setting : {settings.friction, settings.friction_margin, settings.torque_margin,
                                settings.normal_reserve}) {
     if (!(setting >= 0 && std::isfinite(setting))) {
       throw std::invalid_argument(
-          "DistributeContactForces: settings must be finite and not negative");
+          fmt::format("{}: settings must be finite and not negative", kCaller));
     }
   }
-  for (const ContactPoint& point : points) {
-    if (point.link < 0 || point.link >= kinematics.model().num_links()) {
-      throw std::invalid_argument("DistributeContactForces: a contact point names no link");
-    }
+  if (settings.cone_edges < 3) {
+    throw std::invalid_argument(
+        fmt::format("{}: cone_edges is {}, expected 3 or more", kCaller, settings.cone_edges));
   }
 }
 
-/// The joints that carry the load of some point, ascending.
-std::vector<int> LoadedJoints(const TreeKinematics& kinematics,
-                              const std::vector<ContactPoint>& points) {
-  std::vector<int> joints;
-  for (const ContactPoint& point : points) {
-    const std::vector<int>& support = kinematics.SupportingJoints(point.link);
-    joints.insert(joints.end(), support.begin(), support.end());
-  }
-  std::sort(joints.begin(), joints.end());
-  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
-  return joints;
+/// What a motion needs and what points can give: generalised forces `required` (base first) and
+/// the Jacobian of every point, in the same velocities.
+struct Balance {
+  VectorXd required;
+  MatrixXd jacobians;  // 3 points x nv
+  VectorXd efforts;    // by joint
+  int num_base = 6;
+  double weight = 0;  // N
+};
+
+void CheckFinite(const Balance& balance) {
+  // Squares of these numbers are taken further down.
+  if (std::isfinite(balance.required.squaredNorm() + balance.jacobians.squaredNorm())) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: q, v, the acceleration or a point is so large that the forces are not finite", kCaller));
 }
 
-/// The problem as a quadratic program in forces as fractions of `unit` (N). Generalised forces
-/// divided by `unit`: required_ - loads_' x must vanish in the six base rows and keep within
-/// limits_ in the joint rows.
+/// The problem in forces as fractions of `unit` (N).
 class ForceProblem {
  public:
-  ForceProblem(TreeKinematics* kinematics, const Eigen::Ref<const VectorXd>& a,
-               const std::vector<ContactPoint>& points, const ContactForceSettings& settings)
-      : model_(kinematics->model()),
-        settings_(settings),
-        joints_(LoadedJoints(*kinematics, points)) {
-    const int n = 3 * static_cast<int>(points.size());
-    unit_ = kinematics->total_mass() * kGravity / std::max<double>(1, points.size());
+  ForceProblem(const Balance& balance, const std::vector<ContactPoint>& points,
+               const ContactForceSettings& settings)
+      : balance_(balance), points_(points), settings_(settings) {
+    unit_ = balance.weight / std::max<double>(1, points.size());
     if (!(unit_ > 0)) unit_ = 1;
-    kinematics->InverseDynamics(a, &required_);
-    required_ /= unit_;
-    MatrixXd J(3, model_.nv());
-    base_loads_.resize(6, n);
-    joint_loads_.resize(joints_.size(), n);
-    for (int i = 0; i < n / 3; ++i) {
-      kinematics->PointJacobian(points[i].link, points[i].p_L, J);
-      base_loads_.middleCols<3>(3 * i) = J.leftCols<6>().transpose();
-      for (std::size_t k = 0; k < joints_.size(); ++k) {
-        joint_loads_.block<1, 3>(k, 3 * i) = J.col(6 + joints_[k]).transpose();
-      }
+    required_ = balance.required / unit_;
+    for (Eigen::Index joint = 0; joint < balance.efforts.size(); ++joint) {
+      const bool loaded = !balance.jacobians.col(balance.num_base + joint).isZero(0);
+      (loaded ? loaded_ : unloaded_).push_back(static_cast<int>(joint));
     }
+    WriteProblem();
   }
 
   std::optional<ContactForces> Solution() const {
-    if (!UnloadedJointsWithinLimits()) return std::nullopt;
-    VectorXd x = VectorXd::Zero(base_loads_.cols());
-    if (x.size() > 0) {
-      const QuadraticProgramSolution solution = Solve(Program());
-      if (solution.status != QuadraticProgramStatus::kSolved) return std::nullopt;
-      x = solution.x;
-      MoveIntoCones(&x);
+    for (const int joint : unloaded_) {
+      if (std::abs(required_[balance_.num_base + joint]) > Limit(joint)) return std::nullopt;
     }
-    const double residual = (required_.head<6>() - base_loads_ * x).cwiseAbs().maxCoeff();
-    if (residual > kResidual * std::max(1.0, required_.head<6>().norm())) return std::nullopt;
+    VectorXd x = VectorXd::Zero(problem_.balance_loads.cols());
+    if (x.size() > 0) {
+      const std::optional<VectorXd> solution = SolveConeForces(problem_);
+      if (!solution) return std::nullopt;
+      x = *solution;
+    }
+    const VectorXd left = problem_.balance_required - problem_.balance_loads * x;
+    const double tolerance = kResidual * std::max(1.0, problem_.balance_required.norm());
+    if (left.cwiseAbs().maxCoeff() > tolerance) return std::nullopt;
     ContactForces result = Evaluate(x);
     if (result.torque_utilisation > settings_.torque_margin) return std::nullopt;
     return result;
@@ -102,121 +92,55 @@ class ForceProblem {
 
  private:
   double Limit(int joint) const {
-    return model_.joints[joint].effort * settings_.torque_margin * kInside / unit_;
+    return balance_.efforts[joint] * settings_.torque_margin * kInside / unit_;
   }
 
-  bool UnloadedJointsWithinLimits() const {
-    std::size_t next = 0;
-    for (int joint = 0; joint < model_.num_joints(); ++joint) {
-      if (next < joints_.size() && joints_[next] == joint) {
-        ++next;
-      } else if (std::abs(required_[6 + joint]) > Limit(joint)) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  QuadraticProgram Program() const {
-    QuadraticProgram program;
-    WriteCost(&program);
-    program.E = base_loads_;
-    program.e = required_.head<6>();
-    const int n = static_cast<int>(base_loads_.cols());
-    const int cone_rows = n / 3 * kConeEdges;
-    const int bounded =
-        static_cast<int>(std::count_if(joints_.begin(), joints_.end(), [this](int joint) {
-          return std::isfinite(model_.joints[joint].effort);
-        }));
-    program.C.setZero(cone_rows + 2 * bounded, n);
-    program.d.setZero(cone_rows + 2 * bounded);
-    const int row = WriteCones(&program);
-    WriteTorqueLimits(row, &program);
-    return program;
-  }
-
-  void WriteCost(QuadraticProgram* program) const {
-    const Eigen::Index n = base_loads_.cols();
-    VectorXd weights(joints_.size());
-    VectorXd torques(joints_.size());
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const double limit = Limit(joints_[k]);
-      weights[k] = limit > 0 && std::isfinite(limit) ? kTorqueWeight / (limit * limit) : 0;
-      torques[k] = required_[6 + joints_[k]];
-    }
-    const MatrixXd weighted = weights.asDiagonal() * joint_loads_;
-    program->H.noalias() = joint_loads_.transpose() * weighted;
-    program->H += MatrixXd::Identity(n, n);
-    program->g.noalias() = -(weighted.transpose() * torques);
-  }
-
-  /// A regular octagon inscribed in the circle of radius friction * (normal force - reserve): eight
-  /// half planes at cos(pi / 8) of the radius. Together they imply a normal force >= the reserve.
-  int WriteCones(QuadraticProgram* program) const {
-    const double slope = settings_.friction * settings_.friction_margin * kInside *
-                         std::cos(std::numbers::pi / kConeEdges);
-    int row = 0;
-    for (Eigen::Index i = 0; i < base_loads_.cols(); i += 3) {
-      for (int edge = 0; edge < kConeEdges; ++edge, ++row) {
-        const double angle = 2 * std::numbers::pi * edge / kConeEdges;
-        program->C.block<1, 3>(row, i) << std::cos(angle), std::sin(angle), -slope;
-        program->d[row] = -slope * settings_.normal_reserve / unit_;
-      }
-    }
-    return row;
-  }
-
-  void WriteTorqueLimits(int row, QuadraticProgram* program) const {
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      const double limit = Limit(joints_[k]);
-      if (!std::isfinite(limit)) continue;
-      const double torque = required_[6 + joints_[k]];
-      program->C.row(row) = -joint_loads_.row(k);
-      program->d[row++] = limit - torque;
-      program->C.row(row) = joint_loads_.row(k);
-      program->d[row++] = limit + torque;
-    }
-  }
-
-  /// Takes off what rounding put outside the true cones.
-  void MoveIntoCones(VectorXd* x) const {
-    const double slope = settings_.friction * settings_.friction_margin * kInside;
-    for (Eigen::Index i = 0; i < x->size(); i += 3) {
-      const double reserve = settings_.normal_reserve / unit_;
-      const double normal = std::max(0.0, (*x)[i + 2] - reserve);
-      const double tangential = x->segment<2>(i).norm();
-      if (tangential > slope * normal) x->segment<2>(i) *= slope * normal / tangential;
-      (*x)[i + 2] = normal + reserve;
+  void WriteProblem() {
+    for (const ContactPoint& point : points_) problem_.normals.push_back(point.normal_W);
+    problem_.slope = settings_.friction * settings_.friction_margin * kInside;
+    problem_.cone_edges = settings_.cone_edges;
+    problem_.normal_reserve = settings_.normal_reserve / unit_;
+    problem_.balance_loads = balance_.jacobians.leftCols(balance_.num_base).transpose();
+    problem_.balance_required = required_.head(balance_.num_base);
+    problem_.bounded_loads.resize(loaded_.size(), balance_.jacobians.rows());
+    problem_.bounded_required.resize(loaded_.size());
+    problem_.bounds.resize(loaded_.size());
+    for (std::size_t k = 0; k < loaded_.size(); ++k) {
+      const int index = balance_.num_base + loaded_[k];
+      problem_.bounded_loads.row(k) = balance_.jacobians.col(index).transpose();
+      problem_.bounded_required[k] = required_[index];
+      problem_.bounds[k] = Limit(loaded_[k]);
     }
   }
 
   ContactForces Evaluate(const VectorXd& x) const {
     ContactForces result;
     result.forces = unit_ * Eigen::Map<const Eigen::Matrix3Xd>(x.data(), 3, x.size() / 3);
-    result.torques = unit_ * required_.tail(model_.num_joints());
-    const VectorXd loads = unit_ * (joint_loads_ * x);
-    for (std::size_t k = 0; k < joints_.size(); ++k) result.torques[joints_[k]] -= loads[k];
-    for (const auto& force : result.forces.colwise()) {
-      const double most = settings_.friction * force.z();
-      if (most <= 0) continue;
-      result.friction_utilisation =
-          std::max(result.friction_utilisation, force.head<2>().norm() / most);
+    result.torques = unit_ * required_.tail(balance_.efforts.size());
+    const VectorXd loads = unit_ * (problem_.bounded_loads * x);
+    for (std::size_t k = 0; k < loaded_.size(); ++k) result.torques[loaded_[k]] -= loads[k];
+    if (settings_.friction > 0) {
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        const double used = FrictionUsed(points_[i], result.forces.col(i)) / settings_.friction;
+        result.friction_utilisation = std::max(result.friction_utilisation, used);
+      }
     }
-    for (int i = 0; i < model_.num_joints(); ++i) {
-      if (model_.joints[i].effort <= 0) continue;
-      result.torque_utilisation = std::max(result.torque_utilisation,
-                                           std::abs(result.torques[i]) / model_.joints[i].effort);
+    for (Eigen::Index i = 0; i < result.torques.size(); ++i) {
+      if (balance_.efforts[i] <= 0) continue;
+      const double used = std::abs(result.torques[i]) / balance_.efforts[i];
+      result.torque_utilisation = std::max(result.torque_utilisation, used);
     }
     return result;
   }
 
-  const models::RobotModel& model_;
+  const Balance& balance_;
+  const std::vector<ContactPoint>& points_;
   const ContactForceSettings& settings_;
-  std::vector<int> joints_;
+  std::vector<int> loaded_;    // joints that carry the load of some point
+  std::vector<int> unloaded_;  // all others
   double unit_ = 1;
   VectorXd required_;
-  MatrixXd base_loads_;   // 6 x 3 points
-  MatrixXd joint_loads_;  // loaded joints x 3 points
+  ConeForceProblem problem_;
 };
 
 }  // namespace
@@ -225,8 +149,65 @@ std::optional<ContactForces> DistributeContactForces(TreeKinematics* kinematics,
                                                      const Eigen::Ref<const VectorXd>& a,
                                                      const std::vector<ContactPoint>& points,
                                                      const ContactForceSettings& settings) {
-  CheckArguments(*kinematics, a, points, settings);
-  return ForceProblem(kinematics, a, points, settings).Solution();
+  const models::RobotModel& model = kinematics->model();
+  if (!a.allFinite()) {
+    throw std::invalid_argument(fmt::format("{}: acceleration a is not finite", kCaller));
+  }
+  CheckSettings(settings);
+  CheckContactPoints(kCaller, model.num_links(), points);
+  Balance balance;
+  kinematics->InverseDynamics(a, &balance.required);
+  balance.weight = kinematics->total_mass() * kGravity;
+  balance.jacobians.resize(3 * points.size(), model.nv());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    kinematics->PointJacobian(points[i].link, points[i].p_L,
+                              balance.jacobians.middleRows<3>(3 * i));
+  }
+  balance.efforts.resize(model.num_joints());
+  for (int i = 0; i < model.num_joints(); ++i) balance.efforts[i] = model.joints[i].effort;
+  CheckFinite(balance);
+  return ForceProblem(balance, points, settings).Solution();
+}
+
+std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics,
+                                                     const std::vector<ContactPoint>& points,
+                                                     const ContactForceSettings& settings) {
+  const MultibodyModel& model = dynamics->model();
+  CheckSettings(settings);
+  CheckContactPoints(kCaller, model.tree().num_links(), points);
+  Balance balance;
+  balance.required = dynamics->InverseDynamics();
+  balance.weight = dynamics->kinematics().total_mass() * kGravity;
+  balance.num_base = model.num_base_velocities();
+  balance.efforts = model.effort();
+  balance.jacobians.resize(3 * points.size(), model.nv());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    dynamics->Jacobian(points[i], balance.jacobians.middleRows<3>(3 * i));
+  }
+  CheckFinite(balance);
+  return ForceProblem(balance, points, settings).Solution();
+}
+
+void CheckContactPoints(const char* caller, int num_links,
+                        const std::vector<ContactPoint>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint& point = points[i];
+    const auto fail = [&](const std::string& what) {
+      throw std::invalid_argument(fmt::format("{}: point {} {}", caller, i, what));
+    };
+    if (point.link < 0 || point.link >= num_links) {
+      fail(fmt::format("is on link {}, expected 0 to {}", point.link, num_links - 1));
+    }
+    if (!point.p_L.allFinite()) fail("has a position that is not finite");
+    if (!(std::abs(point.normal_W.norm() - 1) <= kUnit)) {
+      fail("has a normal that is no unit vector");
+    }
+  }
+}
+
+double FrictionUsed(const ContactPoint& point, const Vector3d& force) {
+  const double along = force.dot(point.normal_W);
+  return along > 0 ? (force - along * point.normal_W).norm() / along : 0;
 }
 
 }  // namespace possibility::dynamics

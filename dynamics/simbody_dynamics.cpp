@@ -47,24 +47,30 @@ void CheckSize(const char* what, Eigen::Index actual, int expected) {
                               std::to_string(expected));
 }
 
+void CheckFinite(const char* what, const double* values, Eigen::Index size) {
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw std::invalid_argument(std::string("SimbodyDynamics: ") + what + " is not finite");
+  }
+}
+
 }  // namespace
 
-struct SimbodyDynamics::Impl {
-  explicit Impl(const models::RobotModel& model) : matter(system) {
+/// The robot with gravity, forces applied to its mobilities and its mimic joints' couplings.
+struct SimbodyDynamics::System {
+  explicit System(const models::RobotModel& model) : matter(system), general_forces(system) {
     bodies.push_back(SimTK::MobilizedBody::Free(
         matter.Ground(), SimTK::Body::Rigid(ToMassProperties(model.links[0].inertial))));
     for (int i = 0; i < model.num_joints(); ++i) {
       AddJoint(model.joints[i], model.links[i + 1].inertial);
     }
-    state = system.realizeTopology();
-    system.realizeModel(state);
-    nq = state.getNQ();
-    nv = state.getNU();
-    for (const SimTK::MobilizedBody& body : bodies) {
-      first_q.push_back(body.getFirstQIndex(state));
-      first_u.push_back(body.getFirstUIndex(state));
+    for (int i = 0; i < model.num_joints(); ++i) {
+      if (model.joints[i].mimic) Couple(bodies[i + 1], *model.joints[i].mimic);
     }
+    SimTK::Force::Gravity(general_forces, matter, SimTK::Vec3(0, 0, -kGravity));
+    applied = SimTK::Force::DiscreteForces(general_forces, matter);
   }
+  virtual ~System() = default;
 
   void AddJoint(const models::Joint& joint, const models::Inertial& inertial) {
     const bool slides = joint.type == models::JointType::kPrismatic;
@@ -82,11 +88,67 @@ struct SimbodyDynamics::Impl {
     }
   }
 
+  /// q - multiplier * q of the master - offset = 0.
+  void Couple(const SimTK::MobilizedBody& body, const models::Mimic& mimic) {
+    SimTK::Vector coefficients(3);
+    coefficients[0] = 1;
+    coefficients[1] = -mimic.multiplier;
+    coefficients[2] = -mimic.offset;
+    SimTK::Array_<SimTK::MobilizedBodyIndex> coupled;
+    coupled.push_back(body.getMobilizedBodyIndex());
+    coupled.push_back(bodies[mimic.joint + 1].getMobilizedBodyIndex());
+    const SimTK::Array_<SimTK::MobilizerQIndex> first(2, SimTK::MobilizerQIndex(0));
+    // The constraint owns the function.
+    SimTK::Constraint::CoordinateCoupler(matter, new SimTK::Function::Linear(coefficients), coupled,
+                                         first);
+  }
+
+  /// To be called once, when everything has been added.
+  void Finish() {
+    state = system.realizeTopology();
+    system.realizeModel(state);
+    nq = state.getNQ();
+    nv = state.getNU();
+    for (const SimTK::MobilizedBody& body : bodies) {
+      first_q.push_back(body.getFirstQIndex(state));
+      first_u.push_back(body.getFirstUIndex(state));
+    }
+  }
+
   /// Index in Simbody's u of our v[i]: Simbody orders mobilities by depth in the tree.
   int UIndex(int i) const { return i < 6 ? first_u[0] + i : first_u[i - 5]; }
 
+  /// `q` with a quaternion of length 1.
+  void SetState(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+    SimTK::Vector& to_q = state.updQ();
+    for (int i = 0; i < 7; ++i) to_q[first_q[0] + i] = q.data()[i];
+    for (int i = 7; i < nq; ++i) to_q[first_q[i - 6]] = q.data()[i];
+    SimTK::Vector& to_u = state.updU();
+    for (int i = 0; i < nv; ++i) to_u[UIndex(i)] = v.data()[i];
+  }
+
+  SimTK::Vector ToMobilities(const double* values) const {
+    SimTK::Vector mobilities(nv);
+    for (int i = 0; i < nv; ++i) mobilities[UIndex(i)] = values[i];
+    return mobilities;
+  }
+
+  Eigen::VectorXd FromMobilities(const SimTK::Vector& mobilities) const {
+    Eigen::VectorXd values(nv);
+    for (int i = 0; i < nv; ++i) values.data()[i] = mobilities[UIndex(i)];
+    return values;
+  }
+
+  Eigen::VectorXd Accelerate(const double* forces) {
+    applied.setAllMobilityForces(state, ToMobilities(forces));
+    system.realize(state, SimTK::Stage::Acceleration);
+    return FromMobilities(state.getUDot());
+  }
+
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter;
+  SimTK::GeneralForceSubsystem general_forces;
+  SimTK::Force::DiscreteForces applied;
   std::vector<SimTK::MobilizedBody> bodies;  ///< by link
   SimTK::State state;
   int nq = 0;
@@ -95,66 +157,140 @@ struct SimbodyDynamics::Impl {
   std::vector<int> first_u;
 };
 
+struct SimbodyDynamics::HeldSystem : System {
+  HeldSystem(const models::RobotModel& model, const std::vector<int>& held_links)
+      : System(model), links(held_links) {
+    for (const int link : links) {
+      balls.push_back(SimTK::Constraint::Ball(matter.Ground(), bodies[link]));
+    }
+    Finish();
+  }
+
+  /// Where the points are now; realizes positions.
+  void Place(const std::vector<ContactPoint>& held) {
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      balls[i].setPointOnBody2(state, ToVec3(held[i].p_L));
+    }
+    system.realize(state, SimTK::Stage::Position);
+    std::vector<SimTK::Vec3> places;
+    for (const ContactPoint& point : held) {
+      places.push_back(bodies[point.link].findStationLocationInGround(state, ToVec3(point.p_L)));
+    }
+    for (std::size_t i = 0; i < balls.size(); ++i) balls[i].setPointOnBody1(state, places[i]);
+  }
+
+  Eigen::Matrix3Xd Reactions() const {
+    Eigen::Matrix3Xd forces(3, balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      // Multipliers stand on the side of the inertial forces: M u-dot + G' lambda = f.
+      const SimTK::Vec3 force = -balls[i].getMultipliers(state);
+      for (int r = 0; r < 3; ++r) forces.data()[3 * i + r] = force[r];
+    }
+    return forces;
+  }
+
+  std::vector<int> links;
+  std::vector<SimTK::Constraint::Ball> balls;
+};
+
 SimbodyDynamics::SimbodyDynamics(const models::RobotModel& model)
-    : impl_(std::make_unique<Impl>(model)) {}
+    : model_(model), free_(std::make_unique<System>(model)) {
+  free_->Finish();
+}
 SimbodyDynamics::~SimbodyDynamics() = default;
 SimbodyDynamics::SimbodyDynamics(SimbodyDynamics&&) noexcept = default;
 
 void SimbodyDynamics::SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
                                const Eigen::Ref<const Eigen::VectorXd>& v) {
-  CheckSize("q", q.size(), impl_->nq);
-  CheckSize("v", v.size(), impl_->nv);
-  const double* from_q = q.data();
-  const double norm = std::sqrt(from_q[0] * from_q[0] + from_q[1] * from_q[1] +
-                                from_q[2] * from_q[2] + from_q[3] * from_q[3]);
+  CheckSize("q", q.size(), free_->nq);
+  CheckSize("v", v.size(), free_->nv);
+  q_ = q;
+  v_ = v;
+  double* quaternion = q_.data();
+  const double norm = std::sqrt(quaternion[0] * quaternion[0] + quaternion[1] * quaternion[1] +
+                                quaternion[2] * quaternion[2] + quaternion[3] * quaternion[3]);
   if (!(norm > 1e-100 && std::isfinite(norm))) {
     throw std::invalid_argument("SimbodyDynamics: the quaternion in q cannot be normalised");
   }
-  SimTK::Vector& to_q = impl_->state.updQ();
-  for (int i = 0; i < 7; ++i) to_q[impl_->first_q[0] + i] = from_q[i] / (i < 4 ? norm : 1.0);
-  for (int i = 7; i < impl_->nq; ++i) to_q[impl_->first_q[i - 6]] = from_q[i];
-  const double* from_v = v.data();
-  SimTK::Vector& to_u = impl_->state.updU();
-  for (int i = 0; i < impl_->nv; ++i) to_u[impl_->UIndex(i)] = from_v[i];
-  impl_->system.realize(impl_->state, SimTK::Stage::Velocity);
+  for (int i = 0; i < 4; ++i) quaternion[i] /= norm;
+  free_->SetState(q_, v_);
+  free_->system.realize(free_->state, SimTK::Stage::Velocity);
 }
 
 Eigen::VectorXd SimbodyDynamics::InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a) const {
-  CheckSize("a", a.size(), impl_->nv);
-  SimTK::Vector udot(impl_->nv);
-  const double* from_a = a.data();
-  for (int i = 0; i < impl_->nv; ++i) udot[impl_->UIndex(i)] = from_a[i];
-
+  CheckSize("a", a.size(), free_->nv);
   // calcResidualForce counts only the forces it is given, gravity among them.
-  SimTK::Vector_<SimTK::SpatialVec> gravity(impl_->matter.getNumBodies(),
+  SimTK::Vector_<SimTK::SpatialVec> gravity(free_->matter.getNumBodies(),
                                             SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
-  for (const SimTK::MobilizedBody& body : impl_->bodies) {
+  for (const SimTK::MobilizedBody& body : free_->bodies) {
     const SimTK::Vec3 arm =
-        body.expressVectorInGroundFrame(impl_->state, body.getBodyMassCenterStation(impl_->state));
-    const SimTK::Vec3 weight(0, 0, -kGravity * body.getBodyMass(impl_->state));
+        body.expressVectorInGroundFrame(free_->state, body.getBodyMassCenterStation(free_->state));
+    const SimTK::Vec3 weight(0, 0, -kGravity * body.getBodyMass(free_->state));
     gravity[body.getMobilizedBodyIndex()] = SimTK::SpatialVec(arm % weight, weight);
   }
   SimTK::Vector residual;
-  impl_->matter.calcResidualForceIgnoringConstraints(impl_->state, SimTK::Vector(), gravity, udot,
-                                                     residual);
-  Eigen::VectorXd forces(impl_->nv);
-  for (int i = 0; i < impl_->nv; ++i) forces.data()[i] = residual[impl_->UIndex(i)];
-  return forces;
+  free_->matter.calcResidualForceIgnoringConstraints(free_->state, SimTK::Vector(), gravity,
+                                                     free_->ToMobilities(a.data()), residual);
+  return free_->FromMobilities(residual);
+}
+
+Eigen::VectorXd SimbodyDynamics::ForwardDynamics(const Eigen::Ref<const Eigen::VectorXd>& forces) {
+  CheckSize("forces", forces.size(), free_->nv);
+  CheckFinite("forces", forces.data(), forces.size());
+  return free_->Accelerate(forces.data());
+}
+
+SimbodyDynamics::HeldMotion SimbodyDynamics::ForwardDynamics(
+    const Eigen::Ref<const Eigen::VectorXd>& forces, const std::vector<ContactPoint>& held) {
+  CheckSize("forces", forces.size(), free_->nv);
+  CheckFinite("forces", forces.data(), forces.size());
+  std::vector<int> links;
+  for (const ContactPoint& point : held) {
+    CheckFinite("a held point", point.p_L.data(), 3);
+    if (point.link < 0 || point.link >= static_cast<int>(free_->bodies.size())) {
+      throw std::invalid_argument("SimbodyDynamics: a held point is on link " +
+                                  std::to_string(point.link) + ", which the robot has not");
+    }
+    links.push_back(point.link);
+  }
+  if (!held_ || held_->links != links) held_ = std::make_unique<HeldSystem>(model_, links);
+  held_->SetState(q_, v_);
+  held_->Place(held);
+  HeldMotion motion;
+  motion.acceleration = held_->Accelerate(forces.data());
+  motion.forces = held_->Reactions();
+  return motion;
+}
+
+double SimbodyDynamics::KineticEnergy() const {
+  return free_->matter.calcKineticEnergy(free_->state);
+}
+
+double SimbodyDynamics::PotentialEnergy() const {
+  free_->system.realize(free_->state, SimTK::Stage::Dynamics);
+  return free_->system.calcPotentialEnergy(free_->state);
+}
+
+Eigen::Matrix<double, 6, 1> SimbodyDynamics::CentroidalMomentum() const {
+  const SimTK::SpatialVec momentum = free_->matter.calcSystemCentralMomentum(free_->state);
+  Eigen::Matrix<double, 6, 1> result;
+  for (int i = 0; i < 6; ++i) result.data()[i] = momentum[i / 3][i % 3];
+  return result;
 }
 
 Eigen::MatrixXd SimbodyDynamics::MassMatrix() const {
   SimTK::Matrix M;
-  impl_->matter.calcM(impl_->state, M);
-  const int n = impl_->nv;
+  free_->matter.calcM(free_->state, M);
+  const int n = free_->nv;
   Eigen::MatrixXd result(n, n);
   for (int c = 0; c < n; ++c) {
-    for (int r = 0; r < n; ++r) result.data()[c * n + r] = M(impl_->UIndex(r), impl_->UIndex(c));
+    for (int r = 0; r < n; ++r) result.data()[c * n + r] = M(free_->UIndex(r), free_->UIndex(c));
   }
   return result;
 }
 
 Eigen::Isometry3d SimbodyDynamics::LinkPose(int link) const {
-  const SimTK::Transform& X = impl_->bodies.at(link).getBodyTransform(impl_->state);
+  const SimTK::Transform& X = free_->bodies.at(link).getBodyTransform(free_->state);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   double* m = pose.data();
   for (int c = 0; c < 3; ++c) {
@@ -165,35 +301,35 @@ Eigen::Isometry3d SimbodyDynamics::LinkPose(int link) const {
 }
 
 Eigen::Vector3d SimbodyDynamics::PointPosition(int link, const Eigen::Vector3d& p_L) const {
-  return FromVec3(impl_->bodies.at(link).findStationLocationInGround(impl_->state, ToVec3(p_L)));
+  return FromVec3(free_->bodies.at(link).findStationLocationInGround(free_->state, ToVec3(p_L)));
 }
 
 Eigen::Vector3d SimbodyDynamics::PointVelocity(int link, const Eigen::Vector3d& p_L) const {
-  return FromVec3(impl_->bodies.at(link).findStationVelocityInGround(impl_->state, ToVec3(p_L)));
+  return FromVec3(free_->bodies.at(link).findStationVelocityInGround(free_->state, ToVec3(p_L)));
 }
 
 Eigen::Matrix3Xd SimbodyDynamics::PointJacobian(int link, const Eigen::Vector3d& p_L) const {
   SimTK::Matrix J;
-  impl_->matter.calcStationJacobian(impl_->state, impl_->bodies.at(link).getMobilizedBodyIndex(),
+  free_->matter.calcStationJacobian(free_->state, free_->bodies.at(link).getMobilizedBodyIndex(),
                                     ToVec3(p_L), J);
-  Eigen::Matrix3Xd result(3, impl_->nv);
-  for (int c = 0; c < impl_->nv; ++c) {
-    for (int r = 0; r < 3; ++r) result.data()[3 * c + r] = J(r, impl_->UIndex(c));
+  Eigen::Matrix3Xd result(3, free_->nv);
+  for (int c = 0; c < free_->nv; ++c) {
+    for (int r = 0; r < 3; ++r) result.data()[3 * c + r] = J(r, free_->UIndex(c));
   }
   return result;
 }
 
 Eigen::Vector3d SimbodyDynamics::PointBias(int link, const Eigen::Vector3d& p_L) const {
-  return FromVec3(impl_->matter.calcBiasForStationJacobian(
-      impl_->state, impl_->bodies.at(link).getMobilizedBodyIndex(), ToVec3(p_L)));
+  return FromVec3(free_->matter.calcBiasForStationJacobian(
+      free_->state, free_->bodies.at(link).getMobilizedBodyIndex(), ToVec3(p_L)));
 }
 
 Eigen::Vector3d SimbodyDynamics::CentreOfMass() const {
-  return FromVec3(impl_->matter.calcSystemMassCenterLocationInGround(impl_->state));
+  return FromVec3(free_->matter.calcSystemMassCenterLocationInGround(free_->state));
 }
 
 Eigen::Vector3d SimbodyDynamics::CentreOfMassVelocity() const {
-  return FromVec3(impl_->matter.calcSystemMassCenterVelocityInGround(impl_->state));
+  return FromVec3(free_->matter.calcSystemMassCenterVelocityInGround(free_->state));
 }
 
 }  // namespace possibility::dynamics

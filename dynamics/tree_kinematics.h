@@ -35,6 +35,8 @@ class TreeKinematics {
   Eigen::Vector3d Velocity(int link, const Eigen::Vector3d& p_L) const;
   Eigen::Vector3d AngularVelocity(int link) const;
 
+  /// Unit axis of the joint that moves a link (not the root), world axes.
+  const Eigen::Vector3d& Axis(int link) const { return states_[link].axis; }
   /// The joints between the root and a link, the root's first: all that can move the link.
   const std::vector<int>& SupportingJoints(int link) const { return supporting_joints_[link]; }
 

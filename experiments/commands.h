@@ -28,5 +28,6 @@ Command AddPlanCommand(CLI::App& program);
 Command AddVerifyCommand(CLI::App& program);
 Command AddViewCommand(CLI::App& program);
 Command AddExportCommand(CLI::App& program);
+Command AddBenchCommand(CLI::App& program);
 
 }  // namespace possibility::experiments

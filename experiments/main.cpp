@@ -16,7 +16,7 @@ namespace possibility::experiments {
 namespace {
 
 constexpr Command (*kCommands[])(CLI::App&) = {&AddPlanCommand, &AddVerifyCommand, &AddViewCommand,
-                                               &AddExportCommand};
+                                               &AddExportCommand, &AddBenchCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

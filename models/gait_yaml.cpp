@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "models/mimic_joints.h"
 #include "models/named_lookup.h"
 
 namespace possibility::models {
@@ -38,6 +39,30 @@ std::map<int, double> ReadJointValues(const YamlNode& node, const RobotModel& ro
   return values;
 }
 
+/// Mimic joints follow their masters, whether or not the file gives them values as well.
+void CompleteMimicJoints(const YamlNode& node, const std::map<int, double>& given,
+                         const RobotModel& robot, Eigen::VectorXd* joints) {
+  FollowMasters(robot, joints);
+  constexpr double kTolerance = 1e-6;  // rad or m; files give degrees with a few digits
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const Joint& joint = robot.joints[i];
+    if (!joint.mimic) continue;
+    const double value = (*joints)[i];
+    const double unit = joint.type == JointType::kPrismatic ? 1 : 180 / std::numbers::pi;
+    const std::string& master = robot.joints[joint.mimic->joint].name;
+    const auto own = given.find(i);
+    if (own != given.end() && !(std::abs(own->second - value) <= kTolerance)) {
+      node.At(joint.name)
+          .FailExpected(fmt::format("{:.6g}, which follows from joint '{}'", value * unit, master));
+    }
+    if (value < joint.lower - kTolerance || value > joint.upper + kTolerance) {
+      node.Fail(
+          fmt::format("joint '{}' follows '{}' to {:.6g}, outside its limits {:.6g} to {:.6g}",
+                      joint.name, master, value * unit, joint.lower * unit, joint.upper * unit));
+    }
+  }
+}
+
 void CheckRestIsAllowed(const YamlNode& node, const Posture& posture, const RobotModel& robot) {
   for (int i = 0; i < robot.num_joints(); ++i) {
     const Joint& joint = robot.joints[i];
@@ -53,11 +78,20 @@ Posture ReadPosture(const YamlNode& node, const RobotModel& robot) {
   posture.root_height = node.At("root_height").Positive();
   posture.root_pitch = node.At("root_pitch_deg").Degrees();
   posture.joints = Eigen::VectorXd::Zero(robot.num_joints());
-  for (const auto& [joint, value] : ReadJointValues(node.At("joints_deg"), robot)) {
-    posture.joints[joint] = value;
-  }
+  const std::map<int, double> given = ReadJointValues(node.At("joints_deg"), robot);
+  for (const auto& [joint, value] : given) posture.joints[joint] = value;
+  CompleteMimicJoints(node.At("joints_deg"), given, robot, &posture.joints);
   CheckRestIsAllowed(node.At("joints_deg"), posture, robot);
   return posture;
+}
+
+/// Gaits and transitions move joints one by one, which coupled joints do not allow.
+void CheckUncoupled(const YamlNode& node, int joint, const RobotModel& robot) {
+  if (!robot.IsCoupled(joint)) return;
+  const auto& mimic = robot.joints[joint].mimic;
+  node.Fail(fmt::format("joint '{}' {}, expected an uncoupled joint", robot.joints[joint].name,
+                        mimic ? "mimics '" + robot.joints[mimic->joint].name + "'"
+                              : std::string("is mimicked by another")));
 }
 
 bool Moves(const RobotModel& robot, int joint, int link) {
@@ -78,6 +112,7 @@ GaitLimb ReadLimb(const YamlNode& node, const RobotModel& robot) {
                             limb.hold_orientation ? "a pose" : "a point", limb.joints.size()));
   }
   for (const YamlNode& joint : joints.Items()) {
+    CheckUncoupled(joint, robot.JointIndex(joint.String()), robot);
     if (!Moves(robot, robot.JointIndex(joint.String()), robot.contacts[limb.contact].link)) {
       joint.Fail(fmt::format("joint '{}' does not move contact '{}'", joint.String(),
                              robot.contacts[limb.contact].name));
@@ -207,6 +242,9 @@ TransitionKeyframe ReadKeyframe(const YamlNode& node, const Gait& from, const Ga
   if (const auto com_x = node.Find("com_x")) keyframe.com_x = com_x->Number();
   const YamlNode joints = node.At("joints_deg");
   keyframe.joints = ReadJointValues(joints, robot);
+  for (const auto& [joint, value] : keyframe.joints) {
+    CheckUncoupled(joints.At(robot.joints[joint].name), joint, robot);
+  }
   for (const int bound : BoundJoints(keyframe.contacts, from, to)) {
     if (!keyframe.joints.contains(bound)) continue;
     joints.At(robot.joints[bound].name).Fail("a bearing contact already determines this joint");

@@ -72,11 +72,10 @@ class TreeBuilder {
                       "prismatic",
                       owner, joint.type));
     }
-    if (joint.is_mimic) Fail(owner + ": mimic joints are not supported");
     if (!joint.has_limits) Fail(owner + ": expected a <limit> with velocity and effort");
     if (!(joint.axis.norm() > 1e-9)) Fail(owner + ": the axis is zero");
-    Joint result{joint.name,  type->second, parent,         X_PJ,        joint.axis.normalized(),
-                 joint.lower, joint.upper,  joint.velocity, joint.effort};
+    Joint result{joint.name,  type->second, parent,         X_PJ,         joint.axis.normalized(),
+                 joint.lower, joint.upper,  joint.velocity, joint.effort, std::nullopt};
     if (result.type == JointType::kContinuous) {
       result.lower = -std::numeric_limits<double>::infinity();
       result.upper = std::numeric_limits<double>::infinity();

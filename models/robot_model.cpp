@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "models/input_error.h"
 #include "models/nearest_name.h"
 
@@ -32,6 +34,13 @@ double RobotModel::TotalMass() const {
   double mass = 0;
   for (const Link& link : links) mass += link.inertial.mass;
   return mass;
+}
+
+bool RobotModel::IsCoupled(int joint) const {
+  if (joints[joint].mimic) return true;
+  return std::any_of(joints.begin(), joints.end(), [joint](const Joint& other) {
+    return other.mimic && other.mimic->joint == joint;
+  });
 }
 
 int RobotModel::LinkIndex(const std::string& link) const {

@@ -27,6 +27,14 @@ struct Link {
   std::vector<PosedShape> shapes;  ///< collision shapes, posed in the link frame
 };
 
+/// Couples a joint to another one: q = multiplier * q[joint] + offset. The master is no mimic
+/// itself: chains are composed when the robot is read.
+struct Mimic {
+  int joint = 0;          ///< index of the master, anywhere in the order
+  double multiplier = 1;  ///< finite, not 0; units of this joint per unit of the master
+  double offset = 0;      ///< rad or m
+};
+
 /// Joint i moves link i + 1; link 0 is the root and floats freely.
 struct Joint {
   std::string name;
@@ -37,7 +45,8 @@ struct Joint {
   double lower = 0;                                        ///< rad or m; -inf if continuous
   double upper = 0;
   double velocity = 0;  ///< rad/s or m/s
-  double effort = 0;    ///< N m or N
+  double effort = 0;    ///< N m or N; of a mimic joint: infinite, its master's counts
+  std::optional<Mimic> mimic;
 };
 
 /// Where the robot may bear on the ground: the corner points of a sole, or the tip of a peg.
@@ -107,6 +116,10 @@ struct Transition {
 
 /// Immutable description of a robot: URDF + robot YAML (docs/file_formats.md).
 ///
+/// Mimic joints have their entries in q, v, a and torques like all others; those of q, v and a
+/// follow from their masters'. Their torques act through the master: its effort limit is that of
+/// the sum of its own torque and multiplier * torque of each of its mimics.
+///
 /// Configuration q (nq = 7 + num_joints): root orientation quaternion (w, x, y, z), root position
 /// (m, world), joints. Velocity v (nv = 6 + num_joints): root angular velocity, root linear
 /// velocity (both expressed in the world), joint rates. Acceleration a = dv/dt.
@@ -129,6 +142,8 @@ struct RobotModel {
   int nq() const { return 7 + num_joints(); }
   int nv() const { return 6 + num_joints(); }
   double TotalMass() const;
+  /// Whether the joint mimics another one or is mimicked.
+  bool IsCoupled(int joint) const;
   /// Index by name; throws InputError naming the nearest known name.
   int LinkIndex(const std::string& name) const;
   int JointIndex(const std::string& name) const;

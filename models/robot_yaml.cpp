@@ -7,6 +7,7 @@
 #include "models/gait_yaml.h"
 #include "models/input_error.h"
 #include "models/lumping.h"
+#include "models/mimic_joints.h"
 #include "models/named_lookup.h"
 #include "models/robot_model.h"
 #include "models/shape_yaml.h"
@@ -41,6 +42,11 @@ void ReadEfforts(const YamlNode& list, RobotModel* robot) {
       if (!seen.insert(joint).second) {
         node.At("joints").Fail(
             fmt::format("joint '{}' is listed twice", robot->joints[joint].name));
+      }
+      if (const auto& mimic = robot->joints[joint].mimic) {
+        node.At("joints").Fail(fmt::format("joint '{}' mimics '{}', whose limit counts for both",
+                                           robot->joints[joint].name,
+                                           robot->joints[mimic->joint].name));
       }
       robot->joints[joint].effort = limit;
     }
@@ -180,7 +186,9 @@ RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   robot.content_hash = ContentHash({yaml, urdf});
   const UrdfTree tree = ParseUrdf(urdf, urdf_file);
   ReadRootLink(root.At("root_link"), tree);
-  BuildLumpedTree(tree, ReadLumped(root, tree), urdf_file.string(), &robot);
+  const std::set<std::string> lumped = ReadLumped(root, tree);
+  BuildLumpedTree(tree, lumped, urdf_file.string(), &robot);
+  CoupleMimicJoints(tree, lumped, urdf_file.string(), &robot);
   if (robot.joints.empty()) throw InputError(urdf_file.string() + ": expected at least one joint");
   ReadDescription(root, &robot);
   return robot;

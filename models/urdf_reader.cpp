@@ -172,13 +172,20 @@ class UrdfConverter {
     return found == kNames.end() ? "unknown" : found->second;
   }
 
+  std::optional<UrdfMimic> ConvertMimic(const urdf::Joint& joint, const std::string& owner) const {
+    if (!joint.mimic) return std::nullopt;
+    const urdf::JointMimic& mimic = *joint.mimic;
+    CheckMagnitude({mimic.multiplier, mimic.offset}, owner, "mimic");
+    return UrdfMimic{mimic.joint_name, mimic.multiplier, mimic.offset};
+  }
+
   UrdfJoint ConvertJoint(const urdf::Joint& joint) const {
     const std::string owner = fmt::format("joint '{}'", joint.name);
     UrdfJoint result{.name = joint.name,
                      .parent = joint.parent_link_name,
                      .child = joint.child_link_name,
                      .type = TypeName(joint.type),
-                     .is_mimic = joint.mimic != nullptr,
+                     .mimic = ConvertMimic(joint, owner),
                      .has_limits = joint.limits != nullptr,
                      .X_PJ = Pose(joint.parent_to_joint_origin_transform, owner),
                      .axis = {joint.axis.x, joint.axis.y, joint.axis.z}};

@@ -9,13 +9,20 @@
 
 namespace possibility::models {
 
+/// A <mimic> element as written: position = multiplier * position of `joint` + offset.
+struct UrdfMimic {
+  std::string joint;
+  double multiplier = 1;
+  double offset = 0;
+};
+
 /// One joint of a URDF as written there, before anything is lumped.
 struct UrdfJoint {
   std::string name;
   std::string parent;
   std::string child;
   std::string type;  ///< "fixed", "revolute", "continuous", "prismatic", or an unsupported one
-  bool is_mimic = false;
+  std::optional<UrdfMimic> mimic;
   bool has_limits = false;
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< as written, not normalised

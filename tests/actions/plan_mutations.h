@@ -173,6 +173,28 @@ inline void WeakenJoint(VerifierSubject* subject) {
   subject->robot.joints[joint].effort = 0.999 * largest;
 }
 
+/// Makes the last joint a mimic of the one before, and the plan follow that.
+inline void CoupleLastJoint(VerifierSubject* subject) {
+  const int mimic = subject->robot.num_joints() - 1;
+  subject->robot.joints[mimic].mimic = models::Mimic{mimic - 1, -0.5, 0.1};
+  for (Knot* knot : KnotsOf(&subject->plan)) {
+    knot->q[7 + mimic] = 0.1 - 0.5 * knot->q[6 + mimic];
+    knot->v[6 + mimic] = -0.5 * knot->v[5 + mimic];
+    knot->a[6 + mimic] = -0.5 * knot->a[5 + mimic];
+  }
+}
+
+/// The last joint is a mimic that strays from its master at one knot.
+inline std::function<void(VerifierSubject*)> Uncouple(double dq, double dv, double da) {
+  return [=](VerifierSubject* subject) {
+    CoupleLastJoint(subject);
+    Knot& knot = MiddleKnot(&FirstPhase(subject));
+    knot.q[knot.q.size() - 1] += dq;
+    knot.v[knot.v.size() - 1] += dv;
+    knot.a[knot.a.size() - 1] += da;
+  };
+}
+
 /// The plan must have at least two segments, and two patches bearing in its first phase, the first
 /// of them a rectangle; robot and scenario are those of the plan.
 inline std::vector<PlanMutation> PlanMutations() {
@@ -237,6 +259,10 @@ inline std::vector<PlanMutation> PlanMutations() {
        Kind::kJointPosition},
       {"TooFast", ExceedSpeed, Kind::kJointSpeed},
       {"TooWeak", WeakenJoint, Kind::kJointTorque},
+
+      {"MimicMisplaced", Uncouple(1e-5, 0, 0), Kind::kJointCoupling},
+      {"MimicTooFast", Uncouple(0, 1e-5, 0), Kind::kJointCoupling},
+      {"MimicPushed", Uncouple(0, 0, 1e-2), Kind::kJointCoupling},
 
       {"FootSlides", SlideContact, Kind::kContactMotion},
       {"GroundSunk",

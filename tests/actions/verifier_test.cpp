@@ -17,6 +17,7 @@
 namespace possibility::actions {
 namespace {
 
+using testing::CoupleLastJoint;
 using testing::KnotsOf;
 using testing::StandingPlan;
 using testing::VerifierSubject;
@@ -45,6 +46,32 @@ TEST(Verifier, AcceptsAStandingPlan) {
   EXPECT_GE(report.samples, ValidSubject().plan.duration() / 0.005);
   RecordProperty("microseconds_per_sample",
                  static_cast<int>(1e6 * report.seconds / static_cast<double>(report.samples)));
+}
+
+TEST(Verifier, CoupledJointsMayMoveTogether) {
+  VerifierSubject subject = ValidSubject();
+  CoupleLastJoint(&subject);
+  EXPECT_EQ(Find(Verified(subject), ViolationKind::kJointCoupling), nullptr);
+}
+
+TEST(Verifier, AMasterBearsTheTorqueOfItsMimic) {
+  VerifierSubject subject = ValidSubject();
+  const int master = subject.robot.JointIndex("LKP");
+  const int mimic = subject.robot.JointIndex("RKP");
+  subject.robot.joints[mimic].mimic = models::Mimic{master, 2, 0};
+  subject.robot.joints[mimic].effort = 0;
+  double most = 0;
+  for (const Knot* knot : KnotsOf(&subject.plan)) {
+    most = std::max(most, std::abs(knot->tau[master] + 2 * knot->tau[mimic]));
+  }
+  subject.robot.joints[master].effort = 1.01 * most;
+  EXPECT_EQ(Find(Verified(subject), ViolationKind::kJointTorque), nullptr);
+  subject.robot.joints[master].effort = 0.99 * most;
+  const VerificationReport report = Verified(subject);
+  const Violation* violation = Find(report, ViolationKind::kJointTorque);
+  ASSERT_NE(violation, nullptr);
+  EXPECT_EQ(violation->quantity, "LKP torque");
+  EXPECT_NEAR(violation->value, most, 0.01 * most);
 }
 
 TEST(Verifier, AcceptsWhatWasWrittenAndReadBack) {

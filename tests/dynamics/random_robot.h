@@ -69,6 +69,19 @@ inline models::RobotModel RandomTree(std::mt19937* random, int num_joints) {
   return model;
 }
 
+/// A tree in the plane y = 0 with turning and sliding joints.
+inline models::RobotModel RandomPlanarTree(std::mt19937* random, int num_joints) {
+  models::RobotModel tree = RandomTree(random, num_joints);
+  for (models::Joint& joint : tree.joints) {
+    const bool slides = joint.type == models::JointType::kPrismatic;
+    const double tilt = Uniform(random, -3, 3);
+    joint.X_PJ = Eigen::Translation3d(Uniform(random, -0.3, 0.3), 0, Uniform(random, -0.3, 0.3)) *
+                 Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY());
+    joint.axis = slides ? Eigen::Vector3d(0.6, 0, 0.8) : Eigen::Vector3d(0, tilt > 0 ? 1 : -1, 0);
+  }
+  return tree;
+}
+
 inline Eigen::VectorXd RandomConfiguration(std::mt19937* random, const models::RobotModel& model) {
   Eigen::VectorXd q = RandomVector(random, model.nq(), 2);
   q.head<4>().normalize();

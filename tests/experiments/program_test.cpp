@@ -195,5 +195,27 @@ TEST_F(Program, APlanForAnotherRobotIsRefusedByView) {
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
+TEST_F(Program, BenchDynamicsPrintsRowsAndRatios) {
+  const Outcome outcome = Run("bench dynamics --json --robot '" POSSIBILITY_SOURCE_DIR
+                              "/models/drchubo1/drchubo1.yaml'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = nlohmann::json::parse(outcome.out);
+  for (const auto& row : json["rows"]) {
+    EXPECT_FALSE(row["name"].get<std::string>().empty());
+    EXPECT_GT(row["microseconds"].get<double>(), 0);
+  }
+  EXPECT_GT(json["ratios"]["derivatives_speedup"].get<double>(), 0);
+  EXPECT_GT(json["ratios"]["two_thread_throughput"].get<double>(), 0);
+}
+
+TEST_F(Program, BenchNamesTheSubjectItDoesNotKnow) {
+  const Outcome outcome = Run("bench dynamix");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(outcome.err,
+            "bench: unknown subject 'dynamix', expected dynamics (did you mean 'dynamics'?)\n");
+  EXPECT_EQ(Run("bench dynamics --robot no_such_robot.yaml").code, 1);
+}
+
 }  // namespace
 }  // namespace possibility::experiments

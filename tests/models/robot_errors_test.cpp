@@ -356,8 +356,12 @@ const BadRobot kBadUrdf[] = {
     {"UnknownJointType", true, kYawJoint, "<joint name=\"l_yaw\" type=\"screw\">",
      "robot.urdf: not a valid URDF: Joint [l_yaw] has no known type [screw]; joint xml is not "
      "initialized correctly"},
-    {"Mimic", true, kYawLimit, kYawLimit + "<mimic joint=\"r_yaw\"/>",
-     "robot.urdf: joint 'l_yaw': mimic joints are not supported"},
+    {"EffortOfAMimic", true, kYawLimit, kYawLimit + "<mimic joint=\"r_yaw\"/>",
+     "robot.yaml:7: effort[0].joints: joint 'l_yaw' mimics 'r_yaw', whose limit counts for both"},
+    {"LimbOfAMimic", true, "<axis xyz=\"1 0 0\"/>" + kYawLimit,
+     "<axis xyz=\"1 0 0\"/>" + kYawLimit + "<mimic joint=\"r_roll\"/>",
+     "robot.yaml:20: gaits[0].limbs[0].joints[1]: joint 'l_roll' mimics 'r_roll', expected an "
+     "uncoupled joint"},
     {"ChildOfTwoJoints", true, "</robot>",
      "<joint name=\"again\" type=\"fixed\"><parent link=\"base\"/><child "
      "link=\"l_foot\"/></joint></robot>",

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace possibility::dynamics {
+
+/// Solves Y'Y x = r for the x of least square norm, Y (n x m) of any rank, r in the range of Y'.
+class GramSolver {
+ public:
+  void Factor(const Eigen::Ref<const Eigen::MatrixXd>& Y);
+
+  /// Overwrites `x` (m) and `residual` (m): r - Y'Y x, about rounding where r lies in the range,
+  /// never NaN for finite arguments that do not overflow.
+  void Solve(const Eigen::Ref<const Eigen::VectorXd>& r, double tolerance, Eigen::VectorXd* x,
+             Eigen::VectorXd* residual) const;
+
+ private:
+  void SolveOrthogonally(const Eigen::Ref<const Eigen::VectorXd>& r, Eigen::VectorXd* x,
+                         Eigen::VectorXd* residual) const;
+
+  Eigen::MatrixXd Y_;
+  Eigen::MatrixXd gram_;
+  Eigen::LLT<Eigen::MatrixXd> regularised_;
+};
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "experiments/bench_dynamics.h"
+#include "experiments/benchmark.h"
+#include "experiments/commands.h"
+#include "models/input_error.h"
+#include "models/nearest_name.h"
+
+namespace possibility::experiments {
+namespace {
+
+struct BenchOptions {
+  std::string subject;
+  std::string robot = "models/drchubo1/drchubo1.yaml";
+  bool json = false;
+};
+
+using Bench = BenchmarkReport (*)(const models::RobotModel&,
+                                  const std::function<void(int, int)>& progress);
+const std::map<std::string, Bench>& Benches() {
+  static const std::map<std::string, Bench> benches = {{"dynamics", &BenchDynamics}};
+  return benches;
+}
+
+/// "round 3 of 15" over and over on stderr, if somebody looks.
+void ShowRound(int round, int rounds) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  fmt::print(stderr, "\rround {} of {}{}", round, rounds, round == rounds ? "\r\x1b[K" : "");
+  std::fflush(stderr);
+}
+
+ExitCode RunBench(const BenchOptions& options) {
+  const auto found = Benches().find(options.subject);
+  if (found == Benches().end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, bench] : Benches()) known.push_back(name);
+    throw InputError(fmt::format("bench: unknown subject '{}', expected {}{}", options.subject,
+                                 fmt::join(known, ", "),
+                                 models::DidYouMean(options.subject, known)));
+  }
+  const BenchmarkReport report = found->second(models::LoadRobotModel(options.robot), &ShowRound);
+  if (options.json) {
+    fmt::print("{}\n", report.Json().dump());
+  } else {
+    fmt::print("{}", report.Text());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command AddBenchCommand(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("bench", "Measures speed, against peers in the same run.");
+  auto options = std::make_shared<BenchOptions>();
+  app->add_option("SUBJECT", options->subject, "dynamics")->required();
+  app->add_option("--robot", options->robot, "Robot YAML")->capture_default_str();
+  app->add_flag("--json", options->json, "One JSON object on stdout, nothing else");
+  return {app, [options] { return RunBench(*options); }};
+}
+
+}  // namespace possibility::experiments
