@@ -11,6 +11,8 @@ pkg_check_modules(urdfdom REQUIRED IMPORTED_TARGET urdfdom)
 # find_package(Bullet) would give the single-precision build.
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+# Only its C++ interface: libSimTKmath exports the names of the C interface.
+pkg_check_modules(ipopt REQUIRED IMPORTED_TARGET ipopt)
 # The static CVODE: libSimTKmath exports symbols of its own, older copy (dynamics/CMakeLists.txt).
 find_path(SUNDIALS_INCLUDE_DIR cvode/cvode.h REQUIRED)
 find_library(SUNDIALS_CVODE_STATIC_LIBRARY libsundials_cvode.a REQUIRED)

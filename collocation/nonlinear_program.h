@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace possibility::collocation {
+
+/// Where a sparse matrix has entries; one value per entry, duplicates add up.
+struct SparsityPattern {
+  std::vector<int> rows;
+  std::vector<int> columns;
+
+  int size() const { return static_cast<int>(rows.size()); }
+  void Add(int row, int column) {
+    rows.push_back(row);
+    columns.push_back(column);
+  }
+};
+
+/// Minimise f(x) subject to lower <= x <= upper and constraint_lower <= g(x) <= constraint_upper,
+/// bounds possibly infinite, with exact sparse derivatives. A function that cannot be evaluated
+/// (NaN, a workspace that throws) throws std::runtime_error or returns what is not finite: the
+/// solver shortens its step, or gives up if that is the point it starts from.
+class NonlinearProgram {
+ public:
+  virtual ~NonlinearProgram() = default;
+
+  virtual int num_variables() const = 0;
+  virtual int num_constraints() const = 0;
+  virtual const Eigen::VectorXd& lower() const = 0;
+  virtual const Eigen::VectorXd& upper() const = 0;
+  virtual const Eigen::VectorXd& constraint_lower() const = 0;
+  virtual const Eigen::VectorXd& constraint_upper() const = 0;
+
+  virtual double Objective(const Eigen::VectorXd& x) = 0;
+  /// Dense: num_variables.
+  virtual void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) = 0;
+  virtual void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g) = 0;
+
+  /// num_constraints x num_variables.
+  virtual const SparsityPattern& jacobian_pattern() const = 0;
+  virtual void Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) = 0;
+  /// The lower triangle of the Hessian of objective_factor f + multipliers' g.
+  virtual const SparsityPattern& hessian_pattern() const = 0;
+  virtual void Hessian(const Eigen::VectorXd& x, double objective_factor,
+                       const Eigen::VectorXd& multipliers, Eigen::VectorXd* values) = 0;
+
+  /// For messages: "swing, knot 3: knee_rate".
+  virtual std::string VariableName(int variable) const = 0;
+  virtual std::string ConstraintName(int constraint) const = 0;
+};
+
+}  // namespace possibility::collocation

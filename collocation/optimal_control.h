@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collocation/optimal_control_problem.h"
+#include "collocation/solver.h"
+#include "collocation/transcription.h"
+
+namespace possibility::collocation {
+
+struct OptimalControlOptions {
+  TranscriptionScheme scheme = HermiteSimpson();
+  /// Intervals per phase to begin with: one number for all phases or one for each.
+  std::vector<int> intervals = {20};
+  /// The mesh is refined until the error between the knots is below this; 0: never.
+  double mesh_tolerance = 0;
+  int max_refinements = 6;
+  SolverOptions solver;
+};
+
+/// How far a named constraint is from its bounds at the worst of its points.
+struct ConstraintViolation {
+  double amount = 0;  ///< in the constraint's own unit
+  std::string where;  ///< "swing, knot 3 (t = 0.3 of the duration): knee[1]"
+};
+
+struct OptimalControlResult {
+  SolverStatus status = SolverStatus::kFailed;
+  std::string message;
+  double objective = 0;
+  Trajectory trajectory;
+  /// By constraint name without point: every constraint with its worst violation.
+  std::map<std::string, ConstraintViolation> violations;
+  /// Of the last mesh: the error between the knots of each phase (MeshErrors).
+  double mesh_error = 0;
+  int refinements = 0;
+  SolverResult solver;            ///< of the last mesh
+  SolverTimes times;              ///< of all meshes together
+  int iterations = 0;             ///< of all meshes together
+  SolverEvaluations evaluations;  ///< of all meshes together
+
+  bool succeeded() const {
+    return status == SolverStatus::kSolved || status == SolverStatus::kAcceptable;
+  }
+};
+
+/// Per interval of each phase: the integral of how far the equality constraints that hold
+/// everywhere (dynamics among them) are from zero between the knots, divided by their scales;
+/// the greatest of the rows.
+std::vector<std::vector<double>> MeshErrors(const OptimalControlProblem& problem,
+                                            const Trajectory& trajectory);
+
+/// Splits the intervals whose error exceeds `tolerance` into as many parts as a scheme of that
+/// order needs, up to 4.
+Mesh Refined(const Mesh& mesh, const std::vector<double>& errors, double tolerance, int order);
+
+/// Transcribes, solves and, if so told, refines the mesh and solves again from the last solution.
+/// `guess`: where to start in place of the problem's own guesses.
+/// @throws std::invalid_argument as Transcription and Solve do.
+OptimalControlResult SolveOptimalControl(
+    const OptimalControlProblem& problem, const OptimalControlOptions& options = {},
+    const std::optional<Trajectory>& guess = std::nullopt, SolveControl* control = nullptr,
+    const std::function<void(const SolverIteration&)>& log = {});
+
+}  // namespace possibility::collocation

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace possibility::collocation {
+
+/// One term of a PolynomialForm: coefficient * x[variable] * x[duration]^power.
+struct Monomial {
+  int variable = -1;  ///< -1: a constant 1 in its place
+  double coefficient = 0;
+  int power = 0;  ///< 0 to 2
+};
+
+/// A sum of monomials in the variables of a program, all with the same duration: what transcription
+/// makes of integrals and interpolants, linear in the variables but for the duration of a phase.
+struct PolynomialForm {
+  int duration = -1;  ///< variable; -1: none of the monomials has a power
+  std::vector<Monomial> monomials;
+
+  double Value(const Eigen::VectorXd& x) const;
+  /// Calls visit(variable, derivative) for each variable; the duration's comes last, summed up.
+  template <typename Visit>
+  void Gradient(const Eigen::VectorXd& x, const Visit& visit) const;
+  /// Calls visit(variable, variable, derivative) for each second derivative that may be other than
+  /// zero: always with the duration, once for a mixed pair.
+  template <typename Visit>
+  void Hessian(const Eigen::VectorXd& x, const Visit& visit) const;
+  bool is_linear() const { return duration < 0; }
+
+ private:
+  static double Power(double t, int power) { return power == 0 ? 1 : power == 1 ? t : t * t; }
+};
+
+inline double PolynomialForm::Value(const Eigen::VectorXd& x) const {
+  const double t = duration < 0 ? 1 : x[duration];
+  double sum = 0;
+  for (const Monomial& m : monomials) {
+    sum += m.coefficient * (m.variable < 0 ? 1 : x[m.variable]) * Power(t, m.power);
+  }
+  return sum;
+}
+
+template <typename Visit>
+void PolynomialForm::Gradient(const Eigen::VectorXd& x, const Visit& visit) const {
+  const double t = duration < 0 ? 1 : x[duration];
+  double by_duration = 0;
+  for (const Monomial& m : monomials) {
+    if (m.variable >= 0) visit(m.variable, m.coefficient * Power(t, m.power));
+    if (m.power > 0) {
+      const double value = m.variable < 0 ? 1 : x[m.variable];
+      by_duration += m.coefficient * value * m.power * Power(t, m.power - 1);
+    }
+  }
+  if (duration >= 0) visit(duration, by_duration);
+}
+
+template <typename Visit>
+void PolynomialForm::Hessian(const Eigen::VectorXd& x, const Visit& visit) const {
+  if (duration < 0) return;
+  const double t = x[duration];
+  double by_duration = 0;
+  for (const Monomial& m : monomials) {
+    if (m.power == 0) continue;
+    if (m.variable >= 0) {
+      visit(m.variable, duration, m.coefficient * m.power * Power(t, m.power - 1));
+    }
+    if (m.power == 2) {
+      by_duration += 2 * m.coefficient * (m.variable < 0 ? 1 : x[m.variable]);
+    }
+  }
+  visit(duration, duration, by_duration);
+}
+
+}  // namespace possibility::collocation

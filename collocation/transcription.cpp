@@ -1,0 +1,599 @@
+#include "collocation/transcription.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::collocation {
+
+Mesh UniformMesh(int intervals) {
+  if (intervals < 1) {
+    throw std::invalid_argument(
+        fmt::format("a mesh has {} intervals, expected 1 or more", intervals));
+  }
+  Mesh mesh(intervals + 1);
+  for (int i = 0; i <= intervals; ++i) mesh[i] = static_cast<double>(i) / intervals;
+  return mesh;
+}
+
+namespace {
+
+double Factorial(int n) { return n <= 1 ? 1 : n * Factorial(n - 1); }
+
+double Clamped(double value, double lower, double upper) {
+  return std::min(std::max(value, lower), upper);
+}
+
+void CheckMesh(const OptimalControlProblem& problem, int phase, const Mesh& mesh) {
+  bool ascends = mesh.size() >= 2 && mesh.front() == 0 && mesh.back() == 1;
+  for (std::size_t i = 1; i < mesh.size(); ++i) ascends = ascends && mesh[i] > mesh[i - 1];
+  if (!ascends) {
+    throw std::invalid_argument(fmt::format("{}: phase '{}': the mesh must ascend from 0 to 1",
+                                            problem.name(), problem.phase(phase).name()));
+  }
+}
+
+}  // namespace
+
+Transcription::Transcription(const OptimalControlProblem& problem,
+                             const TranscriptionScheme& scheme, std::vector<Mesh> meshes)
+    : problem_(problem), scheme_(scheme) {
+  if (problem.num_phases() == 0) problem.Fail("the problem has no phase");
+  if (static_cast<int>(meshes.size()) != problem.num_phases()) {
+    problem.Fail(fmt::format("{} meshes for {} phases", meshes.size(), problem.num_phases()));
+  }
+  layouts_.resize(meshes.size());
+  for (const auto& parameter : problem_.parameters_) {
+    parameters_.push_back(AddVariable(parameter.scale, parameter.bounds, parameter.name));
+  }
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    CheckMesh(problem, p, meshes[p]);
+    layouts_[p].mesh = std::move(meshes[p]);
+    LayOut(p);
+  }
+  const auto copy = [](const std::vector<double>& from) {
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));
+  };
+  for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p);
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    AddPathConstraints(p);
+    AddIntegralCosts(p);
+  }
+  AddEnds();
+  scale_ = copy(scales_);
+  lower_ = copy(lowers_).cwiseQuotient(scale_);
+  upper_ = copy(uppers_).cwiseQuotient(scale_);
+  constraint_lower_ = copy(row_lowers_);
+  constraint_upper_ = copy(row_uppers_);
+}
+
+int Transcription::AddVariable(double scale, Bounds bounds, const std::string& name) {
+  scales_.push_back(scale);
+  lowers_.push_back(bounds.lower);
+  uppers_.push_back(bounds.upper);
+  variable_names_.push_back(name);
+  return static_cast<int>(scales_.size()) - 1;
+}
+
+void Transcription::LayOut(int phase_index) {
+  const Phase& phase = problem_.phase(phase_index);
+  PhaseLayout& layout = layouts_[phase_index];
+  if (phase.coordinates_.empty()) phase.Fail("the phase has no coordinates");
+  const Bounds& duration = phase.duration_;
+  if (!(duration.lower > 0 && duration.upper < kInfinity)) phase.Fail("no duration was set");
+  layout.fixed_duration = duration.lower;
+  if (duration.lower < duration.upper) {
+    layout.duration = AddVariable(duration.upper, duration, phase.name() + ": duration");
+  }
+  const int intervals = static_cast<int>(layout.mesh.size()) - 1;
+  const int inside = scheme_.num_nodes() - 1;
+  for (int i = 0; i < intervals; ++i) {
+    for (int node = 0; node < inside; ++node) {
+      const double share =
+          layout.mesh[i] + scheme_.nodes[node] * (layout.mesh[i + 1] - layout.mesh[i]);
+      layout.points.push_back({i, node, share, node == 0});
+    }
+  }
+  layout.points.push_back({intervals - 1, inside, 1, true});
+  for (int k = 0; k < static_cast<int>(layout.points.size()); ++k) LayOutPoint(phase_index, k);
+}
+
+void Transcription::LayOutPoint(int phase_index, int point) {
+  const Phase& phase = problem_.phase(phase_index);
+  PhaseLayout& layout = layouts_[phase_index];
+  const std::string where = PointName(phase_index, point);
+  auto& coordinates = layout.coordinates.emplace_back();
+  for (std::size_t c = 0; c < phase.coordinates_.size(); ++c) {
+    std::vector<int>& orders = coordinates.emplace_back(phase.order() + 1, -1);
+    for (int order = 0; order <= phase.order(); ++order) {
+      const bool derived =
+          !scheme_.separated && !layout.points[point].is_knot && order < phase.order();
+      if (derived) continue;
+      const Phase::Quantity& quantity = phase.coordinates_[c][order];
+      const Bounds bounds = BoundsAt(quantity, phase_index, point);
+      // A state that continues an earlier phase is that phase's variable.
+      for (const auto& [from, to] : problem_.continued_) {
+        const Variable here{VariableKind::kCoordinate, phase_index, static_cast<int>(c), order};
+        if (point != 0 || !(to.variable == here)) continue;
+        const PhaseLayout& earlier = layouts_[from.variable.phase];
+        orders[order] = earlier.coordinates.back()[from.variable.index][from.variable.order];
+      }
+      if (orders[order] < 0) {
+        orders[order] = AddVariable(quantity.scale, bounds, where + quantity.name);
+        continue;
+      }
+      double& lower = lowers_[orders[order]];
+      double& upper = uppers_[orders[order]];
+      lower = std::max(lower, bounds.lower);
+      upper = std::min(upper, bounds.upper);
+      if (lower > upper) {
+        problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet", where,
+                                  quantity.name, lower, upper));
+      }
+    }
+  }
+  auto& controls = layout.controls.emplace_back();
+  for (const Phase::Quantity& quantity : phase.controls_) {
+    controls.push_back(
+        AddVariable(quantity.scale, BoundsAt(quantity, phase_index, point), where + quantity.name));
+  }
+}
+
+bool Transcription::Holds(At at, int point, int num_points) {
+  const bool first = point == 0;
+  const bool last = point == num_points - 1;
+  switch (at) {
+    case At::kEverywhere:
+      return true;
+    case At::kStart:
+      return first;
+    case At::kEnd:
+      return last;
+    case At::kAfterStart:
+      return !first;
+    case At::kBeforeEnd:
+      return !last;
+    case At::kInside:
+      return !first && !last;
+  }
+  return false;
+}
+
+Bounds Transcription::BoundsAt(const Phase::Quantity& quantity, int phase, int point) const {
+  Bounds bounds;
+  const int n = static_cast<int>(layouts_[phase].points.size());
+  for (const auto& [at, b] : quantity.bounds) {
+    if (!Holds(at, point, n)) continue;
+    bounds.lower = std::max(bounds.lower, b.lower);
+    bounds.upper = std::min(bounds.upper, b.upper);
+  }
+  if (bounds.lower > bounds.upper) {
+    problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}]", PointName(phase, point),
+                              quantity.name, bounds.lower, bounds.upper));
+  }
+  return bounds;
+}
+
+std::string Transcription::PointName(int phase, int point) const {
+  const Point& p = layouts_[phase].points[point];
+  const int interval = p.node == scheme_.num_nodes() - 1 ? p.interval + 1 : p.interval;
+  const std::string where = p.is_knot ? fmt::format("knot {}", interval)
+                                      : fmt::format("interval {}, node {}", interval, p.node);
+  return fmt::format("{}, {} (t = {:.4g} of the duration): ", problem_.phase(phase).name(), where,
+                     p.share);
+}
+
+PolynomialForm Transcription::Integrated(int phase, int interval, int node, int coordinate,
+                                         int order) const {
+  const PhaseLayout& layout = layouts_[phase];
+  const int highest = problem_.phase(phase).order();
+  const int first = interval * (scheme_.num_nodes() - 1);
+  const double share = layout.mesh[interval + 1] - layout.mesh[interval];
+  const double c = scheme_.nodes[node];
+  PolynomialForm form;
+  form.duration = layout.duration;
+  const auto add = [&](int variable, double coefficient, int power) {
+    // coefficient * h^power, h = share * duration.
+    double factor = coefficient * std::pow(share, power);
+    if (layout.duration < 0) {
+      factor *= std::pow(layout.fixed_duration, power);
+      power = 0;
+    }
+    if (factor != 0) form.monomials.push_back({variable, factor, power});
+  };
+  for (int r = order; r < highest; ++r) {
+    add(layout.coordinates[first][coordinate][r], std::pow(c, r - order) / Factorial(r - order),
+        r - order);
+  }
+  const int k = highest - order;
+  for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    add(layout.coordinates[first + j][coordinate][highest], scheme_.integral[k](node, j), k);
+  }
+  return form;
+}
+
+PolynomialForm Transcription::TimeForm(int phase, double share) const {
+  PolynomialForm form;
+  double constant = 0;
+  for (int earlier = 0; earlier < phase; ++earlier) {
+    if (layouts_[earlier].duration < 0) {
+      constant += layouts_[earlier].fixed_duration;
+    } else {
+      form.monomials.push_back({layouts_[earlier].duration, 1, 0});
+    }
+  }
+  if (layouts_[phase].duration < 0) {
+    constant += share * layouts_[phase].fixed_duration;
+  } else {
+    form.monomials.push_back({layouts_[phase].duration, share, 0});
+  }
+  form.monomials.push_back({-1, constant, 0});
+  return form;
+}
+
+PolynomialForm Transcription::FormOf(Variable variable, int phase, int point) const {
+  const PhaseLayout& layout = layouts_[phase];
+  const auto single = [](int index) { return PolynomialForm{-1, {{index, 1, 0}}}; };
+  switch (variable.kind) {
+    case VariableKind::kCoordinate: {
+      const int index = layout.coordinates[point][variable.index][variable.order];
+      if (index >= 0) return single(index);
+      const Point& p = layout.points[point];
+      return Integrated(phase, p.interval, p.node, variable.index, variable.order);
+    }
+    case VariableKind::kControl:
+      return single(layout.controls[point][variable.index]);
+    case VariableKind::kParameter:
+      return single(parameters_[variable.index]);
+    case VariableKind::kDuration:
+      if (layout.duration >= 0) return single(layout.duration);
+      return {-1, {{-1, layout.fixed_duration, 0}}};
+    case VariableKind::kTime:
+      return TimeForm(phase, layout.points[point].share);
+  }
+  throw std::logic_error("FormOf: a kind of variable that is none");
+}
+
+PolynomialForm Transcription::EndForm(const EndVariable& end) const {
+  const int phase = end.variable.phase;
+  if (phase < 0) return FormOf(end.variable, 0, 0);
+  const int last = static_cast<int>(layouts_[phase].points.size()) - 1;
+  if (end.at != At::kStart && end.at != At::kEnd) {
+    problem_.Fail(problem_.NameOf(end.variable) + ": expected the start or the end of a phase");
+  }
+  return FormOf(end.variable, phase, end.at == At::kStart ? 0 : last);
+}
+
+void Transcription::AddFormRow(PolynomialForm form, double scale, Bounds bounds, RowName name) {
+  const int row = static_cast<int>(row_lowers_.size());
+  FormRow form_row{std::move(form), 1 / scale, {}, {}};
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(scales_.size()));
+  form_row.form.Gradient(x, [&](int variable, double) {
+    form_row.jacobian_slots.push_back(jacobian_.At(row, variable));
+  });
+  form_row.form.Hessian(x, [&](int i, int j, double) {
+    form_row.hessian_slots.push_back(hessian_.At(std::max(i, j), std::min(i, j)));
+  });
+  form_rows_.push_back(std::move(form_row));
+  row_scales_.push_back(scale);
+  row_lowers_.push_back(bounds.lower / scale);
+  row_uppers_.push_back(bounds.upper / scale);
+  row_names_.push_back(std::move(name));
+}
+
+void Transcription::AddDefects(int phase_index) {
+  const Phase& phase = problem_.phase(phase_index);
+  const PhaseLayout& layout = layouts_[phase_index];
+  const int inside = scheme_.num_nodes() - 1;
+  const int n = static_cast<int>(phase.coordinates_.size());
+  for (int interval = 0; interval + 1 < static_cast<int>(layout.mesh.size()); ++interval) {
+    for (int node = 1; node <= inside; ++node) {
+      const int point = interval * inside + node;
+      for (int c = 0; c < n; ++c) {
+        for (int order = 0; order < phase.order(); ++order) {
+          const Phase::Quantity& quantity = phase.coordinates_[c][order];
+          const int index = layout.coordinates[point][c][order];
+          PolynomialForm form = Integrated(phase_index, interval, node, c, order);
+          const RowName name{phase_index, point, "defect of " + quantity.name, -1};
+          if (index >= 0) {
+            form.monomials.push_back({index, -1, 0});
+            AddFormRow(std::move(form), quantity.scale, {0, 0}, name);
+            continue;
+          }
+          const Bounds bounds = BoundsAt(quantity, phase_index, point);
+          if (bounds.lower > -kInfinity || bounds.upper < kInfinity) {
+            AddFormRow(std::move(form), quantity.scale, bounds,
+                       {phase_index, point, quantity.name, -1});
+          }
+        }
+      }
+    }
+  }
+}
+
+void Transcription::AddBlock(FunctionBlock block, const std::vector<Bounds>& bounds,
+                             const Eigen::VectorXd& scales, RowName name) {
+  block.FindSlots(static_cast<int>(row_lowers_.size()), &jacobian_, &hessian_);
+  for (std::size_t o = 0; o < bounds.size(); ++o) {
+    const double scale = scales.size() == 0 ? 1 : scales[static_cast<Eigen::Index>(o)];
+    row_scales_.push_back(scale);
+    row_lowers_.push_back(bounds[o].lower / scale);
+    row_uppers_.push_back(bounds[o].upper / scale);
+    name.output = bounds.size() == 1 ? -1 : static_cast<int>(o);
+    row_names_.push_back(name);
+  }
+  blocks_.push_back(std::move(block));
+}
+
+void Transcription::AddPathConstraints(int phase_index) {
+  const Phase& phase = problem_.phase(phase_index);
+  const int n = static_cast<int>(layouts_[phase_index].points.size());
+  for (int point = 0; point < n; ++point) {
+    for (const Phase::PathConstraint& constraint : phase.constraints_) {
+      if (!Holds(constraint.at, point, n)) continue;
+      std::vector<PolynomialForm> arguments;
+      for (const Variable& argument : constraint.arguments) {
+        arguments.push_back(FormOf(argument, phase_index, point));
+      }
+      AddBlock(FunctionBlock(constraint.function, std::move(arguments), constraint.scales),
+               constraint.bounds, constraint.scales, {phase_index, point, constraint.name, -1});
+    }
+  }
+}
+
+void Transcription::AddIntegralCosts(int phase_index) {
+  const Phase& phase = problem_.phase(phase_index);
+  const PhaseLayout& layout = layouts_[phase_index];
+  const int inside = scheme_.num_nodes() - 1;
+  const Eigen::VectorXd weights = scheme_.weights();
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.points.size()));
+  for (int i = 0; i + 1 < static_cast<int>(layout.mesh.size()); ++i) {
+    shares.segment(i * inside, inside + 1) += (layout.mesh[i + 1] - layout.mesh[i]) * weights;
+  }
+  for (const Phase::IntegralCost& cost : phase.costs_) {
+    for (int point = 0; point < static_cast<int>(layout.points.size()); ++point) {
+      std::vector<PolynomialForm> arguments;
+      for (const Variable& argument : cost.arguments) {
+        arguments.push_back(FormOf(argument, phase_index, point));
+      }
+      PolynomialForm weight;
+      weight.duration = layout.duration;
+      const double share = cost.weight * shares[point];
+      weight.monomials.push_back(layout.duration < 0
+                                     ? Monomial{-1, share * layout.fixed_duration, 0}
+                                     : Monomial{-1, share, 1});
+      costs_.emplace_back(cost.function, std::move(arguments));
+      costs_.back().FindCostSlots(weight, &hessian_);
+    }
+  }
+}
+
+void Transcription::AddEnds() {
+  const auto forms = [this](const std::vector<EndVariable>& ends) {
+    std::vector<PolynomialForm> arguments;
+    for (const EndVariable& end : ends) arguments.push_back(EndForm(end));
+    return arguments;
+  };
+  for (const auto& link : problem_.links_) {
+    AddBlock(FunctionBlock(link.function, forms(link.arguments)), link.bounds, {},
+             {-1, -1, link.name, -1});
+  }
+  for (const auto& cost : problem_.costs_) {
+    costs_.emplace_back(cost.function, forms(cost.arguments));
+    costs_.back().FindCostSlots({-1, {{-1, cost.weight, 0}}}, &hessian_);
+  }
+}
+
+double Transcription::Objective(const Eigen::VectorXd& x) {
+  const Eigen::VectorXd unscaled = Scaled(x);
+  double sum = 0;
+  for (FunctionBlock& cost : costs_) sum += cost.Cost(unscaled);
+  return sum;
+}
+
+void Transcription::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+  const Eigen::VectorXd unscaled = Scaled(x);
+  gradient->setZero(num_variables());
+  for (FunctionBlock& cost : costs_) cost.AddGradient(unscaled, gradient);
+  gradient->array() *= scale_.array();
+}
+
+void Transcription::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g) {
+  const Eigen::VectorXd unscaled = Scaled(x);
+  g->resize(num_constraints());
+  for (std::size_t row = 0; row < form_rows_.size(); ++row) {
+    (*g)[static_cast<Eigen::Index>(row)] =
+        form_rows_[row].form.Value(unscaled) * form_rows_[row].scale;
+  }
+  for (FunctionBlock& block : blocks_) block.AddRows(unscaled, g);
+}
+
+void Transcription::Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) {
+  const Eigen::VectorXd unscaled = Scaled(x);
+  values->setZero(jacobian_.pattern().size());
+  for (const FormRow& row : form_rows_) {
+    const int* slot = row.jacobian_slots.data();
+    row.form.Gradient(
+        unscaled, [&](int, double derivative) { (*values)[*slot++] += row.scale * derivative; });
+  }
+  for (FunctionBlock& block : blocks_) block.AddJacobian(unscaled, values);
+  const std::vector<int>& columns = jacobian_.pattern().columns;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    (*values)[static_cast<Eigen::Index>(i)] *= scale_[columns[i]];
+  }
+}
+
+void Transcription::Hessian(const Eigen::VectorXd& x, double objective_factor,
+                            const Eigen::VectorXd& multipliers, Eigen::VectorXd* values) {
+  const Eigen::VectorXd unscaled = Scaled(x);
+  values->setZero(hessian_.pattern().size());
+  for (std::size_t r = 0; r < form_rows_.size(); ++r) {
+    const FormRow& row = form_rows_[r];
+    const double factor = multipliers[static_cast<Eigen::Index>(r)] * row.scale;
+    const int* slot = row.hessian_slots.data();
+    row.form.Hessian(unscaled,
+                     [&](int, int, double second) { (*values)[*slot++] += factor * second; });
+  }
+  for (FunctionBlock& block : blocks_) block.AddHessian(unscaled, multipliers, values);
+  for (FunctionBlock& cost : costs_) cost.AddCostHessian(unscaled, objective_factor, values);
+  const SparsityPattern& pattern = hessian_.pattern();
+  for (int i = 0; i < pattern.size(); ++i) {
+    (*values)[i] *= scale_[pattern.rows[i]] * scale_[pattern.columns[i]];
+  }
+}
+
+std::string Transcription::VariableName(int variable) const { return variable_names_.at(variable); }
+
+std::string Transcription::ConstraintName(int constraint) const {
+  const RowName& row = row_names_.at(constraint);
+  std::string name = row.phase < 0 ? row.name : PointName(row.phase, row.point) + row.name;
+  if (row.output >= 0) name += fmt::format("[{}]", row.output);
+  return name;
+}
+
+std::string Transcription::ConstraintGroup(int constraint) const {
+  const RowName& row = row_names_.at(constraint);
+  return row.phase < 0 ? row.name : problem_.phase(row.phase).name() + ": " + row.name;
+}
+
+double Transcription::DurationOf(int phase, const Eigen::VectorXd& x) const {
+  const PhaseLayout& layout = layouts_[phase];
+  return layout.duration < 0 ? layout.fixed_duration : x[layout.duration];
+}
+
+double Transcription::GuessOf(const Phase& phase, Variable variable, double share,
+                              double duration) const {
+  const Phase::Quantity& quantity = phase.Find(variable);
+  if (quantity.guess) return quantity.guess(share);
+  if (variable.kind == VariableKind::kCoordinate && variable.order > 0) {
+    // The slope of the guess one order below.
+    Variable below = variable;
+    --below.order;
+    constexpr double kStep = 1e-4;
+    const double before = std::max(0.0, share - kStep);
+    const double after = std::min(1.0, share + kStep);
+    return (GuessOf(phase, below, after, duration) - GuessOf(phase, below, before, duration)) /
+           ((after - before) * duration);
+  }
+  Bounds start, end, everywhere;
+  const auto intersect = [](Bounds* bounds, const Bounds& with) {
+    bounds->lower = std::max(bounds->lower, with.lower);
+    bounds->upper = std::min(bounds->upper, with.upper);
+  };
+  for (const auto& [at, bounds] : quantity.bounds) {
+    if (Holds(at, 0, 3)) intersect(&start, bounds);
+    if (Holds(at, 1, 3)) intersect(&everywhere, bounds);
+    if (Holds(at, 2, 3)) intersect(&end, bounds);
+  }
+  const bool start_is_fixed = start.lower == start.upper;
+  const bool end_is_fixed = end.lower == end.upper;
+  if (start_is_fixed && end_is_fixed) return start.lower + share * (end.lower - start.lower);
+  if (start_is_fixed) return start.lower;
+  if (end_is_fixed) return end.lower;
+  return Clamped(0, everywhere.lower, everywhere.upper);
+}
+
+Eigen::VectorXd Transcription::InitialGuess() const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    x[parameters_[i]] = problem_.parameters_[i].guess;
+  }
+  for (int p = 0; p < problem_.num_phases(); ++p) {
+    const Phase& phase = problem_.phase(p);
+    const PhaseLayout& layout = layouts_[p];
+    double duration = layout.fixed_duration;
+    if (layout.duration >= 0) {
+      duration = phase.duration_guess_ ? phase.duration_guess_(0)
+                                       : (phase.duration_.lower + phase.duration_.upper) / 2;
+      x[layout.duration] = duration;
+    }
+    for (std::size_t k = 0; k < layout.points.size(); ++k) {
+      const double share = layout.points[k].share;
+      for (int c = 0; c < static_cast<int>(phase.coordinates_.size()); ++c) {
+        for (int order = 0; order <= phase.order(); ++order) {
+          const int index = layout.coordinates[k][c][order];
+          if (index < 0) continue;
+          x[index] = GuessOf(phase, {VariableKind::kCoordinate, p, c, order}, share, duration);
+        }
+      }
+      for (int c = 0; c < static_cast<int>(phase.controls_.size()); ++c) {
+        x[layout.controls[k][c]] =
+            GuessOf(phase, {VariableKind::kControl, p, c, 0}, share, duration);
+      }
+    }
+  }
+  return x.cwiseQuotient(scale_).cwiseMax(lower_).cwiseMin(upper_);
+}
+
+Eigen::VectorXd Transcription::GuessFrom(const Trajectory& trajectory) const {
+  if (static_cast<int>(trajectory.phases.size()) != problem_.num_phases()) {
+    problem_.Fail(fmt::format("a guess has {} phases, expected {}", trajectory.phases.size(),
+                              problem_.num_phases()));
+  }
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    x[parameters_[i]] = trajectory.parameters[static_cast<Eigen::Index>(i)];
+  }
+  for (int p = 0; p < problem_.num_phases(); ++p) {
+    const PhaseLayout& layout = layouts_[p];
+    const PhaseTrajectory& phase = trajectory.phases[p];
+    if (layout.duration >= 0) x[layout.duration] = phase.duration;
+    for (std::size_t k = 0; k < layout.points.size(); ++k) {
+      const double share = layout.points[k].share;
+      for (int order = 0; order <= problem_.phase(p).order(); ++order) {
+        const Eigen::VectorXd values = phase.Coordinates(share, order);
+        for (std::size_t c = 0; c < layout.coordinates[k].size(); ++c) {
+          const int index = layout.coordinates[k][c][order];
+          if (index >= 0) x[index] = values[static_cast<Eigen::Index>(c)];
+        }
+      }
+      const Eigen::VectorXd controls = phase.Controls(share);
+      for (std::size_t c = 0; c < layout.controls[k].size(); ++c) {
+        x[layout.controls[k][c]] = controls[static_cast<Eigen::Index>(c)];
+      }
+    }
+  }
+  return x.cwiseQuotient(scale_).cwiseMax(lower_).cwiseMin(upper_);
+}
+
+Trajectory Transcription::TrajectoryOf(const Eigen::VectorXd& scaled) const {
+  const Eigen::VectorXd x = Scaled(scaled);
+  Trajectory trajectory;
+  trajectory.parameters.resize(static_cast<Eigen::Index>(parameters_.size()));
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    trajectory.parameters[static_cast<Eigen::Index>(i)] = x[parameters_[i]];
+  }
+  double begin = 0;
+  for (int p = 0; p < problem_.num_phases(); ++p) {
+    const Phase& problem_phase = problem_.phase(p);
+    const PhaseLayout& layout = layouts_[p];
+    PhaseTrajectory phase;
+    phase.begin = begin;
+    phase.duration = DurationOf(p, x);
+    phase.mesh = layout.mesh;
+    phase.scheme = scheme_;
+    begin += phase.duration;
+    const auto points = static_cast<Eigen::Index>(layout.points.size());
+    const auto n = static_cast<Eigen::Index>(problem_phase.coordinates_.size());
+    phase.coordinates.assign(problem_phase.order() + 1, Eigen::MatrixXd(n, points));
+    phase.controls.resize(static_cast<Eigen::Index>(problem_phase.controls_.size()), points);
+    for (int k = 0; k < points; ++k) {
+      for (int order = 0; order <= problem_phase.order(); ++order) {
+        for (int c = 0; c < n; ++c) {
+          phase.coordinates[order](c, k) =
+              FormOf({VariableKind::kCoordinate, p, c, order}, p, k).Value(x);
+        }
+      }
+      for (int c = 0; c < phase.controls.rows(); ++c) {
+        phase.controls(c, k) = x[layout.controls[k][c]];
+      }
+    }
+    trajectory.phases.push_back(std::move(phase));
+  }
+  return trajectory;
+}
+
+}  // namespace possibility::collocation

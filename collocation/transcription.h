@@ -1,0 +1,145 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collocation/function_block.h"
+#include "collocation/nonlinear_program.h"
+#include "collocation/optimal_control_problem.h"
+#include "collocation/transcription_scheme.h"
+
+namespace possibility::collocation {
+
+/// Knots of a phase as shares of its duration, ascending from 0 to 1.
+using Mesh = std::vector<double>;
+Mesh UniformMesh(int intervals);
+
+/// A motion of one phase: every coordinate with its derivatives at every point of the mesh.
+struct PhaseTrajectory {
+  double begin = 0;     ///< s, since the beginning of the problem
+  double duration = 0;  ///< s
+  Mesh mesh;
+  TranscriptionScheme scheme;
+  std::vector<Eigen::MatrixXd> coordinates;  ///< by order: coordinates x points
+  Eigen::MatrixXd controls;                  ///< controls x points
+
+  int num_points() const { return static_cast<int>(controls.cols()); }
+  double PointShare(int point) const;  ///< of the duration
+  /// Coordinates differentiated `order` times at share s of the duration: the very polynomials
+  /// that were transcribed, so that each is the exact derivative of the one below.
+  Eigen::VectorXd Coordinates(double s, int order = 0) const;
+  Eigen::VectorXd Controls(double s) const;
+};
+
+struct Trajectory {
+  std::vector<PhaseTrajectory> phases;
+  Eigen::VectorXd parameters;
+};
+
+/// The nonlinear program that a scheme and a mesh per phase make of a problem. The problem must
+/// outlive it. Bounds between the knots of compressed schemes are rows; everything else is bounds.
+/// @throws std::invalid_argument that names phase and quantity: no duration, no coordinates, bounds
+/// that contradict each other at some knot, a mesh that does not ascend from 0 to 1.
+class Transcription : public NonlinearProgram {
+ public:
+  Transcription(const OptimalControlProblem& problem, const TranscriptionScheme& scheme,
+                std::vector<Mesh> meshes);
+
+  int num_variables() const override { return static_cast<int>(lower_.size()); }
+  int num_constraints() const override { return static_cast<int>(constraint_lower_.size()); }
+  const Eigen::VectorXd& lower() const override { return lower_; }
+  const Eigen::VectorXd& upper() const override { return upper_; }
+  const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
+  const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
+  double Objective(const Eigen::VectorXd& x) override;
+  void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override;
+  void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g) override;
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_.pattern(); }
+  void Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) override;
+  const SparsityPattern& hessian_pattern() const override { return hessian_.pattern(); }
+  void Hessian(const Eigen::VectorXd& x, double objective_factor,
+               const Eigen::VectorXd& multipliers, Eigen::VectorXd* values) override;
+  std::string VariableName(int variable) const override;
+  std::string ConstraintName(int constraint) const override;
+
+  /// The constraint's name without the point where it holds: "swing: knee".
+  std::string ConstraintGroup(int constraint) const;
+  /// What the row was divided by.
+  double ConstraintScale(int constraint) const { return row_scales_.at(constraint); }
+
+  /// The problem's own guesses.
+  Eigen::VectorXd InitialGuess() const;
+  /// A trajectory of the same problem on any mesh and scheme, sampled at this one's points.
+  Eigen::VectorXd GuessFrom(const Trajectory& trajectory) const;
+  Trajectory TrajectoryOf(const Eigen::VectorXd& x) const;
+
+ private:
+  struct Point {
+    int interval;
+    int node;
+    double share;  ///< of the phase's duration
+    bool is_knot;
+  };
+  /// Where a phase's quantities are among the program's variables.
+  struct PhaseLayout {
+    Mesh mesh;
+    std::vector<Point> points;
+    std::vector<std::vector<std::vector<int>>>
+        coordinates;                         // point, coordinate, order; -1: derived
+    std::vector<std::vector<int>> controls;  // point, control
+    int duration = -1;                       // -1: fixed
+    double fixed_duration = 0;
+  };
+  /// One linear or bilinear row.
+  struct FormRow {
+    PolynomialForm form;
+    double scale;
+    std::vector<int> jacobian_slots, hessian_slots;
+  };
+  struct RowName {
+    int phase;  // -1: of no phase
+    int point;
+    std::string name;
+    int output;
+  };
+
+  int AddVariable(double scale, Bounds bounds, const std::string& name);
+  void LayOut(int phase);
+  void LayOutPoint(int phase, int point);
+  void ShareContinued();
+  Bounds BoundsAt(const Phase::Quantity& quantity, int phase, int point) const;
+  static bool Holds(At at, int point, int num_points);
+  std::string PointName(int phase, int point) const;
+  PolynomialForm FormOf(Variable variable, int phase, int point) const;
+  PolynomialForm Integrated(int phase, int interval, int node, int coordinate, int order) const;
+  PolynomialForm TimeForm(int phase, double share) const;
+  PolynomialForm EndForm(const EndVariable& end) const;
+  double DurationOf(int phase, const Eigen::VectorXd& x) const;
+  void AddDefects(int phase);
+  void AddPathConstraints(int phase);
+  void AddIntegralCosts(int phase);
+  void AddEnds();
+  void AddFormRow(PolynomialForm form, double scale, Bounds bounds, RowName name);
+  void AddBlock(FunctionBlock block, const std::vector<Bounds>& bounds,
+                const Eigen::VectorXd& scales, RowName name);
+  double GuessOf(const Phase& phase, Variable variable, double share, double duration) const;
+  Eigen::VectorXd Scaled(const Eigen::VectorXd& x) const { return x.cwiseProduct(scale_); }
+
+  const OptimalControlProblem& problem_;
+  TranscriptionScheme scheme_;
+  std::vector<PhaseLayout> layouts_;
+  std::vector<int> parameters_;
+  std::vector<double> scales_, lowers_, uppers_, row_lowers_, row_uppers_;  // while being built
+  std::vector<double> row_scales_;
+  Eigen::VectorXd scale_, lower_, upper_, constraint_lower_, constraint_upper_;
+  std::vector<std::string> variable_names_;
+  std::vector<RowName> row_names_;
+  std::vector<FormRow> form_rows_;  // the first rows
+  std::vector<FunctionBlock> blocks_;
+  std::vector<FunctionBlock> costs_;
+  ElementSlots jacobian_, hessian_;
+};
+
+}  // namespace possibility::collocation

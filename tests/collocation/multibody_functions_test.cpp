@@ -1,0 +1,115 @@
+#include "collocation/multibody_functions.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "dynamics/forward_dynamics.h"
+#include "tests/dynamics/random_robot.h"
+#include "tests/dynamics/richardson.h"
+
+namespace possibility::collocation {
+namespace {
+
+using dynamics::ContactPoint;
+using dynamics::RelativeError;
+using dynamics::RichardsonJacobian;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTolerance = 1e-7;
+
+std::vector<ContactPoint> TwoPoints(std::mt19937* random, const PlanarModel& model) {
+  const int links = model->tree().num_links();
+  return {{links - 1, dynamics::RandomVector(random, 3, 0.3)},
+          {static_cast<int>((*random)() % links), dynamics::RandomVector(random, 3, 0.3)}};
+}
+
+void ExpectExactDerivatives(Function* f, const VectorXd& z, const VectorXd& multipliers) {
+  const auto value = [&](const VectorXd& d) {
+    VectorXd y(f->num_outputs());
+    f->Evaluate(z + d, &y);
+    return y;
+  };
+  MatrixXd J(f->num_outputs(), f->num_inputs());
+  f->Jacobian(z, &J);
+  EXPECT_LT(RelativeError(J, RichardsonJacobian(value, f->num_inputs())), kTolerance);
+  const Mask jacobian_mask = f->JacobianMask();
+  EXPECT_EQ(J, MatrixXd(jacobian_mask.select(J.array(), 0.0)));
+
+  const auto gradient = [&](const VectorXd& d) {
+    MatrixXd at(f->num_outputs(), f->num_inputs());
+    f->Jacobian(z + d, &at);
+    return VectorXd(at.transpose() * multipliers);
+  };
+  MatrixXd H(f->num_inputs(), f->num_inputs());
+  f->Hessian(z, multipliers, &H);
+  EXPECT_LT(RelativeError(H, RichardsonJacobian(gradient, f->num_inputs())), kTolerance);
+  EXPECT_LT(RelativeError(H, H.transpose()), 1e-13);
+  const Mask hessian_mask = f->HessianMask();
+  const MatrixXd masked = hessian_mask.select(H.array(), 0.0);
+  EXPECT_LT((H - masked).cwiseAbs().maxCoeff(), 1e-12 * H.cwiseAbs().maxCoeff());
+}
+
+TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PlanarModel model =
+        dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
+    const auto points = TwoPoints(&random, model);
+    for (const auto& f : {EquationOfMotion(model, points), PointPositions(model, points),
+                          PointVelocities(model, points), ImpactMap(model, points)}) {
+      ExpectExactDerivatives(f.get(), dynamics::RandomVector(&random, f->num_inputs(), 1.5),
+                             dynamics::RandomVector(&random, f->num_outputs(), 1));
+    }
+  }
+}
+
+TEST(MultibodyFunctionsTest, ForwardDynamicsSolvesTheEquationOfMotion) {
+  std::mt19937 random(2);
+  const PlanarModel model =
+      dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 5));
+  const int n = model->nv();
+  const auto f = EquationOfMotion(model, {});
+  dynamics::ForwardDynamics forward(model);
+  for (int trial = 0; trial < 50; ++trial) {
+    VectorXd z = dynamics::RandomVector(&random, 3 * n, 1.5);
+    VectorXd torques = dynamics::RandomVector(&random, n, 20);
+    torques.head(3).setZero();
+    forward.SetState(z.head(n), z.segment(n, n));
+    z.tail(n) = forward.Free(torques);
+    VectorXd y(n);
+    f->Evaluate(z, &y);
+    EXPECT_LT(RelativeError(y, torques), 1e-10);
+  }
+}
+
+TEST(MultibodyFunctionsTest, AnImpactSolvesTheImpactMap) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const PlanarModel model =
+        dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 4));
+    const int n = model->nv();
+    const std::vector<ContactPoint> points = {{1, dynamics::RandomVector(&random, 3, 0.3)}};
+    dynamics::ForwardDynamics forward(model);
+    const VectorXd q = dynamics::RandomVector(&random, n, 1);
+    const VectorXd v = dynamics::RandomVector(&random, n, 1);
+    forward.SetState(q, v);
+    const dynamics::Impact& impact = forward.Hit(points);
+    VectorXd z(3 * n + 2);
+    z << q, v, impact.velocity, impact.impulses(0, 0), impact.impulses(2, 0);
+    VectorXd y(n);
+    ImpactMap(model, points)->Evaluate(z, &y);
+    EXPECT_LT(y.cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(MultibodyFunctionsTest, RefusesASpatialModel) {
+  std::mt19937 random(4);
+  const auto model = dynamics::MultibodyModel::Spatial(dynamics::RandomTree(&random, 2));
+  EXPECT_THROW(EquationOfMotion(model, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace possibility::collocation
