@@ -7,6 +7,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "dynamics/sagittal_reduction.h"
 #include "dynamics/simbody_dynamics.h"
 #include "tests/dynamics/random_robot.h"
 #include "tests/dynamics/richardson.h"
@@ -62,7 +63,9 @@ struct Case {
 
 std::vector<Case> Cases(int hubo_states, int tree_states) {
   std::mt19937 random(11);
-  std::vector<Case> cases = {{"drchubo1", MultibodyModel::Spatial(Hubo()), hubo_states}};
+  std::vector<Case> cases = {
+      {"drchubo1", MultibodyModel::Spatial(Hubo()), hubo_states},
+      {"drchubo1, sagittal", SagittalReduction(Hubo()).model(), hubo_states}};
   for (int i = 0; i < 20; ++i) {
     const int joints = 2 + i;
     const auto number = std::to_string(i);
