@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "experiments/bench_collocation.h"
 #include "experiments/bench_dynamics.h"
 #include "experiments/benchmark.h"
 #include "experiments/commands.h"
@@ -25,7 +26,8 @@ struct BenchOptions {
 using Bench = BenchmarkReport (*)(const models::RobotModel&,
                                   const std::function<void(int, int)>& progress);
 const std::map<std::string, Bench>& Benches() {
-  static const std::map<std::string, Bench> benches = {{"dynamics", &BenchDynamics}};
+  static const std::map<std::string, Bench> benches = {{"collocation", &BenchCollocation},
+                                                       {"dynamics", &BenchDynamics}};
   return benches;
 }
 
@@ -59,7 +61,7 @@ ExitCode RunBench(const BenchOptions& options) {
 Command AddBenchCommand(CLI::App& program) {
   CLI::App* app = program.add_subcommand("bench", "Measures speed, against peers in the same run.");
   auto options = std::make_shared<BenchOptions>();
-  app->add_option("SUBJECT", options->subject, "dynamics")->required();
+  app->add_option("SUBJECT", options->subject, "collocation or dynamics")->required();
   app->add_option("--robot", options->robot, "Robot YAML")->capture_default_str();
   app->add_flag("--json", options->json, "One JSON object on stdout, nothing else");
   return {app, [options] { return RunBench(*options); }};

@@ -29,5 +29,6 @@ Command AddVerifyCommand(CLI::App& program);
 Command AddViewCommand(CLI::App& program);
 Command AddExportCommand(CLI::App& program);
 Command AddBenchCommand(CLI::App& program);
+Command AddRegressCommand(CLI::App& program);
 
 }  // namespace possibility::experiments

@@ -15,8 +15,9 @@
 namespace possibility::experiments {
 namespace {
 
-constexpr Command (*kCommands[])(CLI::App&) = {&AddPlanCommand, &AddVerifyCommand, &AddViewCommand,
-                                               &AddExportCommand, &AddBenchCommand};
+constexpr Command (*kCommands[])(CLI::App&) = {&AddPlanCommand,  &AddVerifyCommand,
+                                               &AddViewCommand,  &AddExportCommand,
+                                               &AddBenchCommand, &AddRegressCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -90,8 +90,8 @@ class Program : public ::testing::Test {
 };
 
 TEST_F(Program, HelpIsNoError) {
-  for (const char* arguments :
-       {"--help", "plan --help", "verify --help", "view --help", "export --help"}) {
+  for (const char* arguments : {"--help", "plan --help", "verify --help", "view --help",
+                                "export --help", "regress --help", "bench --help"}) {
     const Outcome outcome = Run(arguments);
     EXPECT_EQ(outcome.code, 0) << arguments;
     EXPECT_FALSE(outcome.out.empty()) << arguments;
@@ -134,6 +134,24 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "export plan.json",
       "export plan.json --csv tables",
       "export plan.json --csv tables --step 0",
+      "regress --problem no_such_problem --robot '" POSSIBILITY_SOURCE_DIR
+      "/models/drchubo1/drchubo1.yaml'",
+      "regress --robot no_such_robot.yaml",
+      "regress --problem kirk,,kirk",
+      "regress --problem kirk,kirk",
+      "regress --scheme euler",
+      "regress --intervals 0",
+      "regress --intervals 10001",
+      "regress --linear-solver ma99",
+      "regress --hessian none",
+      "regress --against no_such_file.json",
+      "regress --against plan.json",
+      "regress --against broken.yaml",
+      "regress --against .",
+      "regress --problem kirk --out .",
+      "regress --problem kirk --out file/below.json",
+      "bench",
+      "bench collocation --robot no_such_robot.yaml",
   };
   for (const std::string& arguments : cases) {
     const Outcome outcome = Run(arguments);
@@ -213,8 +231,45 @@ TEST_F(Program, BenchNamesTheSubjectItDoesNotKnow) {
   const Outcome outcome = Run("bench dynamix");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.err,
-            "bench: unknown subject 'dynamix', expected dynamics (did you mean 'dynamics'?)\n");
+            "bench: unknown subject 'dynamix', expected collocation, dynamics (did you mean "
+            "'dynamics'?)\n");
   EXPECT_EQ(Run("bench dynamics --robot no_such_robot.yaml").code, 1);
+}
+
+TEST_F(Program, RegressWritesARunThatTheNextIsComparedWith) {
+  const Outcome first = Run("regress --problem block_move,kirk --out runs/first.json --json");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.err, "");
+  const auto printed = nlohmann::json::parse(first.out);
+  EXPECT_EQ(printed["format"], "possibility-regress/1");
+  EXPECT_FALSE(printed["environment"]["cpu"].get<std::string>().empty());
+  ASSERT_EQ(printed["problems"].size(), 2u);
+  EXPECT_EQ(printed["problems"][0]["name"], "block_move");
+  EXPECT_NEAR(printed["problems"][0]["objective"].get<double>(), 12, 1e-6);
+  EXPECT_EQ(printed["problems"][1]["optimum"], "global");
+  EXPECT_EQ(nlohmann::json::parse(ReadText(folder_ / "runs/first.json")), printed);
+
+  const Outcome same = Run("regress --problem kirk,block_move --against runs/first.json");
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_NE(same.out.find("2 of 2 within tolerance"), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("nothing got worse"), std::string::npos) << same.out;
+}
+
+TEST_F(Program, RegressFailsIfSomethingGotWorse) {
+  ASSERT_EQ(Run("regress --problem block_move --out old.json").code, 0);
+  auto json = nlohmann::json::parse(ReadText(folder_ / "old.json"));
+  json["problems"][0]["iterations"] = 0;
+  std::ofstream(folder_ / "old.json") << json;
+  const Outcome worse = Run("regress --problem block_move --against old.json --json");
+  EXPECT_EQ(worse.code, 3);
+  EXPECT_NE(worse.err.find("worse"), std::string::npos) << worse.err;
+  const auto printed = nlohmann::json::parse(worse.out);
+  EXPECT_TRUE(printed["comparison"]["failed"].get<bool>());
+  EXPECT_EQ(printed["comparison"]["differences"][0]["what"], "iterations");
+
+  const Outcome missed = Run("regress --problem block_move --scheme trapezoidal --intervals 5");
+  EXPECT_EQ(missed.code, 3);
+  EXPECT_NE(missed.err.find("block_move"), std::string::npos) << missed.err;
 }
 
 }  // namespace
