@@ -66,6 +66,50 @@ ProblemPtr CartPole() {
   return problem;
 }
 
+/// Two rods of 1 kg and 1 m, a motor at the elbow alone, from hanging to standing in 4 s (the arm
+/// of Spong 1995 with Tedrake's numbers: moments of inertia 1 kg m^2 about the joints).
+ProblemPtr Acrobot() {
+  auto problem = std::make_unique<OptimalControlProblem>("acrobot swing-up");
+  Phase& phase = problem->AddPhase("swing", 2);
+  const Variable shoulder = phase.AddCoordinate("shoulder", {}, 3);
+  const Variable elbow = phase.AddCoordinate("elbow", {}, 3);
+  const Variable u = phase.AddControl("torque", {-50, 50}, 10);
+  for (const Variable& q : {shoulder, elbow}) {
+    phase.SetScale(phase.Rate(q), 5);
+    phase.SetScale(phase.Rate(q, 2), 20);
+  }
+  phase.SetDuration(4);
+  phase.SetDynamics(Differentiated<5, 2>([](const auto& z, auto* a) {
+                      const double g = 9.81;
+                      const auto c = cos(z[1]);
+                      const auto s = sin(z[1]);
+                      const auto both = sin(z[0] + z[1]);
+                      // M a + C + G = (0, u), the mass matrix inverted by hand.
+                      const auto m11 = 3.0 + c;
+                      const auto m12 = 1.0 + 0.5 * c;
+                      const double m22 = 1;
+                      const auto h1 = -0.5 * s * z[3] * (2.0 * z[2] + z[3]) +
+                                      g * (1.5 * sin(z[0]) + 0.5 * both);
+                      const auto h2 = 0.5 * s * z[2] * z[2] + 0.5 * g * both;
+                      const auto determinant = m11 * m22 - m12 * m12;
+                      const auto r2 = z[4] - h2;
+                      (*a)[0] = (-(m22 * h1) - m12 * r2) / determinant;
+                      (*a)[1] = (m12 * h1 + m11 * r2) / determinant;
+                    }),
+                    {shoulder, elbow, phase.Rate(shoulder), phase.Rate(elbow), u});
+  phase.Fix(shoulder, 0, At::kStart);
+  phase.Fix(elbow, 0, At::kStart);
+  phase.Fix(shoulder, std::numbers::pi, At::kEnd);
+  phase.Fix(elbow, 0, At::kEnd);
+  for (const At end : {At::kStart, At::kEnd}) {
+    phase.Fix(phase.Rate(shoulder), 0, end);
+    phase.Fix(phase.Rate(elbow), 0, end);
+  }
+  phase.AddIntegralCost(
+      "effort", Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0]; }), {u});
+  return problem;
+}
+
 }  // namespace
 
 std::vector<RegressionProblem> SwingUpProblems() {
@@ -87,6 +131,12 @@ std::vector<RegressionProblem> SwingUpProblems() {
         {"third basin", 59.10826391, 1e-6}},
        &CartPole,
        60,
+       1e-6},
+      {"acrobot",
+       "ours: both linear solvers, two meshes",
+       {{"first", 121.6315, 1e-6}},
+       &Acrobot,
+       80,
        1e-6},
   };
 }
