@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "dynamics/sagittal_reduction.h"
 #include "dynamics/simbody_dynamics.h"
@@ -80,6 +81,14 @@ std::vector<Case> Cases(int hubo_states, int tree_states) {
 }
 
 constexpr double kTolerance = 1e-7;
+
+/// Derivatives of f(dq, dv), both tangents of size nv, with respect to the one and the other.
+template <typename Function>
+std::pair<MatrixXd, MatrixXd> StateDifferences(const Function& f, int nv) {
+  const VectorXd zero = VectorXd::Zero(nv);
+  return {RichardsonJacobian([&](const VectorXd& d) { return f(d, zero); }, nv),
+          RichardsonJacobian([&](const VectorXd& d) { return f(zero, d); }, nv, 0.5)};
+}
 
 TEST(MultibodyDynamicsTest, InverseDynamicsDerivativesAgreeWithDifferences) {
   std::mt19937 random(1);
@@ -170,11 +179,7 @@ TEST(MultibodyDynamicsLong, DerivativesAgreeWithDifferencesThroughSimbody) {
         simbody.SetState(c.model->Displaced(s.q, dq), s.v + dv);
         return simbody.InverseDynamics(s.a);
       };
-      const VectorXd zero = VectorXd::Zero(nv);
-      const MatrixXd dq =
-          RichardsonJacobian([&](const VectorXd& d) { return forces(d, zero); }, nv);
-      const MatrixXd dv =
-          RichardsonJacobian([&](const VectorXd& d) { return forces(zero, d); }, nv, 0.5);
+      const auto [dq, dv] = StateDifferences(forces, nv);
       ASSERT_LT(RelativeError(D.dq, dq), kTolerance) << c.name << ", state " << i;
       ASSERT_LT(RelativeError(D.dv, dv), kTolerance) << c.name << ", state " << i;
     }
@@ -199,11 +204,7 @@ TEST(MultibodyDynamicsTest, PointDerivativesAgreeWithDifferences) {
         all << probe.Position(point), probe.Velocity(point), probe.Acceleration(point);
         return all;
       };
-      const VectorXd zero = VectorXd::Zero(nv);
-      const MatrixXd dq =
-          RichardsonJacobian([&](const VectorXd& d) { return motion(d, zero); }, nv);
-      const MatrixXd dv =
-          RichardsonJacobian([&](const VectorXd& d) { return motion(zero, d); }, nv, 0.5);
+      const auto [dq, dv] = StateDifferences(motion, nv);
       ASSERT_LT(RelativeError(D.jacobian, dq.topRows(3)), kTolerance) << c.name;
       ASSERT_LT(RelativeError(D.velocity_dq, dq.middleRows(3, 3)), kTolerance) << c.name;
       ASSERT_LT(RelativeError(D.acceleration_dq, dq.bottomRows(3)), kTolerance) << c.name;
@@ -243,10 +244,7 @@ TEST(MultibodyDynamicsTest, CentroidalDerivativesAgreeWithDifferences) {
         all << probe.Centroidal().position, probe.Centroidal().momentum;
         return all;
       };
-      const VectorXd zero = VectorXd::Zero(nv);
-      const MatrixXd dq = RichardsonJacobian([&](const VectorXd& d) { return at(d, zero); }, nv);
-      const MatrixXd dv =
-          RichardsonJacobian([&](const VectorXd& d) { return at(zero, d); }, nv, 0.5);
+      const auto [dq, dv] = StateDifferences(at, nv);
       ASSERT_LT(RelativeError(C.jacobian, dq.topRows(3)), kTolerance) << c.name;
       ASSERT_LT(RelativeError(C.momentum_dq, dq.bottomRows(6)), kTolerance) << c.name;
       ASSERT_LT(RelativeError(C.momentum_dv, dv.bottomRows(6)), kTolerance) << c.name;
@@ -347,11 +345,7 @@ TEST(MultibodyDynamicsTest, HessianAgreesWithDifferencesOfGradients) {
         probe.SetState(c.model->Displaced(s.q, dq), s.v + dv, s.a);
         return Gradient(&probe, lambda, terms);
       };
-      const VectorXd zero = VectorXd::Zero(nv);
-      const MatrixXd dq =
-          RichardsonJacobian([&](const VectorXd& d) { return gradient(d, zero); }, nv);
-      const MatrixXd dv =
-          RichardsonJacobian([&](const VectorXd& d) { return gradient(zero, d); }, nv, 0.5);
+      const auto [dq, dv] = StateDifferences(gradient, nv);
       // Along a curve the two orders of rotations count half each.
       MatrixXd qq = dq.topRows(nv);
       if (c.model->base() == Base::kFloating) {
