@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ class Action {
   virtual double ExpectedDuration(const PointPair& edge) const = 0;
 
   /// A job that finds out whether an edge that meets only C_N is truly feasible; null if this
-  /// action has none, which refutes the edge.
+  /// action has none, which refutes the edge. The job may outlive the call but not the action, and
+  /// runs beside further calls to it.
   virtual std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const = 0;
 };
 
@@ -59,6 +61,37 @@ class HolonomicAction : public Action {
  public:
   /// A point on the action's condition manifold close to v.
   virtual Point Project(const Point& v) const = 0;
+};
+
+/// An action that has to line itself up first, such as a jump: its edges lead from a launch point
+/// to a landing point. How the robot gets from a vertex to the launch point, and from the landing
+/// point to a vertex, is the affair of the other actions: such line-up edges are theirs.
+class NonholonomicAction : public Action {
+ public:
+  /// The point where an edge of this action from the launch point v0 lands: v1 if that is within
+  /// reach and straight ahead, otherwise as close to it as the action gets. Whether such an edge
+  /// is possible is asked of C_N.
+  Point ExtendTowards(const Point& v0, const Point& v1) const override = 0;
+
+  /// A point from which this action arrives at the landing point v0, as close to v1 as its reach
+  /// allows.
+  virtual Point ReverseExtend(const Point& v0, const Point& v1) const = 0;
+
+  /// A point close to v that is fit for ExtendTowards(point, v1), to be reached from v by another
+  /// action, or v itself (exactly); nothing if there is none.
+  virtual std::optional<Point> FindLaunchPoint(const Point& v, const Point& v1) const = 0;
+
+  /// A point close to v that is fit for ReverseExtend(point, v1), from which another action leads
+  /// to v, or v itself (exactly); nothing if there is none.
+  virtual std::optional<Point> FindLandingPoint(const Point& v, const Point& v1) const = 0;
+
+  /// Nothing needs to be done to get from a vertex that meets C_N (one where the action can begin
+  /// or end) into its condition manifold.
+  std::vector<Point> TransitionFrom(const Point& v) const override {
+    return Explorable(v) ? std::vector<Point>{v} : std::vector<Point>{};
+  }
+
+  bool IsReversible() const override { return false; }
 };
 
 }  // namespace possibility::graph

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "graph/holonomic_exploration.h"
+#include "graph/nonholonomic_exploration.h"
 
 namespace possibility::graph {
 
@@ -17,10 +18,25 @@ ActionExploration::ActionExploration(const Action& action, int index,
 
 void ActionExploration::AddInitialVertex(VertexId vertex) {
   if (action_.Explorable(context_.master->point(vertex))) {
-    action_graph_.Append({.vertices = {vertex}, .edges = {}});
+    action_graph_.Append({.vertices = {vertex}});
   } else {
     transition_queue_.Insert(vertex);
   }
+}
+
+void ActionExploration::TakeOver(const NewElements& found_by_other) {
+  for (const LineUpEdge& line_up : found_by_other.line_ups) {
+    if (line_up.action == index_) {
+      const NewEdge& edge = line_up.edge;
+      action_graph_.Append({.vertices = {edge.from, edge.to}, .edges = {edge}});
+    }
+  }
+  for (const VertexId vertex : found_by_other.offered) {
+    if (!action_graph_.Contains(vertex)) {
+      AddInitialVertex(vertex);
+    }
+  }
+  InsertIntoTransitionQueue(found_by_other.vertices);
 }
 
 void ActionExploration::InsertIntoTransitionQueue(const std::vector<VertexId>& vertices) {
@@ -72,8 +88,8 @@ bool ActionExploration::SamePoint(const Point& a, const Point& b) const {
   return context_.space->Distance(a, b) < kSamePointDistance;
 }
 
-bool ActionExploration::WasRemoved(VertexId from, VertexId to) const {
-  const auto edge = context_.master->FindEdge(index_, from, to);
+bool ActionExploration::WasRemoved(int action, VertexId from, VertexId to) const {
+  const auto edge = context_.master->FindEdge(action, from, to);
   return edge && context_.master->topology().removed(*edge);
 }
 
@@ -86,7 +102,11 @@ std::unique_ptr<ActionExploration> MakeActionExploration(const Action& action, i
   if (const auto* holonomic = dynamic_cast<const HolonomicAction*>(&action)) {
     return std::make_unique<HolonomicExploration>(*holonomic, index, context);
   }
-  throw std::invalid_argument("action " + action.name() + ": expected a HolonomicAction");
+  if (const auto* nonholonomic = dynamic_cast<const NonholonomicAction*>(&action)) {
+    return std::make_unique<NonholonomicExploration>(*nonholonomic, index, context);
+  }
+  throw std::invalid_argument("action " + action.name() +
+                              ": expected a HolonomicAction or a NonholonomicAction");
 }
 
 }  // namespace possibility::graph

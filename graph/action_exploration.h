@@ -19,6 +19,7 @@ using Counters = std::map<std::string, std::int64_t>;
 
 /// What the explorations of all actions share; everything in it outlives them.
 struct ExplorationContext {
+  const std::vector<std::shared_ptr<const Action>>* actions = nullptr;
   const ExplorationSpace* space = nullptr;
   PossibilityGraph* master = nullptr;
   RandomGenerator* generator = nullptr;
@@ -40,8 +41,9 @@ class ActionExploration {
   /// Start or goal: part of Gamma_a if the action accepts it, to be transitioned from if not.
   void AddInitialVertex(VertexId vertex);
 
-  /// Queues vertices of another action.
-  void InsertIntoTransitionQueue(const std::vector<VertexId>& vertices);
+  /// Takes what another action found: its vertices to be transitioned from or, if they are offered
+  /// and the action accepts them, into Gamma_a; line-up edges of this action into Gamma_a.
+  void TakeOver(const NewElements& found_by_other);
 
   /// Algorithm 2. Appends to Gamma_a; appending to the master graph is left to the caller.
   NewElements PerformTransitions();
@@ -57,12 +59,15 @@ class ActionExploration {
   const ExplorationContext& context() const { return context_; }
 
   bool SamePoint(const Point& a, const Point& b) const;
-  /// Whether the master graph once held an edge that is to be confirmed or was refuted.
-  bool WasRemoved(VertexId from, VertexId to) const;
+  /// Whether the master graph once held an edge of this action (or that of a given number) that
+  /// is to be confirmed or was refuted.
+  bool WasRemoved(VertexId from, VertexId to) const { return WasRemoved(index_, from, to); }
+  bool WasRemoved(int action, VertexId from, VertexId to) const;
   /// The counter "<action>: <what>", which lives as long as the context.
   std::int64_t* Counter(const std::string& what) const;
 
  private:
+  void InsertIntoTransitionQueue(const std::vector<VertexId>& vertices);
   NewElements TransitionFrom(VertexId v);
 
   const Action& action_;

@@ -2,10 +2,10 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -13,86 +13,136 @@
 
 #include "graph/confirmation_job.h"
 #include "graph/confirmation_report.h"
+#include "graph/deadline.h"
 
 namespace possibility::graph {
 
 struct JobResult {
   int tag = 0;  ///< as given to Insert
   JobOutcome outcome = JobOutcome::kFailed;
-  std::string reason;  ///< the job's own if refuted, what it threw if failed
-  double seconds = 0;  ///< spent in its slices
+  std::string reason;  ///< as in ConfirmationReport
+  double seconds = 0;  ///< time it ran, pauses left out
 };
 
 /// Q_Confirmation: runs jobs in rotation, a slice of time each, so that easy ones finish promptly
-/// and difficult ones hold up nobody. With threads, a few jobs per thread rotate and the others
-/// wait; a job that has used up its turn of slices goes behind those that wait. Without threads,
-/// RunTurn gives one job one turn.
+/// and difficult ones hold up nobody. Every job that has begun has a thread; the queue pauses and
+/// resumes them so that no more run than it has workers.
 ///
-/// All functions but the jobs' own are called from one thread.
+/// Who runs next: the jobs rank by the number of turns they have had, then by their cost, the
+/// cheaper the sooner. The first few rotate. One slice in `slices_per_fair_slice` goes instead to
+/// the job that has waited longest, whatever its rank, so that nothing starves.
+///
+/// With workers (LaunchThreads), all this happens beside the calling thread. Without, RunTurn
+/// gives one job one turn while the calling thread waits.
+///
+/// All functions are called from one thread.
 class ConfirmationQueue {
  public:
   struct Settings {
-    std::chrono::milliseconds slice{10};
-    int slices_per_turn = 300;
-    int rotating_jobs_per_thread = 2;
+    std::chrono::milliseconds slice{40};
+    int slices_per_turn = 75;
+    int rotating_jobs_per_worker = 2;
+    int slices_per_fair_slice = 8;
+    int max_threads = 32;        ///< jobs begun and not ended; the slowest gives way to new ones
+    double job_time_limit = 30;  ///< s of its own time, after which a job has failed
   };
 
   ConfirmationQueue();
+  /// @throws std::invalid_argument unless every setting is positive.
   explicit ConfirmationQueue(const Settings& settings);
   ~ConfirmationQueue();
   ConfirmationQueue(const ConfirmationQueue&) = delete;
   ConfirmationQueue& operator=(const ConfirmationQueue&) = delete;
 
-  /// Starts `count` worker threads; once at most.
-  void LaunchThreads(int count);
+  /// Lets at most `workers` jobs run at once from now on; to be called once at most. (A cancelled
+  /// job returns without waiting for its turn.)
+  void LaunchThreads(int workers);
 
-  void Insert(int tag, std::unique_ptr<ConfirmationJob> job);
+  /// `cost` says how much the job's answer is worth: that of the cheapest route that needs it.
+  void Insert(int tag, std::unique_ptr<ConfirmationJob> job, double cost);
+  void SetCost(int tag, double cost);
 
-  /// Jobs inserted and not yet drained or cancelled.
+  /// Ends a job whose answer is of no more use; its result, kCancelled with this reason, can be
+  /// drained once it has ended. Nothing happens if it ended already.
+  void Cancel(int tag, const std::string& reason);
+
+  /// Jobs inserted and not yet drained.
   int num_open() const { return num_open_; }
 
   /// Takes the results of the jobs that ended since the last call, in the order they ended.
   std::vector<JobResult> DrainFinished();
 
-  /// Waits until a result can be drained, at most `limit`. For queues with threads.
+  /// Waits until a result can be drained, at most `limit`. For queues with workers.
   void WaitForResult(std::chrono::milliseconds limit);
 
-  /// Runs the next waiting job until it ends, its turn is over, or `stop` says so between two
-  /// slices. For queues without threads.
-  void RunTurn(const std::function<bool()>& stop);
+  /// Lets the job that is next run until it ends, its turn is over, or the deadline passes; false
+  /// if it did not end. For queues without workers.
+  bool RunTurn(const Deadline& deadline);
 
-  /// Drops all jobs, running ones at the end of their slice, and ends the threads.
-  void Cancel();
+  /// Cancels all jobs and waits for their threads: as long as the slowest of them takes to return.
+  void CancelAll(const std::string& reason);
 
  private:
-  struct Entry {
-    int tag = 0;
-    std::unique_ptr<ConfirmationJob> job;
-    int slices = 0;
-    double seconds = 0;
+  using Clock = std::chrono::steady_clock;
+  enum class State { kWaiting, kRunning, kPausing, kPaused, kEnded };
+
+  /// A verdict of the queue that overrules whatever the job may still say.
+  struct Overruling {
+    JobOutcome outcome = JobOutcome::kCancelled;
+    std::string reason;
   };
 
-  /// Runs one slice; true if the job ended, with its outcome in `result`.
-  bool RunSlice(Entry* entry, JobResult* result) const;
-  void Work(const std::stop_token& stop);
-  Entry TakeNext();
-  void PutBack(Entry entry);
-  void FillRotation();
+  struct Entry {
+    Entry(ConfirmationQueue* queue, int tag, std::unique_ptr<ConfirmationJob> job, double cost);
+
+    int tag;
+    double cost;
+    std::unique_ptr<ConfirmationJob> job;
+    JobControl control;
+    State state = State::kWaiting;
+    std::optional<Overruling> overruling;
+    JobResult result;
+    std::int64_t slices = 0;
+    double seconds = 0;
+    std::int64_t last_served = 0;  ///< when it was inserted or last ran, on the clock of grants
+    Clock::time_point slice_begin;
+    std::thread thread;
+  };
+
+  void RunJob(Entry* entry);
+  void OnHeld(Entry* entry);
+  // The rest is called under mutex_.
+  void Dispatch(const std::stop_token& stop, std::unique_lock<std::mutex>* lock);
+  void EndSlices();
+  void EndSlice(Entry* entry);
+  void GrantPermits();
+  bool Grant(Entry* entry);
+  void AddUp(Entry* entry);
+  void Overrule(Entry* entry, JobOutcome outcome, const std::string& reason);
+  void Reap();
+  void MakeRoom();
+  Entry* PickNext(int num_rotating);
+  std::vector<Entry*> Ranked() const;
+  static bool HasThread(const Entry& entry);
+  int NumWithState(State a, State b) const;
+  std::optional<Clock::time_point> NextSliceEnd() const;
+  Entry* Find(int tag) const;
+  void Notify();
 
   Settings settings_;
   int num_open_ = 0;
 
-  std::mutex mutex_;
-  std::condition_variable_any work_or_stop_;
-  std::condition_variable result_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any event_;   ///< for the dispatcher, or RunTurn: something happened
+  std::condition_variable_any result_;  ///< a result can be drained
   // Under mutex_:
-  std::deque<Entry> waiting_;
-  std::deque<Entry> rotation_;
-  int num_running_ = 0;
-  int rotation_limit_ = 0;
+  bool news_ = false;
+  int workers_ = 0;
+  std::int64_t grants_ = 0;
+  std::vector<std::unique_ptr<Entry>> entries_;
   std::vector<JobResult> finished_;
 
-  std::vector<std::jthread> threads_;
+  std::jthread dispatcher_;
 };
 
 }  // namespace possibility::graph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 namespace possibility::graph {
@@ -16,6 +17,9 @@ class Deadline {
   }
 
   bool Passed() const { return Elapsed() >= limit_; }
+
+  /// Time to the end, s; 0 once it passed.
+  double Remaining() const { return std::max(limit_ - Elapsed(), 0.0); }
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -1,6 +1,6 @@
 #include "graph/find_path.h"
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -8,6 +8,7 @@
 #include "graph/deadline.h"
 #include "graph/path_confirmation.h"
 #include "graph/possibility_graph.h"
+#include "graph/random.h"
 
 namespace possibility::graph {
 namespace {
@@ -30,9 +31,29 @@ void CheckSettings(const FindPathSettings& settings) {
                                 std::to_string(settings.max_transitions_per_cycle) +
                                 ", expected >= 0");
   }
+  if (!(settings.confirmation_job_limit > 0)) {
+    throw std::invalid_argument("FindPath: confirmation_job_limit is " +
+                                std::to_string(settings.confirmation_job_limit) +
+                                ", expected a number of seconds > 0");
+  }
   if (settings.confirmation_threads < 0) {
     throw std::invalid_argument("FindPath: confirmation_threads is " +
                                 std::to_string(settings.confirmation_threads) + ", expected >= 0");
+  }
+}
+
+void CheckSkipGrowth(const FindPathSettings& settings,
+                     const std::vector<std::shared_ptr<const Action>>& actions) {
+  for (const auto& [name, probability] : settings.skip_growth) {
+    if (std::none_of(actions.begin(), actions.end(),
+                     [&](const auto& action) { return action->name() == name; })) {
+      throw std::invalid_argument("FindPath: skip_growth names '" + name +
+                                  "', expected the name of an action");
+    }
+    if (!(probability >= 0 && probability <= 1)) {
+      throw std::invalid_argument("FindPath: skip_growth of " + name + " is " +
+                                  std::to_string(probability) + ", expected a probability");
+    }
   }
 }
 
@@ -55,6 +76,7 @@ void CheckArguments(const Point& start, const std::vector<Point>& goals,
     CheckPoint(goals[i], start.size(), "goal " + std::to_string(i));
   }
   CheckSettings(settings);
+  CheckSkipGrowth(settings, actions);
 }
 
 /// Algorithm 1 at work.
@@ -69,6 +91,7 @@ class PathFinder {
         deadline_(settings.time_limit),
         generator_(settings.seed),
         master_(actions, &space, start, goals),
+        q_confirmation_({.job_time_limit = settings.confirmation_job_limit}),
         confirmation_(actions, &master_, &q_confirmation_, &deadline_, &result_.counters) {
     InitializeActionGraphs();
   }
@@ -89,17 +112,18 @@ class PathFinder {
         break;
       }
       if (settings_.confirmation_threads == 0) {
-        q_confirmation_.RunTurn([this] { return deadline_.Passed(); });
+        RunConfirmationTurn();
       }
       ReportProgress();
     }
-    q_confirmation_.Cancel();
+    confirmation_.CancelJobs();
     return TakeResult();
   }
 
  private:
   void InitializeActionGraphs() {
     const ExplorationContext context = {
+        .actions = &actions_,
         .space = &space_,
         .master = &master_,
         .generator = &generator_,
@@ -107,6 +131,8 @@ class PathFinder {
         .counters = &result_.counters,
         .max_transitions_per_cycle = settings_.max_transitions_per_cycle};
     for (std::size_t i = 0; i < actions_.size(); ++i) {
+      const auto skip = settings_.skip_growth.find(actions_[i]->name());
+      skip_growth_.push_back(skip == settings_.skip_growth.end() ? 0 : skip->second);
       explorations_.push_back(MakeActionExploration(*actions_[i], static_cast<int>(i), context));
       explorations_[i]->AddInitialVertex(master_.start());
       for (const VertexId goal : master_.goals()) {
@@ -118,15 +144,24 @@ class PathFinder {
   void Explore() {
     for (std::size_t a = 0; a < explorations_.size(); ++a) {
       NewElements found = explorations_[a]->PerformTransitions();
-      const Point p_target = space_.RandomSample(&generator_);
-      found.Append(explorations_[a]->GrowTowards(p_target));
+      if (!Skips(a)) {
+        const Point p_target = space_.RandomSample(&generator_);
+        found.Append(explorations_[a]->GrowTowards(p_target));
+      }
       for (std::size_t other = 0; other < explorations_.size(); ++other) {
         if (other != a) {
-          explorations_[other]->InsertIntoTransitionQueue(found.vertices);
+          explorations_[other]->TakeOver(found);
         }
       }
       master_.Append(static_cast<int>(a), found.edges);
+      for (const LineUpEdge& line_up : found.line_ups) {
+        master_.Append(line_up.action, {line_up.edge});
+      }
     }
+  }
+
+  bool Skips(std::size_t action) {
+    return skip_growth_[action] > 0 && UniformReal(0, 1, &generator_) < skip_growth_[action];
   }
 
   bool FindConfirmedPath() {
@@ -144,6 +179,18 @@ class PathFinder {
       }
     }
     return false;
+  }
+
+  /// A job that outlives its turn has to leave exploration as much time before the next one.
+  void RunConfirmationTurn() {
+    const double begin = deadline_.Elapsed();
+    if (begin < next_turn_ && !ExplorationIsOver()) {
+      return;
+    }
+    if (!q_confirmation_.RunTurn(deadline_)) {
+      const double end = deadline_.Elapsed();
+      next_turn_ = end + (end - begin);
+    }
   }
 
   double Duration(const std::vector<EdgeId>& path) const {
@@ -234,9 +281,11 @@ class PathFinder {
   ConfirmationQueue q_confirmation_;
   PathConfirmation confirmation_;
   std::vector<std::unique_ptr<ActionExploration>> explorations_;
+  std::vector<double> skip_growth_;  ///< per action
   std::int64_t cycles_ = 0;
   bool oracle_asked_ = false;
   double next_progress_ = 0;
+  double next_turn_ = 0;
   double best_route_seconds_ = 0;
 };
 

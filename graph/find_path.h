@@ -45,11 +45,14 @@ struct FindPathProgress {
 struct FindPathSettings {
   double time_limit = 60;  ///< s
   std::uint64_t seed = 1;
-  int max_transitions_per_cycle = 5;    ///< Algorithm 2
-  int confirmation_threads = 0;         ///< 0: jobs run in the exploring thread, between cycles
-  std::int64_t max_cycles = -1;         ///< -1: until the time limit
+  int max_transitions_per_cycle = 5;   ///< Algorithm 2
+  int confirmation_threads = 0;        ///< 0: jobs run one by one between cycles, never beside them
+  double confirmation_job_limit = 30;  ///< s that one job may run before it has failed
+  std::int64_t max_cycles = -1;        ///< -1: until the time limit
   std::int64_t ask_oracle_after = 200;  ///< cycles
   RouteOracle oracle = {};              ///< may be empty
+  /// Per name of an action: with what probability a cycle grows it not (paper: 0.9 for jumping).
+  std::map<std::string, double> skip_growth = {};
   std::function<void(const FindPathProgress&)> progress = {};  ///< called at most 10 times a second
 };
 
@@ -79,7 +82,7 @@ struct PathResult {
 /// `goals` is confirmed, nothing is left to try, or time is up.
 /// @throws std::invalid_argument if there is no action or no goal, an action is null or of a kind
 /// that FindPath cannot grow, the points differ in size or are not finite, a setting is out of
-/// range, or an expected duration is negative or not finite.
+/// range or names an unknown action, or an expected duration is negative or not finite.
 PathResult FindPath(const Point& start, const std::vector<Point>& goals,
                     const std::vector<std::shared_ptr<const Action>>& actions,
                     const ExplorationSpace& space, const FindPathSettings& settings);

@@ -24,8 +24,12 @@ class PathConfirmation {
   /// removed from the graph and handed to a confirmation job. Gives up, false, at the deadline.
   bool ConfirmPath(const std::vector<EdgeId>& path);
 
-  /// Puts edges that were confirmed since the last call back into the graph.
+  /// Puts edges that were confirmed since the last call back into the graph. Now and then also
+  /// revalues the jobs that are under way, by the graph as it is now.
   void CollectResults();
+
+  /// Ends all jobs.
+  void CancelJobs();
 
   int num_jobs() const { return num_jobs_; }
 
@@ -39,12 +43,21 @@ class PathConfirmation {
     int next = 0;            ///< position in the order of actions of who is asked next
     int asked = 0;           ///< the action whose job is under way
     bool undecided = false;  ///< some job failed
+    bool open = false;       ///< a job is in the queue
+    /// Expected duration of the quickest route through the edge, were all edges confirmed that
+    /// jobs examine, s.
+    double route_duration = 0;
   };
 
-  bool Confirm(EdgeId edge);
+  bool Confirm(EdgeId edge, double route_duration);
   bool MeetsSufficientConditions(EdgeId edge);
   void SpawnConfirmationJob(int examination);
   void OnConfirmed(EdgeId edge, int action);
+  /// Takes the queue's results into the counters and reports.
+  std::vector<JobResult> Report();
+  void RevalueJobs();
+  /// Whether confirmed edges lead from one end of each open direction to the other as quickly.
+  bool IsOutdone(EdgeId edge) const;
   /// Of all actions the one that found the edge comes first.
   int ActionAt(EdgeId edge, int position) const;
   /// The edge as `action` is asked for it.
@@ -60,6 +73,7 @@ class PathConfirmation {
   std::vector<Examination> examinations_;  ///< the queue's tags are indices into it
   std::vector<ConfirmationReport> reports_;
   int num_jobs_ = 0;
+  int collections_since_revaluation_ = 0;
 };
 
 }  // namespace possibility::graph

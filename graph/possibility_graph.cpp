@@ -6,13 +6,23 @@
 #include <limits>
 #include <queue>
 #include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
 namespace possibility::graph {
+namespace {
+
+/// Vertices in the order of the expected duration of the way to them.
+using Visit = std::pair<double, VertexId>;
+using VisitQueue = std::priority_queue<Visit, std::vector<Visit>, std::greater<>>;
+
+}  // namespace
 
 void NewElements::Append(const NewElements& other) {
   vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
   edges.insert(edges.end(), other.edges.begin(), other.edges.end());
+  offered.insert(offered.end(), other.offered.begin(), other.offered.end());
+  line_ups.insert(line_ups.end(), other.line_ups.begin(), other.line_ups.end());
 }
 
 PossibilityGraph::PossibilityGraph(const std::vector<std::shared_ptr<const Action>>& actions,
@@ -99,11 +109,10 @@ void PossibilityGraph::Reinsert(EdgeId edge) {
 
 std::optional<std::vector<EdgeId>> PossibilityGraph::ShortestPath(VertexId from,
                                                                   VertexId to) const {
-  using Visit = std::pair<double, VertexId>;
   std::vector<double> cost(points_.size(), std::numeric_limits<double>::infinity());
   std::vector<EdgeId> arrival(points_.size(), -1);
   std::vector<bool> settled(points_.size(), false);
-  std::priority_queue<Visit, std::vector<Visit>, std::greater<>> open;
+  VisitQueue open;
   cost[from] = 0;
   open.emplace(0, from);
   while (!open.empty() && !settled[to]) {
@@ -132,6 +141,58 @@ std::optional<std::vector<EdgeId>> PossibilityGraph::ShortestPath(VertexId from,
   }
   std::reverse(path.begin(), path.end());
   return path;
+}
+
+std::vector<double> PossibilityGraph::LeastDurations(const std::vector<VertexId>& roots,
+                                                     Reachability::Direction direction,
+                                                     const EdgeFilter& include) const {
+  const bool downstream = direction == Reachability::Direction::kDownstream;
+  std::vector<double> least(points_.size(), std::numeric_limits<double>::infinity());
+  VisitQueue open;
+  for (const VertexId root : roots) {
+    least[root] = 0;
+    open.emplace(0, root);
+  }
+  while (!open.empty()) {
+    const auto [duration, vertex] = open.top();
+    open.pop();
+    if (duration > least[vertex]) {
+      continue;
+    }
+    for (const EdgeId edge : downstream ? topology_.outgoing(vertex) : topology_.incoming(vertex)) {
+      const VertexId next = downstream ? topology_.to(edge) : topology_.from(edge);
+      const double through = duration + edges_[edge].duration;
+      if (through < least[next] && include(edge)) {
+        least[next] = through;
+        open.emplace(through, next);
+      }
+    }
+  }
+  return least;
+}
+
+bool PossibilityGraph::LeadsWithin(VertexId from, VertexId to, double limit,
+                                   const EdgeFilter& include) const {
+  std::unordered_set<VertexId> settled;
+  VisitQueue open;
+  open.emplace(0, from);
+  while (!open.empty()) {
+    const auto [duration, vertex] = open.top();
+    open.pop();
+    if (vertex == to) {
+      return true;
+    }
+    if (!settled.insert(vertex).second) {
+      continue;
+    }
+    for (const EdgeId edge : topology_.outgoing(vertex)) {
+      const double through = duration + edges_[edge].duration;
+      if (through <= limit && include(edge)) {
+        open.emplace(through, topology_.to(edge));
+      }
+    }
+  }
+  return false;
 }
 
 PointPair PossibilityGraph::points(EdgeId edge) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -27,10 +28,22 @@ struct NewEdge {
   bool reversible = false;  ///< stands for the edge from `to` to `from` as well
 };
 
+/// An edge found by a nonholonomic action that belongs to another: the way to a launch point or
+/// from a landing point.
+struct LineUpEdge {
+  int action = 0;  ///< whose edge it is
+  NewEdge edge;
+};
+
 /// {V_new, E_new} of Algorithms 1 to 4: what one action found.
 struct NewElements {
-  std::vector<VertexId> vertices;
-  std::vector<NewEdge> edges;
+  std::vector<VertexId> vertices = {};
+  std::vector<NewEdge> edges = {};
+
+  /// Those of `vertices` that other actions adopt if they accept them: the launch and landing
+  /// points of nonholonomic actions.
+  std::vector<VertexId> offered = {};
+  std::vector<LineUpEdge> line_ups = {};
 
   void Append(const NewElements& other);
 };
@@ -76,6 +89,18 @@ class PossibilityGraph {
   /// Edges of the path from one vertex to another with the least expected duration; nothing if
   /// there is no path.
   std::optional<std::vector<EdgeId>> ShortestPath(VertexId from, VertexId to) const;
+
+  /// Per vertex: least expected duration of the ways from any of `roots` along edges that
+  /// `include` lets pass, removed or not; infinite if there is none. Upstream, of the ways to any
+  /// of them.
+  using EdgeFilter = std::function<bool(EdgeId)>;
+  std::vector<double> LeastDurations(const std::vector<VertexId>& roots,
+                                     Reachability::Direction direction,
+                                     const EdgeFilter& include) const;
+
+  /// Whether edges that `include` lets pass lead from one vertex to another within an expected
+  /// duration of `limit`.
+  bool LeadsWithin(VertexId from, VertexId to, double limit, const EdgeFilter& include) const;
 
   const DirectedGraph& topology() const { return topology_; }
   const Point& point(VertexId vertex) const { return points_[vertex]; }

@@ -158,6 +158,55 @@ TEST_F(RandomGraph, ShortestPathIsThatOfBellmanFord) {
   EXPECT_GT(unconnected, 50);
 }
 
+TEST_F(RandomGraph, LeastDurationsAreThoseOfBellmanFord) {
+  int reached = 0;
+  for (int round = 0; round < 100; ++round) {
+    Build(2);
+    const int num_edges = 20 + Random(80);
+    for (int i = 0; i < num_edges; ++i) {
+      AddRandomEdge();
+    }
+    const DirectedGraph& topology = graph_->topology();
+    std::vector<bool> included(topology.num_edges());
+    for (EdgeId edge = 0; edge < topology.num_edges(); ++edge) {
+      included[edge] = Random(3) > 0;
+      if (Random(5) == 0) {
+        graph_->Remove(edge);
+      }
+    }
+    const auto include = [&](EdgeId edge) { return included[edge]; };
+    for (const bool upstream : {false, true}) {
+      const std::vector<VertexId> roots =
+          upstream ? graph_->goals() : std::vector<VertexId>{graph_->start()};
+      std::vector<double> cost(kVertices, std::numeric_limits<double>::infinity());
+      for (const VertexId root : roots) {
+        cost[root] = 0;
+      }
+      for (int sweep = 0; sweep < kVertices; ++sweep) {
+        for (EdgeId edge = 0; edge < topology.num_edges(); ++edge) {
+          const VertexId near = upstream ? topology.to(edge) : topology.from(edge);
+          const VertexId far = upstream ? topology.from(edge) : topology.to(edge);
+          if (included[edge]) {
+            cost[far] = std::min(cost[far], cost[near] + graph_->duration(edge));
+          }
+        }
+      }
+      const auto direction =
+          upstream ? Reachability::Direction::kUpstream : Reachability::Direction::kDownstream;
+      EXPECT_EQ(graph_->LeastDurations(roots, direction, include), cost);
+      for (VertexId vertex = 0; !upstream && vertex < kVertices; ++vertex) {
+        const bool finite = std::isfinite(cost[vertex]);
+        const double limit = finite ? cost[vertex] : 1e9;
+        EXPECT_EQ(graph_->LeadsWithin(graph_->start(), vertex, limit, include), finite);
+        EXPECT_FALSE(finite && vertex != graph_->start() &&
+                     graph_->LeadsWithin(graph_->start(), vertex, cost[vertex] - 0.5, include));
+        reached += finite;
+      }
+    }
+  }
+  EXPECT_GT(reached, 500);
+}
+
 TEST_F(RandomGraph, ExpectedDurationsMustBeFiniteAndNotNegative) {
   Build(1);
   for (const double bad : {-1.0, -std::numeric_limits<double>::infinity()}) {

@@ -2,26 +2,40 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
 
 #include "tests/graph/scripted_job.h"
+#include "tests/graph/steered_routine.h"
 
 namespace possibility::graph {
 namespace {
 
+using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using test::Ending;
 using test::ScriptedJob;
 
-constexpr auto kNeverStop = [] { return false; };
+using Clock = std::chrono::steady_clock;
 
-/// Runs the queue until `count` results came, at most 5 s.
-std::vector<JobResult> Collect(ConfirmationQueue* queue, int threads, std::size_t count) {
+double SecondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Runs the queue until `count` results came, at most for `limit`.
+std::vector<JobResult> Collect(ConfirmationQueue* queue, int workers, std::size_t count,
+                               double limit = 10) {
   std::vector<JobResult> all;
-  const auto begin = std::chrono::steady_clock::now();
-  while (all.size() < count && std::chrono::steady_clock::now() - begin < std::chrono::seconds(5)) {
-    if (threads == 0) {
-      queue->RunTurn(kNeverStop);
+  const Deadline deadline(limit);
+  while (all.size() < count && !deadline.Passed()) {
+    if (workers == 0) {
+      queue->RunTurn(deadline);
     } else {
       queue->WaitForResult(milliseconds(20));
     }
@@ -32,15 +46,20 @@ std::vector<JobResult> Collect(ConfirmationQueue* queue, int threads, std::size_
   return all;
 }
 
-class WithThreads : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, WithThreads, ::testing::Values(0, 1, 2));
+std::unique_ptr<ScriptedJob> Job(Ending ending, int steps, microseconds per_step = {}) {
+  return std::make_unique<ScriptedJob>(ending, steps, per_step);
+}
 
-TEST_P(WithThreads, EveryJobComesToItsOwnEnd) {
-  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 3});
+class WithWorkers : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, WithWorkers, ::testing::Values(0, 1, 2));
+
+TEST_P(WithWorkers, EveryJobComesToItsOwnEnd) {
+  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 3, .max_threads = 60});
   queue.LaunchThreads(GetParam());
-  const std::vector<Ending> endings = {Ending::kConfirm, Ending::kRefute, Ending::kThrow};
+  const std::vector<Ending> endings = {Ending::kConfirm, Ending::kRefute, Ending::kThrow,
+                                       Ending::kGiveUp, Ending::kNonsense};
   for (int tag = 0; tag < 60; ++tag) {
-    queue.Insert(tag, std::make_unique<ScriptedJob>(endings[tag % 3], 1 + tag % 10));
+    queue.Insert(tag, Job(endings[tag % 5], 1 + tag % 10, microseconds(200)), tag % 7);
   }
   EXPECT_EQ(queue.num_open(), 60);
   std::map<int, JobResult> by_tag;
@@ -51,59 +70,306 @@ TEST_P(WithThreads, EveryJobComesToItsOwnEnd) {
   EXPECT_EQ(queue.num_open(), 0);
   for (const auto& [tag, result] : by_tag) {
     const JobOutcome expected[] = {JobOutcome::kConfirmed, JobOutcome::kRefuted,
-                                   JobOutcome::kFailed};
-    const char* reasons[] = {"", "torque limit", "solver broke down"};
-    EXPECT_EQ(result.outcome, expected[tag % 3]);
-    EXPECT_EQ(result.reason, reasons[tag % 3]);
+                                   JobOutcome::kFailed, JobOutcome::kFailed, JobOutcome::kFailed};
+    const char* reasons[] = {"", "torque limit", "solver broke down", "too many iterations",
+                             "the job returned no verdict that there is"};
+    EXPECT_EQ(result.outcome, expected[tag % 5]);
+    EXPECT_EQ(result.reason, reasons[tag % 5]);
   }
 }
 
-TEST_P(WithThreads, EasyJobsEndBesideEndlessOnes) {
+TEST_P(WithWorkers, EasyJobsEndBesideEndlessOnes) {
   ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 5});
   queue.LaunchThreads(GetParam());
   for (int tag = 0; tag < 8; ++tag) {
-    queue.Insert(tag, std::make_unique<ScriptedJob>(Ending::kNever, 0, milliseconds(1)));
+    queue.Insert(tag, Job(Ending::kNever, 0), 1);
   }
-  queue.Insert(8, std::make_unique<ScriptedJob>(Ending::kConfirm, 12, milliseconds(1)));
+  queue.Insert(8, Job(Ending::kConfirm, 12, milliseconds(1)), 2);
   const auto results = Collect(&queue, GetParam(), 1);
   ASSERT_EQ(results.size(), 1);
   EXPECT_EQ(results[0].tag, 8);
   EXPECT_GT(results[0].seconds, 0.011);
 }
 
-TEST_P(WithThreads, CancelDropsEverythingAndEndsTheThreads) {
+TEST_P(WithWorkers, CancelAllEndsEveryJobAndItsThread) {
   ConfirmationQueue queue;
   queue.LaunchThreads(GetParam());
   for (int tag = 0; tag < 50; ++tag) {
-    queue.Insert(tag, std::make_unique<ScriptedJob>(Ending::kNever, 0, milliseconds(1)));
+    queue.Insert(tag, Job(Ending::kNever, 0), 0);
   }
-  queue.WaitForResult(milliseconds(20));
-  queue.Cancel();
+  EXPECT_TRUE(Collect(&queue, GetParam(), 1, 0.05).empty());
+  queue.CancelAll("the search is over");
+  const auto results = queue.DrainFinished();
+  EXPECT_EQ(results.size(), 50);
   EXPECT_EQ(queue.num_open(), 0);
-  EXPECT_TRUE(queue.DrainFinished().empty());
+  double seconds = 0;
+  for (const JobResult& result : results) {
+    EXPECT_EQ(result.outcome, JobOutcome::kCancelled);
+    EXPECT_EQ(result.reason, "the search is over");
+    seconds += result.seconds;
+  }
+  EXPECT_GT(seconds, 0);
 }
 
-TEST(ConfirmationQueue, ATurnStopsBetweenSlicesAndGoesOnLater) {
+TEST_P(WithWorkers, ACancelledJobEndsAndTheOthersGoOn) {
+  ConfirmationQueue queue({.slice = milliseconds(2), .slices_per_turn = 5});
+  queue.LaunchThreads(GetParam());
+  for (int tag = 0; tag < 6; ++tag) {
+    queue.Insert(tag, Job(tag % 2 ? Ending::kConfirm : Ending::kNever, 10, milliseconds(1)), 0);
+  }
+  EXPECT_TRUE(Collect(&queue, GetParam(), 1, 0.005).empty());
+  for (const int tag : {0, 2, 4, 4, 99}) {
+    queue.Cancel(tag, "a detour is confirmed");
+  }
+  const auto results = Collect(&queue, GetParam(), 6);
+  ASSERT_EQ(results.size(), 6);
+  for (const JobResult& result : results) {
+    EXPECT_EQ(result.outcome, result.tag % 2 ? JobOutcome::kConfirmed : JobOutcome::kCancelled);
+  }
+}
+
+TEST_P(WithWorkers, AJobThatTakesTooLongFails) {
+  ConfirmationQueue queue(
+      {.slice = milliseconds(1), .slices_per_turn = 10, .job_time_limit = 0.05});
+  queue.LaunchThreads(GetParam());
+  queue.Insert(0, Job(Ending::kNever, 0), 0);
+  const auto results = Collect(&queue, GetParam(), 1);
+  ASSERT_EQ(results.size(), 1);
+  EXPECT_EQ(results[0].outcome, JobOutcome::kFailed);
+  EXPECT_EQ(results[0].reason.substr(0, 18), "no verdict after 0") << results[0].reason;
+  EXPECT_GE(results[0].seconds, 0.05);
+}
+
+TEST_P(WithWorkers, TheSlowestGivesWayWhenNoMoreThreadsMayBegin) {
+  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 5, .max_threads = 4});
+  queue.LaunchThreads(GetParam());
+  for (int tag = 0; tag < 8; ++tag) {
+    queue.Insert(tag, Job(Ending::kNever, 0), tag);
+  }
+  queue.Insert(8, Job(Ending::kConfirm, 5, milliseconds(1)), 8);
+  bool confirmed = false;
+  for (const JobResult& result : Collect(&queue, GetParam(), 6)) {
+    confirmed = confirmed || result.tag == 8;
+    if (result.tag != 8) {
+      EXPECT_EQ(result.outcome, JobOutcome::kFailed);
+      EXPECT_NE(result.reason.find("gave way"), std::string::npos) << result.reason;
+    }
+  }
+  EXPECT_TRUE(confirmed);
+}
+
+/// Counts its steps, how many jobs of its kind run at once, and the order in which they begin.
+struct Tally {
+  std::atomic<int> running = 0;
+  std::atomic<int> most_running = 0;
+  std::atomic<int> begun = 0;
+};
+
+class CountingJob : public ConfirmationJob {
+ public:
+  CountingJob(Tally* tally, std::atomic<int>* steps, std::atomic<int>* place, int last_step)
+      : tally_(tally), steps_(steps), place_(place), last_step_(last_step) {}
+
+  JobVerdict Run(JobControl* control) override {
+    *place_ = tally_->begun++;
+    while (*steps_ < last_step_ && control->Checkpoint() && !control->cancelled()) {
+      const int now = ++tally_->running;
+      tally_->most_running = std::max<int>(tally_->most_running, now);
+      ++*steps_;
+      std::this_thread::sleep_for(microseconds(200));
+      --tally_->running;
+    }
+    return JobVerdict::kConfirmed;
+  }
+
+ private:
+  Tally* tally_;
+  std::atomic<int>* steps_;
+  std::atomic<int>* place_;
+  int last_step_;
+};
+
+class Counted : public WithWorkers {
+ protected:
+  static constexpr int kJobs = 12;
+
+  void InsertAll(ConfirmationQueue* queue, const std::vector<double>& costs, int last_step) {
+    for (int tag = 0; tag < kJobs; ++tag) {
+      queue->Insert(tag,
+                    std::make_unique<CountingJob>(&tally_, &steps_[tag], &place_[tag], last_step),
+                    costs[tag]);
+    }
+  }
+
+  Tally tally_;
+  std::atomic<int> steps_[kJobs] = {};
+  std::atomic<int> place_[kJobs] = {};
+};
+class CountedBeside : public Counted {};
+class CountedOneByOne : public Counted {};
+INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, Counted, ::testing::Values(0, 1, 2));
+INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, CountedBeside, ::testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, CountedOneByOne, ::testing::Values(0, 1));
+
+TEST_P(Counted, NoMoreJobsRunThanThereAreWorkers) {
+  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 4});
+  queue.LaunchThreads(GetParam());
+  InsertAll(&queue, std::vector<double>(kJobs, 0), 40);
+  EXPECT_EQ(Collect(&queue, GetParam(), kJobs).size(), kJobs);
+  EXPECT_EQ(tally_.most_running, std::max(GetParam(), 1));
+}
+
+TEST_P(CountedBeside, NobodyStarvesHoweverLittleHisAnswerIsWorth) {
+  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 1000000});
+  queue.LaunchThreads(GetParam());
+  std::vector<double> costs(kJobs, 1);
+  std::iota(costs.begin(), costs.end(), 1);
+  costs.back() = std::numeric_limits<double>::infinity();
+  InsertAll(&queue, costs, std::numeric_limits<int>::max());
+  const auto all_had_a_few_slices = [&] {
+    return std::all_of(std::begin(steps_), std::end(steps_),
+                       [](const auto& steps) { return steps >= 8; });
+  };
+  const Deadline deadline(20);
+  while (!all_had_a_few_slices() && !deadline.Passed()) {
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  EXPECT_TRUE(all_had_a_few_slices());
+  queue.CancelAll({});
+  // The two cheapest per worker share all but one slice in eight.
+  const int front = 2 * GetParam();
+  const int of_front = std::accumulate(steps_, steps_ + front, 0);
+  const int of_others = std::accumulate(steps_ + front, steps_ + kJobs, 0);
+  EXPECT_GT(of_front, 2 * of_others);
+}
+
+TEST_P(Counted, OneTurnAfterAnotherReachesEverybody) {
+  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 2});
+  queue.LaunchThreads(GetParam());
+  std::vector<double> costs(kJobs);
+  std::iota(costs.begin(), costs.end(), 1);
+  InsertAll(&queue, costs, std::numeric_limits<int>::max());
+  Collect(&queue, GetParam(), 1, 0.5);
+  for (const auto& steps : steps_) {
+    EXPECT_GT(steps, 0);
+  }
+  queue.CancelAll({});
+}
+
+TEST_P(CountedOneByOne, TheMostValuableAnswersComeFirst) {
+  ConfirmationQueue queue({.slices_per_fair_slice = 1000000});
+  std::vector<double> costs(kJobs);
+  for (int tag = 0; tag < kJobs; ++tag) {
+    costs[tag] = (tag * 5) % kJobs;
+  }
+  InsertAll(&queue, costs, 1);
+  const int promoted = 7;
+  queue.SetCost(promoted, -1);
+  costs[promoted] = -1;
+  queue.LaunchThreads(GetParam());
+  ASSERT_EQ(Collect(&queue, GetParam(), kJobs).size(), kJobs);
+  for (int tag = 0; tag < kJobs; ++tag) {
+    const auto rank =
+        std::count_if(costs.begin(), costs.end(), [&](double cost) { return cost < costs[tag]; });
+    EXPECT_EQ(place_[tag], rank) << tag;
+  }
+}
+
+/// The least time, s, that cancelling 20 endless jobs takes: the machine may be busy.
+double LeastTimeToCancel(int workers) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int attempt = 0; attempt < 5 && least >= 0.05; ++attempt) {
+    ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 3});
+    queue.LaunchThreads(workers);
+    for (int tag = 0; tag < 20; ++tag) {
+      queue.Insert(tag, Job(Ending::kNever, 0), 0);
+    }
+    EXPECT_TRUE(Collect(&queue, workers, 1, 0.1).empty());
+    const auto begin = Clock::now();
+    queue.CancelAll({});
+    least = std::min(least, SecondsSince(begin));
+  }
+  return least;
+}
+
+TEST_P(WithWorkers, CancellingEndsWithin50Milliseconds) {
+  EXPECT_LT(LeastTimeToCancel(GetParam()), 0.05);
+}
+
+/// Spends its time in a routine that is steered through its own handle.
+class SteeredJob : public ConfirmationJob {
+ public:
+  SteeredJob(std::atomic<int>* steps, int last_step) : steps_(steps), last_step_(last_step) {}
+  JobVerdict Run(JobControl* control) override {
+    test::SteeredRoutine routine;
+    const bool go_on = control->RunSteered(
+        routine.Steering(), [&] { routine.Run([&] { return ++*steps_ < last_step_; }); });
+    return go_on ? JobVerdict::kConfirmed : JobVerdict::kRefuted;
+  }
+
+ private:
+  std::atomic<int>* steps_;
+  int last_step_;
+};
+
+TEST_P(WithWorkers, SteeredJobsRotateAndEndLikeOthers) {
+  constexpr int kJobs = 6;
+  std::atomic<int> steps[kJobs] = {};
+  ConfirmationQueue queue({.slice = milliseconds(3), .slices_per_turn = 3});
+  queue.LaunchThreads(GetParam());
+  for (int tag = 0; tag < kJobs; ++tag) {
+    queue.Insert(tag, std::make_unique<SteeredJob>(&steps[tag], tag < 4 ? 1000000 : 30), tag);
+  }
+  const auto results = Collect(&queue, GetParam(), 2);
+  ASSERT_EQ(results.size(), 2);
+  for (const JobResult& result : results) {
+    EXPECT_GE(result.tag, 4);
+    EXPECT_EQ(result.outcome, JobOutcome::kConfirmed);
+    EXPECT_GT(result.seconds, 0);
+  }
+  for (const auto& count : steps) {
+    EXPECT_GT(count, 0);
+  }
+  queue.CancelAll({});
+  for (const JobResult& result : queue.DrainFinished()) {
+    EXPECT_EQ(result.outcome, JobOutcome::kCancelled);
+  }
+}
+
+TEST(ConfirmationQueue, ATurnStopsAtTheDeadlineAndGoesOnLater) {
   ConfirmationQueue queue;
-  queue.Insert(0, std::make_unique<ScriptedJob>(Ending::kConfirm, 10));
-  int asked = 0;
-  queue.RunTurn([&] { return ++asked > 4; });
+  queue.Insert(0, Job(Ending::kConfirm, 20, milliseconds(1)), 0);
+  queue.RunTurn(Deadline(0.005));
   EXPECT_TRUE(queue.DrainFinished().empty());
-  queue.RunTurn(kNeverStop);
-  EXPECT_EQ(queue.DrainFinished().size(), 1);
+  queue.RunTurn(Deadline(10));
+  const auto results = queue.DrainFinished();
+  ASSERT_EQ(results.size(), 1);
+  EXPECT_EQ(results[0].outcome, JobOutcome::kConfirmed);
 }
 
 TEST(ConfirmationQueue, AnythingThrownIsAFailure) {
   class Thrower : public ConfirmationJob {
-    JobState Run(milliseconds) override { throw 3; }
+    JobVerdict Run(JobControl*) override { throw 3; }
   };
   ConfirmationQueue queue;
-  queue.Insert(0, std::make_unique<Thrower>());
-  queue.RunTurn(kNeverStop);
+  queue.Insert(0, std::make_unique<Thrower>(), 0);
+  queue.RunTurn(Deadline(10));
   const auto results = queue.DrainFinished();
   ASSERT_EQ(results.size(), 1);
   EXPECT_EQ(results[0].outcome, JobOutcome::kFailed);
   EXPECT_EQ(results[0].reason, "unknown exception");
+}
+
+TEST(ConfirmationQueue, SettingsMustBePositive) {
+  const auto expect_throw = [](const ConfirmationQueue::Settings& settings) {
+    EXPECT_THROW(ConfirmationQueue{settings}, std::invalid_argument);
+  };
+  expect_throw({.slice = milliseconds(0)});
+  expect_throw({.slices_per_turn = 0});
+  expect_throw({.rotating_jobs_per_worker = 0});
+  expect_throw({.slices_per_fair_slice = 0});
+  expect_throw({.max_threads = 0});
+  expect_throw({.job_time_limit = std::nan("")});
 }
 
 }  // namespace

@@ -65,8 +65,8 @@ class UncertainAction : public BandAction {
   Script script_;
 };
 
-UncertainAction::Script Always(Ending ending, int slices) {
-  return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, slices); };
+UncertainAction::Script Always(Ending ending, int steps) {
+  return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, steps); };
 }
 
 /// A walk that can only be done towards greater x.
@@ -252,6 +252,10 @@ TEST(FindPath, InvalidArgumentsThrow) {
   expect_throw(Start(), {Goal()}, walk, {.time_limit = nan});
   expect_throw(Start(), {Goal()}, walk, {.max_transitions_per_cycle = -1});
   expect_throw(Start(), {Goal()}, walk, {.confirmation_threads = -1});
+  expect_throw(Start(), {Goal()}, walk, {.confirmation_job_limit = 0});
+  expect_throw(Start(), {Goal()}, walk, {.skip_growth = {{"wlak", 0.5}}});
+  expect_throw(Start(), {Goal()}, walk, {.skip_growth = {{"walk", 1.5}}});
+  expect_throw(Start(), {Goal()}, walk, {.skip_growth = {{"walk", nan}}});
 }
 
 class WithJobs : public ::testing::TestWithParam<int> {
@@ -289,16 +293,22 @@ TEST_P(WithJobs, AnIndeterminateEdgeIsReturnedOnlyAfterItsJobConfirmed) {
 }
 
 TEST_P(WithJobs, ARefutedFailedOrEndlessRouteIsReplacedByAnother) {
-  for (const Ending ending : {Ending::kRefute, Ending::kThrow, Ending::kNever}) {
+  for (const Ending ending :
+       {Ending::kRefute, Ending::kThrow, Ending::kNever, Ending::kGiveUp, Ending::kNonsense}) {
     const auto walk = std::make_shared<UncertainAction>("walk", Interval{0.7, 1}, 0.85,
                                                         Interval{4, 6}, Always(ending, 3));
     const Actions actions = {walk, MakeCrawl()};
-    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, Settings());
+    FindPathSettings settings = Settings();
+    settings.confirmation_job_limit = 0.05;
+    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
     ExpectValidPath(result, Start(), {Goal()}, actions);
     EXPECT_EQ(result.counters.at("jobs confirmed"), 0);
+    EXPECT_EQ(result.counters.at("jobs spawned"), static_cast<int>(result.confirmations.size()));
     for (const ConfirmationReport& report : result.confirmations) {
       EXPECT_EQ(report.action, 0);
-      EXPECT_EQ(report.reason, ending == Ending::kRefute ? "torque limit" : "solver broke down");
+      EXPECT_FALSE(report.reason.empty());
+      const bool refuted = report.outcome == JobOutcome::kRefuted;
+      EXPECT_EQ(refuted, ending == Ending::kRefute && report.outcome != JobOutcome::kCancelled);
     }
   }
 }

@@ -1,43 +1,60 @@
 #pragma once
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include "graph/confirmation_job.h"
 
 namespace possibility::graph::test {
 
-enum class Ending { kConfirm, kRefute, kThrow, kNever };
+enum class Ending { kConfirm, kRefute, kThrow, kGiveUp, kNonsense, kNever };
 
-/// A job that comes to a given end after a given number of slices.
+/// A job that comes to a given end after a given number of steps.
 class ScriptedJob : public ConfirmationJob {
  public:
-  ScriptedJob(Ending ending, int slices, std::chrono::milliseconds per_slice = {})
-      : ending_(ending), slices_left_(slices), per_slice_(per_slice) {}
+  ScriptedJob(Ending ending, int steps, std::chrono::microseconds per_step = {})
+      : ending_(ending), steps_(steps), per_step_(per_step) {}
 
-  JobState Run(std::chrono::milliseconds) override {
-    if (per_slice_.count() > 0) {
-      std::this_thread::sleep_for(per_slice_);
+  JobVerdict Run(JobControl* control) override {
+    const bool never = ending_ == Ending::kNever;
+    for (int step = 0; never || step < steps_; ++step) {
+      if (!control->Checkpoint()) {
+        return JobVerdict::kRefuted;  // nobody may believe a cancelled job
+      }
+      Work();
+      std::this_thread::sleep_for(never ? std::max(per_step_, kPoll) : per_step_);
     }
-    if (ending_ == Ending::kNever || --slices_left_ > 0) {
-      return JobState::kRunning;
+    switch (ending_) {
+      case Ending::kConfirm:
+        return JobVerdict::kConfirmed;
+      case Ending::kThrow:
+        throw std::runtime_error("solver broke down");
+      case Ending::kGiveUp:
+        return JobVerdict::kUndecided;
+      case Ending::kNonsense:
+        return static_cast<JobVerdict>(17);
+      default:
+        return JobVerdict::kRefuted;
     }
-    if (ending_ == Ending::kThrow) {
-      throw std::runtime_error("solver broke down");
-    }
-    return ending_ == Ending::kConfirm ? JobState::kConfirmed : JobState::kRefuted;
   }
-  std::string reason() const override { return "torque limit"; }
+  std::string reason() const override {
+    return ending_ == Ending::kGiveUp ? "too many iterations" : "torque limit";
+  }
+
+ protected:
+  /// What a test wants done in every step.
+  virtual void Work() {}
 
  private:
+  static constexpr std::chrono::microseconds kPoll{500};
+
   Ending ending_;
-  int slices_left_;
-  std::chrono::milliseconds per_slice_;
+  int steps_;
+  std::chrono::microseconds per_step_;
 };
 
 }  // namespace possibility::graph::test

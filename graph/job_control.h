@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace possibility::graph {
+
+/// How a routine with a handle of its own is paused, resumed and cancelled from another thread.
+/// Each function returns at once, throws nothing and asks nothing of the JobControl. `cancel`
+/// also ends a pause. All three must be there.
+struct JobSteering {
+  std::function<void()> pause;
+  std::function<void()> resume;
+  std::function<void()> cancel;
+};
+
+/// What joins a running confirmation job to whoever runs it: a ConfirmationQueue, or a test.
+/// Thread-safe: the job calls the first group of functions, other threads the second.
+class JobControl {
+ public:
+  /// Not paused. `on_held` (optional) is called by the job's thread when a pause begins to hold it.
+  explicit JobControl(std::function<void()> on_held = {}) : on_held_(std::move(on_held)) {}
+  JobControl(const JobControl&) = delete;
+  JobControl& operator=(const JobControl&) = delete;
+
+  /// To be called by the job every few milliseconds (at least every 20): sleeps while the job is
+  /// paused. False once it is cancelled: Run then returns without delay. Costs one atomic load
+  /// while nothing is asked of the job.
+  bool Checkpoint();
+  bool cancelled() const { return cancelled_.load(std::memory_order_acquire); }
+
+  /// Runs `routine`, steered through its own handle meanwhile, and returns Checkpoint(). What
+  /// `routine` throws passes through. Does not nest.
+  bool RunSteered(const JobSteering& steering, const std::function<void()>& routine);
+
+  /// Asks the job to pause; true if it is held already. A steered routine counts as held as soon
+  /// as it is told.
+  bool Pause();
+  void Resume();
+  /// Sticky.
+  void Cancel();
+
+ private:
+  void Attach(const JobSteering& steering);
+  void Detach();
+
+  std::function<void()> on_held_;
+  std::atomic<bool> cancelled_ = false;
+  std::atomic<bool> interrupted_ = false;  ///< paused_ or cancelled_
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  // Under mutex_:
+  bool paused_ = false;
+  bool held_ = false;
+  std::optional<JobSteering> steering_;
+};
+
+}  // namespace possibility::graph

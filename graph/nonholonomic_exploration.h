@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "graph/action_exploration.h"
+
+namespace possibility::graph {
+
+/// Algorithm 4: grows the graph of a nonholonomic action, from launch points close to vertices
+/// that lead to no goal and to landing points close to vertices that the start does not lead to.
+class NonholonomicExploration : public ActionExploration {
+ public:
+  NonholonomicExploration(const NonholonomicAction& action, int index,
+                          const ExplorationContext& context);
+
+  NewElements GrowTowards(const Point& p_target) override;
+
+ private:
+  /// Which of the vertices are still worth trying in one growth.
+  using Useful = std::vector<bool>;
+
+  /// Both are true if they found an edge, whether or not it was there before.
+  bool LaunchFrom(VertexId v, const Point& p_target, NewElements* found);
+  bool LandAt(VertexId v, const Point& p_target, NewElements* found);
+
+  /// Whether the edge and its ends are possibilities of this action.
+  bool IsExplorable(const PointPair& edge);
+  /// The first other action that can take the robot along a line-up edge; nothing if none can.
+  std::optional<int> WhoLinesUp(const PointPair& line_up) const;
+  bool AppendEdges(const PointPair& edge, const std::optional<PointPair>& line_up,
+                   NewElements* found);
+  VertexId AppendVertex(const Point& point, NewElements* found);
+
+  void RecursivelySetUpstreamVerticesToFalse(VertexId v, Useful* useful) const;
+  void RecursivelySetDownstreamVerticesToFalse(VertexId v, Useful* useful) const;
+
+  const NonholonomicAction& action_;
+  std::int64_t* rejected_;
+  std::int64_t* refused_;
+  std::int64_t* not_lined_up_;
+  std::int64_t* made_;
+};
+
+}  // namespace possibility::graph

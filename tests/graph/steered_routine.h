@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+#include "graph/job_control.h"
+
+namespace possibility::graph::test {
+
+/// A routine that is steered from outside and knows nothing of JobControl.
+class SteeredRoutine {
+ public:
+  JobSteering Steering() {
+    return {.pause = [this] { Set(&paused_, true); },
+            .resume = [this] { Set(&paused_, false); },
+            .cancel = [this] { Set(&cancelled_, true); }};
+  }
+  /// Until `step`, called every millisecond, says no, or it is cancelled.
+  void Run(const std::function<bool()>& step) {
+    std::unique_lock lock(mutex_);
+    while (!cancelled_ && step()) {
+      changed_.wait_for(lock, std::chrono::milliseconds(1));
+      changed_.wait(lock, [this] { return !paused_ || cancelled_; });
+    }
+  }
+
+ private:
+  void Set(bool* what, bool value) {
+    const std::lock_guard lock(mutex_);
+    *what = value;
+    changed_.notify_all();
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool paused_ = false;
+  bool cancelled_ = false;
+};
+
+}  // namespace possibility::graph::test
