@@ -5,8 +5,29 @@
 #include <utility>
 
 #include "actions/exploration_pose.h"
+#include "models/scenario.h"
 
 namespace possibility::actions {
+namespace {
+
+bool IsJump(const models::RobotModel& robot, const std::string& action) {
+  return std::any_of(robot.jumps.begin(), robot.jumps.end(),
+                     [&](const models::Jump& jump) { return jump.name == action; });
+}
+
+LocomotionModel::JumpEntry PrepareJump(const LocomotionModel& model, const models::Jump& jump,
+                                       const std::filesystem::path& library) {
+  LocomotionModel::JumpEntry entry;
+  entry.name = jump.name;
+  entry.from = model.GaitIndex(jump.from);
+  entry.to = model.GaitIndex(jump.to);
+  entry.solver = std::make_unique<JumpSolver>(*model.robot, model.gaits[entry.from]->stance,
+                                              model.gaits[entry.to]->stance);
+  entry.library = std::make_unique<JumpLibrary>(*model.robot, *entry.solver, library);
+  return entry;
+}
+
+}  // namespace
 
 int LocomotionModel::GaitIndex(const std::string& name) const {
   for (size_t i = 0; i < gaits.size(); ++i) {
@@ -17,10 +38,13 @@ int LocomotionModel::GaitIndex(const std::string& name) const {
 
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
-                                     const std::function<bool()>& keep_going) {
+                                     const std::function<bool()>& keep_going,
+                                     const std::filesystem::path& library) {
+  models::CheckActionsOfRobot(actions, robot, robot.file.string());
   LocomotionModel model;
   model.robot = &robot;
   for (const std::string& action : actions) {
+    if (IsJump(robot, action)) continue;
     auto entry = std::make_unique<LocomotionModel::GaitEntry>();
     entry->stance = SolveNominalStance(robot, robot.GaitNamed(action));
     entry->motion = std::make_unique<GaitMotion>(robot, entry->stance);
@@ -36,6 +60,10 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
         robot, transition, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance);
     entry.sweep = SweepTransition(robot, *entry.motion, keep_going).Boxes();
     model.transitions.push_back(std::move(entry));
+  }
+  for (const models::Jump& jump : robot.jumps) {
+    if (std::find(actions.begin(), actions.end(), jump.name) == actions.end()) continue;
+    model.jumps.push_back(PrepareJump(model, jump, library));
   }
   return model;
 }

@@ -7,6 +7,24 @@
 
 namespace possibility::actions {
 
+void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
+                        const Eigen::VectorXd& v, double speed_margin, double t) {
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const models::Joint& joint = robot.joints[j];
+    const double position = q[7 + j];
+    if (position < joint.lower || position > joint.upper) {
+      throw MotionError(
+          fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s of a phase",
+                      joint.name, position, joint.lower, joint.upper, t));
+    }
+    const double rate = v[6 + j];
+    if (std::abs(rate) > speed_margin * joint.velocity) {
+      throw MotionError(fmt::format("{} at {:.3f}/s is faster than {:.3f}/s at {:.2f} s of a phase",
+                                    joint.name, rate, speed_margin * joint.velocity, t));
+    }
+  }
+}
+
 MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings)
     : robot_(&robot), settings_(settings), solver_(robot) {}
 
@@ -48,7 +66,7 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase,
                              Eigen::VectorXd* guess) {
   const WholeBodyState state = solver_.Solve(phase.task(t), *guess);
   *guess = state.q;
-  CheckLimits(state, t);
+  RequireJointLimits(*robot_, state.q, state.v, settings_.speed_margin, t);
   dynamics::ContactForceSettings force_settings;
   force_settings.friction = robot_->friction;
   force_settings.friction_margin = settings_.friction_margin;
@@ -72,23 +90,6 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase,
   knot.tau = forces->torques;
   knot.forces = forces->forces;
   return knot;
-}
-
-void MotionBuilder::CheckLimits(const WholeBodyState& state, double t) const {
-  for (int j = 0; j < robot_->num_joints(); ++j) {
-    const models::Joint& joint = robot_->joints[j];
-    const double q = state.q[7 + j];
-    if (q < joint.lower || q > joint.upper) {
-      throw MotionError(
-          fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s of a phase",
-                      joint.name, q, joint.lower, joint.upper, t));
-    }
-    const double rate = state.v[6 + j];
-    if (std::abs(rate) > settings_.speed_margin * joint.velocity) {
-      throw MotionError(fmt::format("{} at {:.3f}/s is faster than {:.3f}/s at {:.2f} s of a phase",
-                                    joint.name, rate, settings_.speed_margin * joint.velocity, t));
-    }
-  }
 }
 
 void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const {

@@ -35,6 +35,11 @@ struct MotionSettings {
   double torque_margin = 0.95;    ///< fraction of each joint's effort limit
 };
 
+/// @throws MotionError naming the joint that leaves its position limits, or is faster than
+/// `speed_margin` of its speed limit, at time `t` of a phase.
+void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
+                        const Eigen::VectorXd& v, double speed_margin, double t);
+
 /// Turns task-level motion into knots with joint motion, torques and contact forces that satisfy
 /// inverse dynamics, limits and friction cones. One per thread.
 class MotionBuilder {
@@ -51,7 +56,6 @@ class MotionBuilder {
   Phase BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess);
   Knot MakeKnot(const MotionPhase& phase, const std::vector<dynamics::ContactPoint>& points,
                 double t, Eigen::VectorXd* guess);
-  void CheckLimits(const WholeBodyState& state, double t) const;
   void CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const;
 
   const models::RobotModel* robot_;

@@ -68,12 +68,14 @@ double LegReach(const LocomotionModel& model) {
 /// The flood over C_N. Cells: (unused), x, y, z of the ball's centre.
 class NecessaryFlood {
  public:
-  NecessaryFlood(const LocomotionModel& model, const World& world, double resolution)
+  NecessaryFlood(const LocomotionModel& model, const World& world, double resolution,
+                 const std::vector<FloodJump>& jumps)
       : model_(model),
         world_(world),
         ball_(LargestBall(model.robot->links[model.robot->pelvis_shape_link])),
         resolution_(std::min(resolution, 1.8 * ball_.radius / std::numbers::sqrt3)),
         reach_(LegReach(model) + ball_.centre_R.norm() + resolution_),
+        flight_(FarthestFlight(jumps)),
         checker_(*world.environment),
         shrunk_(models::Shape::Sphere(
             std::max(1e-4, ball_.radius - resolution_ * std::numbers::sqrt3 / 2 - kCheckerError))),
@@ -92,6 +94,15 @@ class NecessaryFlood {
   }
 
  private:
+  static FlightBounds FarthestFlight(const std::vector<FloodJump>& jumps) {
+    FlightBounds farthest;
+    for (const FloodJump& jump : jumps) {
+      farthest.rise = std::max(farthest.rise, jump.bounds.rise);
+      farthest.range = std::max(farthest.range, jump.bounds.range);
+    }
+    return farthest;
+  }
+
   static Isometry3d At(const Vector3d& p) {
     Isometry3d X = Isometry3d::Identity();
     X.translation() = p;
@@ -110,7 +121,8 @@ class NecessaryFlood {
 
   Cell GridSize() const {
     Vector3d top;
-    top << world_.environment->bounds.max(), world_.ground->levels().back() + reach_;
+    top << world_.environment->bounds.max(),
+        world_.ground->levels().back() + reach_ + flight_.rise;
     const Vector3d size = (top - Origin()) / resolution_;
     return {1, static_cast<int>(size.x()) + 1, static_cast<int>(size.y()) + 1,
             static_cast<int>(size.z()) + 1};
@@ -130,8 +142,10 @@ class NecessaryFlood {
     const std::vector<double>& levels = world_.ground->levels();
     for (size_t level = 0; level < levels.size(); ++level) {
       const double height = p.z() - levels[level];
-      if (std::abs(height) > reach_) continue;
-      const double reach = std::sqrt(reach_ * reach_ - height * height);
+      const double beyond_legs = std::max(height - flight_.rise, std::min(height, 0.0));
+      if (std::abs(beyond_legs) > reach_) continue;
+      const double reach =
+          flight_.range + std::sqrt(reach_ * reach_ - beyond_legs * beyond_legs);
       if (world_.ground->Clearance(static_cast<int>(level), p.head<2>()) >= -reach) return true;
     }
     return false;
@@ -171,6 +185,7 @@ class NecessaryFlood {
   Ball ball_;
   double resolution_;
   double reach_;
+  FlightBounds flight_;
   models::CollisionChecker checker_;
   models::Shape shrunk_;
   models::PreparedShape prepared_;
@@ -181,8 +196,9 @@ class NecessaryFlood {
 
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                           double resolution, const std::function<bool()>& keep_going) {
-  return NecessaryFlood(model, world, resolution).Run(start, goals, keep_going);
+                           double resolution, const std::function<bool()>& keep_going,
+                           const std::vector<FloodJump>& jumps) {
+  return NecessaryFlood(model, world, resolution, jumps).Run(start, goals, keep_going);
 }
 
 }  // namespace possibility::actions

@@ -20,11 +20,16 @@ struct Knot {
 };
 
 /// A stretch of time with one set of contacts. Consecutive phases share an instant: the last knot
-/// of one and the first of the next have the same t, q and v; a, tau and forces may jump.
+/// of one and the first of the next have the same t, q and, unless an impact lies between them, v;
+/// a, tau and forces may jump.
 struct Phase {
-  std::vector<std::string> contacts;  ///< patch names bearing on the ground, in the order of
-                                      ///< the columns of Knot::forces (each patch's points)
-  std::vector<Knot> knots;            ///< at least two, strictly increasing in t
+  /// What bears on the ground, in the order of the columns of Knot::forces: a patch with all its
+  /// points ("left_sole") or some of them ("left_sole[0,3]"). None: the robot flies.
+  std::vector<std::string> contacts;
+  std::vector<Knot> knots;  ///< at least two, strictly increasing in t
+  /// Of the impact that this phase begins with: on the robot at every contact point, world, N s,
+  /// in the order of Knot::forces. No columns: no impact.
+  Eigen::Matrix3Xd impulses = Eigen::Matrix3Xd(3, 0);
 };
 
 /// One executed edge of the route.

@@ -7,14 +7,15 @@
 #include <set>
 #include <sstream>
 
-#include "actions/json_cursor.h"
+#include "actions/contact_name.h"
 #include "actions/plan.h"
 #include "models/input_error.h"
+#include "models/json_cursor.h"
 
 namespace possibility::actions {
 namespace {
 
-using nlohmann::json;
+using models::JsonCursor;
 
 constexpr const char* kFormat = "possibility-plan/1";
 constexpr double kTimeTolerance = 1e-6;  // s, of the durations that repeat what the knots say
@@ -33,50 +34,6 @@ std::string ReadText(const std::filesystem::path& file) {
         fmt::format("{}: cannot be read, expected a plan.json ({})", file.string(), kFormat));
   }
   return text.str();
-}
-
-/// Refuses a key that an object holds twice: the parser alone would keep the last one.
-class DuplicateKeyGuard {
- public:
-  explicit DuplicateKeyGuard(const std::filesystem::path& file) : file_(&file) {}
-
-  bool operator()(int, json::parse_event_t event, const json& parsed) {
-    if (event == json::parse_event_t::object_start) keys_.emplace_back();
-    if (event == json::parse_event_t::object_end) keys_.pop_back();
-    if (event == json::parse_event_t::key && !keys_.back().insert(parsed).second) {
-      throw InputError(fmt::format("{}: key {} stands twice in one object, expected once",
-                                   file_->string(), parsed.dump()));
-    }
-    return true;
-  }
-
- private:
-  const std::filesystem::path* file_;
-  std::vector<std::set<std::string>> keys_;
-};
-
-json Parse(const std::string& text, const std::filesystem::path& file) {
-  try {
-    DuplicateKeyGuard guard(file);
-    return json::parse(text, std::ref(guard));
-  } catch (const json::parse_error& error) {
-    throw InputError(fmt::format("{}: not valid JSON at byte {} of {}, expected a complete {} file",
-                                 file.string(), error.byte, text.size(), kFormat));
-  } catch (const json::exception&) {
-    throw InputError(
-        fmt::format("{}: not valid JSON (a number is out of range), expected a {} file",
-                    file.string(), kFormat));
-  }
-}
-
-void CheckFormat(const JsonCursor& root) {
-  if (!root.value().is_object() || !root.value().contains("format")) {
-    root.Fail(fmt::format("no \"format\", expected \"{}\"", kFormat));
-  }
-  const std::string format = root["format"].String();
-  if (format != kFormat) {
-    root["format"].Fail(fmt::format("{}, expected \"{}\"", root["format"].value().dump(), kFormat));
-  }
 }
 
 /// nlohmann checks that strings are UTF-8; an embedded zero would cut a path short.
@@ -122,6 +79,24 @@ Eigen::Matrix3Xd ReadForces(const JsonCursor& cursor) {
   return forces;
 }
 
+/// Which patches there are, and with how many points, only the robot knows.
+std::vector<std::string> ReadContacts(const JsonCursor& cursor) {
+  std::vector<std::string> contacts = ReadStrings(cursor);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    std::string patch;
+    try {
+      patch = ParseContactName(contacts[i]).patch;
+    } catch (const InputError& error) {
+      cursor[i].Fail(error.what());
+    }
+    if (!seen.insert(patch).second) {
+      cursor[i].Fail(fmt::format("patch {:?} stands twice in a phase, expected once", patch));
+    }
+  }
+  return contacts;
+}
+
 Knot ReadKnot(const JsonCursor& phase, std::size_t i, std::size_t num_joints) {
   const JsonCursor t = phase["t"];
   const JsonCursor q = phase["q"];
@@ -142,10 +117,22 @@ Knot ReadKnot(const JsonCursor& phase, std::size_t i, std::size_t num_joints) {
   return knot;
 }
 
+Eigen::Matrix3Xd ReadImpulses(const JsonCursor& cursor, Eigen::Index num_points) {
+  if (num_points == 0) cursor.Fail("expected none where nothing touches the ground");
+  Eigen::Matrix3Xd impulses(3, num_points);
+  ReadNumbers(cursor, &impulses);
+  return impulses;
+}
+
 Phase ReadPhase(const JsonCursor& cursor, std::size_t num_joints) {
-  cursor.ExpectKeys({"contacts", "t", "q", "v", "a", "tau", "forces"});
+  const bool has_impact = cursor.value().is_object() && cursor.value().contains("impulses");
+  if (has_impact) {
+    cursor.ExpectKeys({"contacts", "impulses", "t", "q", "v", "a", "tau", "forces"});
+  } else {
+    cursor.ExpectKeys({"contacts", "t", "q", "v", "a", "tau", "forces"});
+  }
   Phase phase;
-  phase.contacts = ReadStrings(cursor["contacts"]);
+  phase.contacts = ReadContacts(cursor["contacts"]);
   const std::size_t num_knots = cursor["t"].ArraySize();
   if (num_knots < 2) cursor["t"].Fail(fmt::format("expected at least 2 knots, got {}", num_knots));
   for (const char* key : {"q", "v", "a", "tau", "forces"}) {
@@ -168,6 +155,7 @@ Phase ReadPhase(const JsonCursor& cursor, std::size_t num_joints) {
     }
     phase.knots.push_back(std::move(knot));
   }
+  if (has_impact) phase.impulses = ReadImpulses(cursor["impulses"], phase.knots[0].forces.cols());
   return phase;
 }
 
@@ -245,7 +233,7 @@ ExploredGraph ReadExplored(const JsonCursor& cursor) {
 }
 
 Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
-  CheckFormat(root);
+  root.ExpectFormat(kFormat);
   root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
                    "segments", "explored"});
   Plan plan;
@@ -283,7 +271,8 @@ Plan ReadPlan(const std::filesystem::path& file_or_directory) {
 }
 
 Plan ParsePlan(const std::string& text, const std::filesystem::path& file) {
-  const json document = Parse(text, file);
+  const nlohmann::json document =
+      models::ParseJson(text, file, fmt::format("a complete {} file", kFormat));
   return ReadPlan(JsonCursor(document, file), std::filesystem::absolute(file).parent_path());
 }
 

@@ -61,6 +61,9 @@ Json ToJson(const Phase& phase) {
   }
   Json json;
   json["contacts"] = phase.contacts;
+  if (phase.impulses.cols() > 0) {
+    json["impulses"] = Numbers(phase.impulses.data(), phase.impulses.size());
+  }
   json["t"] = std::move(t);
   json["q"] = std::move(q);
   json["v"] = std::move(v);

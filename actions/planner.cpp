@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "actions/exploration_pose.h"
+#include "actions/jump_reach.h"
 #include "actions/locomotion_model.h"
+#include "actions/long_jump.h"
 #include "actions/quasi_static_action.h"
 #include "actions/route.h"
 #include "actions/route_flood.h"
@@ -48,7 +50,8 @@ class TraversalPlanner {
         request_(request),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
-        model_(BuildLocomotionModel(robot, ActionNames(), [this] { return Remaining() > 0; })) {
+        model_(BuildLocomotionModel(robot, ActionNames(), [this] { return Remaining() > 0; },
+                                    request.library)) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -59,6 +62,7 @@ class TraversalPlanner {
       actions_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
                                                              space_, scenario_.planner.step));
     }
+    PrepareJumps();
     start_ = CheckedStance(scenario_.start, "start");
     for (size_t i = 0; i < scenario_.goals.size(); ++i) {
       goals_.push_back(CheckedStance(scenario_.goals[i], fmt::format("goals[{}]", i)));
@@ -95,8 +99,37 @@ class TraversalPlanner {
   std::vector<std::string> ActionNames() const {
     const std::vector<std::string>& names =
         request_.actions.empty() ? scenario_.actions : request_.actions;
-    for (const std::string& name : names) robot_.GaitNamed(name);
+    models::CheckActionsOfRobot(names, robot_, scenario_.file.string() + ": actions");
     return names;
+  }
+
+  void PrepareJumps() {
+    for (size_t i = 0; i < model_.jumps.size(); ++i) {
+      const LocomotionModel::JumpEntry& entry = model_.jumps[i];
+      jumps_.push_back(std::make_shared<LongJump>(model_, static_cast<int>(i), world_,
+                                                  actions_[entry.from], actions_[entry.to],
+                                                  ReachOf(entry)));
+    }
+  }
+
+  /// The library's table if it has one, otherwise a guess for the heights of this world.
+  JumpReach ReachOf(const LocomotionModel::JumpEntry& entry) const {
+    if (entry.library->reach_is_derived()) return entry.library->reach();
+    std::vector<double> heights;
+    for (const double from : ground_.levels()) {
+      for (const double to : ground_.levels()) {
+        heights.push_back(JumpLibrary::OnGrid({0, to - from}).height);
+      }
+    }
+    std::sort(heights.begin(), heights.end());
+    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+    return GuessReach(*entry.solver, heights);
+  }
+
+  std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
+    std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
+    all.insert(all.end(), jumps_.begin(), jumps_.end());
+    return all;
   }
 
   double Remaining() const { return request_.time_limit - clock_.seconds(); }
@@ -159,20 +192,58 @@ class TraversalPlanner {
     }
     std::vector<graph::Point> goals;
     for (const GroundedStance& goal : goals_) goals.push_back(PointOf(goal));
-    const std::vector<std::shared_ptr<const graph::Action>> actions(actions_.begin(),
-                                                                    actions_.end());
-    return graph::FindPath(PointOf(start_), goals, actions, *space_, settings);
+    for (const auto& jump : jumps_) {
+      settings.skip_growth[jump->name()] = scenario_.planner.skip_jumps;
+    }
+    return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
   }
 
   graph::RouteOracleAnswer AskFloods() {
+    try {
+      return AnswerOfFloods();
+    } catch (const Abandoned&) {
+      return graph::RouteOracleAnswer::kUnknown;
+    }
+  }
+
+  /// @throws Abandoned at the time limit.
+  graph::RouteOracleAnswer AnswerOfFloods() {
     const double resolution = scenario_.planner.flood_resolution;
     const auto keep_going = [this] { return Remaining() > 0; };
-    flood_ = FloodSufficient(model_, world_, start_, goals_, resolution, keep_going);
+    const auto flood = [&] {
+      return FloodSufficient(model_, world_, start_, goals_, resolution, keep_going, FloodJumps());
+    };
+    flood_ = flood();
+    if (!flood_->route_may_exist && ReplaceGuesses(keep_going)) flood_ = flood();
     if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
-    FloodResult necessary = FloodNecessary(model_, world_, start_, goals_, resolution, keep_going);
+    FloodResult necessary =
+        FloodNecessary(model_, world_, start_, goals_, resolution, keep_going, FloodJumps());
     if (necessary.route_may_exist) return graph::RouteOracleAnswer::kExhausted;
     flood_ = std::move(necessary);
     return graph::RouteOracleAnswer::kProvenInfeasible;
+  }
+
+  std::vector<FloodJump> FloodJumps() const {
+    std::vector<FloodJump> jumps;
+    for (const auto& jump : jumps_) {
+      const LocomotionModel::JumpEntry& entry = jump->entry();
+      jumps.push_back(
+          {entry.from, entry.to, jump->reach(), BoundFlight(entry.solver->model())});
+    }
+    return jumps;
+  }
+
+  /// Before a "no", jumps whose reach was guessed are measured; false if there are none.
+  /// @throws Abandoned at the time limit.
+  bool ReplaceGuesses(const std::function<bool()>& keep_going) {
+    bool replaced = false;
+    for (const auto& jump : jumps_) {
+      JumpLibrary* library = jump->entry().library.get();
+      if (library->reach_is_derived()) continue;
+      jump->SetReach(DeriveFarthest(jump->reach(), library, keep_going));
+      replaced = true;
+    }
+    return replaced;
   }
 
   void Record(const graph::PathResult& path, PlanResult* result) const {
@@ -186,8 +257,9 @@ class TraversalPlanner {
     for (const graph::Point& point : path.graph.vertices) {
       explored.vertices.push_back({point.head<3>(), Heading(ToPose(point).linear())});
     }
+    const std::vector<std::shared_ptr<const graph::Action>> all = AllActions();
     for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {
-      explored.edges.push_back({edge.from, edge.to, actions_[edge.action]->name()});
+      explored.edges.push_back({edge.from, edge.to, all[edge.action]->name()});
     }
     switch (path.status) {
       case graph::PathStatus::kFound:
@@ -226,7 +298,22 @@ class TraversalPlanner {
       text += fmt::format(" {} {};", name, count);
     }
     text.back() = '.';
+    for (const auto& jump : jumps_) text += ExplainRefusals(*jump);
     return text;
+  }
+
+  /// The first few jumps that were refuted, and why.
+  std::string ExplainRefusals(const LongJump& jump) const {
+    constexpr size_t kAtMost = 3;
+    const std::vector<LongJump::Refusal> refusals = jump.Refusals();
+    if (refusals.empty()) return {};
+    std::string text = fmt::format(" {} of '{}' refuted:", refusals.size(), jump.name());
+    for (size_t i = 0; i < std::min(refusals.size(), kAtMost); ++i) {
+      const graph::Point& from = refusals[i].edge.from;
+      text += fmt::format("{} from ({:.2f}, {:.2f}): {}", i == 0 ? "" : ";", from.x(), from.y(),
+                          refusals[i].reason);
+    }
+    return text + (refusals.size() > kAtMost ? "; ..." : ".");
   }
 
   /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.
@@ -248,7 +335,7 @@ class TraversalPlanner {
       });
       return true;
     } catch (const LegError& error) {
-      Forbid(route[static_cast<size_t>(error.leg())]);
+      Forbid(route[static_cast<size_t>(error.leg())], error.what());
       plan->statistics["routes refuted by motion generation"]++;
       return false;
     }
@@ -263,7 +350,10 @@ class TraversalPlanner {
     if (result->verification.abandoned) throw Abandoned();
     if (result->verification.accepted()) return true;
     for (const Violation& violation : result->verification.violations) {
-      if (violation.segment >= 0) Forbid(route[static_cast<size_t>(violation.segment)]);
+      if (violation.segment < 0) continue;
+      Forbid(route[static_cast<size_t>(violation.segment)],
+             fmt::format("its motion does not verify: {}, {}", ToString(violation.kind),
+                         violation.quantity));
     }
     result->plan.statistics["routes refuted by verification"]++;
     result->plan.segments.clear();
@@ -275,12 +365,14 @@ class TraversalPlanner {
     RouteLeg leg;
     leg.gait = stance.gait;
     leg.from = leg.to = stance.pose;
-    leg.z = stance.z;
+    leg.z = leg.z_to = stance.z;
     return leg;
   }
 
-  void Forbid(const RouteLeg& leg) {
-    for (const auto& action : actions_) action->Forbid(LegEdge(model_, leg));
+  void Forbid(const RouteLeg& leg, const std::string& reason) {
+    const graph::PointPair edge = LegEdge(model_, leg);
+    if (leg.jump >= 0) return jumps_[leg.jump]->Forbid(edge, reason);
+    for (const auto& action : actions_) action->Forbid(edge);
   }
 
   /// Reports progress, from any thread; false once time is up.
@@ -300,7 +392,8 @@ class TraversalPlanner {
   World world_;
   LocomotionModel model_;
   std::shared_ptr<PelvisPoseSpace> space_;
-  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;
+  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
+  std::vector<std::shared_ptr<LongJump>> jumps_;
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
   double preparation_s_ = 0;

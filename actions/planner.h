@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct PlanRequest {
   int threads = 1;
   double time_limit = 60;            ///< s
   std::vector<std::string> actions;  ///< empty: the scenario's
+  std::filesystem::path library;     ///< folder of solved jumps; empty: none
   std::function<void(const PlanProgress&)> progress;
 };
 

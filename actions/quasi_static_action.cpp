@@ -17,20 +17,8 @@ using Eigen::Vector3d;
 /// Heights and positions of points in E agree when closer than this, m.
 constexpr double kSamePlace = 1e-6;
 
-/// C_N errs towards yes: shapes are shrunk by more than the collision checker's error, m.
-constexpr double kOptimism = 0.001;
-
 /// Spacing at which C_N looks at an edge, m.
 constexpr double kNecessarySpacing = 0.05;
-
-models::Shape Shrunk(models::Shape shape) {
-  shape.size = (shape.size.array() - 2 * kOptimism).max(1e-6).matrix();
-  shape.radius = std::max(shape.radius - kOptimism, 1e-6);
-  if (shape.type == models::ShapeType::kCylinder) {
-    shape.length = std::max(shape.length - 2 * kOptimism, 1e-6);
-  }
-  return shape;
-}
 
 bool SamePoint(const graph::Point& a, const graph::Point& b) {
   return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
@@ -47,14 +35,19 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
       space_(std::move(space)),
       step_(step),
       checker_(*world.environment),
+      pelvis_(*model.robot, checker_),
       sweep_(Prepare(model.gaits[gait]->sweep, 0)),
       inflated_sweep_(Prepare(model.gaits[gait]->sweep, kEdgeInflation)) {
   for (const LocomotionModel::TransitionEntry& transition : model.transitions) {
     transition_sweeps_.push_back(Prepare(transition.sweep, 0));
   }
   const models::RobotModel& robot = *model.robot;
-  for (const models::PosedShape& posed : robot.links[robot.pelvis_shape_link].shapes) {
-    pelvis_.emplace_back(models::PreparedShape(Shrunk(posed.shape)), posed.X_PS);
+  for (const auto& entry : model.gaits) {
+    double radius = 0;
+    for (const std::vector<Vector2d>& points : entry->stance.bearing_points) {
+      for (const Vector2d& p_S : points) radius = std::max(radius, p_S.norm());
+    }
+    bearing_radii_.push_back(radius);
   }
   for (const Eigen::AlignedBox3d& box : model.gaits[gait]->sweep) {
     const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
@@ -101,7 +94,7 @@ graph::Point QuasiStaticAction::Project(const graph::Point& v) const {
 
 bool QuasiStaticAction::CN(const graph::Point& vertex) const {
   const Isometry3d X_WR = ToPose(vertex);
-  return PelvisIsFree(X_WR) && SomeFootReachesGround(X_WR);
+  return pelvis_.IsFree(X_WR) && SomeFootReachesGround(X_WR);
 }
 
 bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
@@ -111,15 +104,9 @@ bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
   const int samples = 1 + static_cast<int>(length / kNecessarySpacing);
   for (int i = 0; i <= samples; ++i) {
     const Isometry3d X_WR = Interpolate(from, to, static_cast<double>(i) / samples);
-    if (!PelvisIsFree(X_WR) || !SomeFootReachesGround(X_WR)) return false;
+    if (!pelvis_.IsFree(X_WR) || !SomeFootReachesGround(X_WR)) return false;
   }
   return true;
-}
-
-bool QuasiStaticAction::PelvisIsFree(const Isometry3d& X_WR) const {
-  return std::all_of(pelvis_.begin(), pelvis_.end(), [&](const auto& part) {
-    return checker_.IsFree(part.first, X_WR * part.second, 0);
-  });
 }
 
 bool QuasiStaticAction::SomeFootReachesGround(const Isometry3d& X_WR) const {
@@ -136,12 +123,16 @@ bool QuasiStaticAction::SomeFootReachesGround(const Isometry3d& X_WR) const {
 }
 
 bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearance) const {
+  const Vector2d centre = stance.pose.position();
+  const std::optional<int> level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
+  const double all_round = bearing_radii_[stance.gait] + clearance + kSamePlace;
+  if (level && world_.ground->Clearance(*level, centre) >= all_round) return true;
   const NominalStance& nominal = model_->gaits[stance.gait]->stance;
   for (const std::vector<Vector2d>& points : nominal.bearing_points) {
     for (const Vector2d& p_S : points) {
       const Vector2d p = stance.pose * p_S;
-      const std::optional<int> level = world_.ground->LevelAt(p, stance.z, kSamePlace);
-      if (!level || world_.ground->Clearance(*level, p) < clearance) return false;
+      const std::optional<int> below = world_.ground->LevelAt(p, stance.z, kSamePlace);
+      if (!below || world_.ground->Clearance(*below, p) < clearance) return false;
     }
   }
   return true;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "actions/locomotion_model.h"
+#include "actions/pelvis_clearance.h"
 #include "graph/action.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
@@ -57,6 +58,9 @@ class QuasiStaticAction : public graph::HolonomicAction {
   /// Name of the first obstacle in the swept volume at `stance`; empty if none.
   std::string FirstBlocker(const GroundedStance& stance) const;
   bool IsClear(const GroundedStance& from, const GroundedStance& to) const;
+  /// Every bearing point of the stance, of whatever gait, is on ground, `clearance` (m) from its
+  /// edge.
+  bool GroundHolds(const GroundedStance& stance, double clearance) const;
 
   /// Expected time of the straight way between two stances, s.
   double ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const;
@@ -69,7 +73,6 @@ class QuasiStaticAction : public graph::HolonomicAction {
   int gait() const { return gait_; }
 
  private:
-  bool GroundHolds(const GroundedStance& stance, double clearance) const;
   bool BoxesFree(const std::vector<models::PreparedShape>& boxes,
                  const std::vector<Eigen::Isometry3d>& X_SB, const GroundedStance& stance) const;
   /// The transition that leads from one point to the other in either direction, and the stance
@@ -78,7 +81,6 @@ class QuasiStaticAction : public graph::HolonomicAction {
                                                          GroundedStance* start) const;
   bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
                          const GroundedStance& start) const;
-  bool PelvisIsFree(const Eigen::Isometry3d& X_WR) const;
   bool SomeFootReachesGround(const Eigen::Isometry3d& X_WR) const;
 
   struct PreparedSweep {
@@ -92,12 +94,13 @@ class QuasiStaticAction : public graph::HolonomicAction {
   World world_;
   std::shared_ptr<const graph::ExplorationSpace> space_;
   double step_;
-  mutable models::CollisionChecker checker_;
+  models::CollisionChecker checker_;
+  PelvisClearance pelvis_;
   PreparedSweep sweep_;
   PreparedSweep inflated_sweep_;
   std::vector<PreparedSweep> transition_sweeps_;  ///< by index of the model's transitions
-  std::vector<std::pair<models::PreparedShape, Eigen::Isometry3d>> pelvis_;
   double sweep_radius_ = 0;  ///< farthest point of the sweep from the stance's axis, m
+  std::vector<double> bearing_radii_;  ///< by gait: farthest bearing point from the axis, m
   double leg_reach_ = 0;     ///< no foot point is farther from the root, m
   std::vector<graph::PointPair> forbidden_;
 };

@@ -1,5 +1,6 @@
 #include "actions/route.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "actions/exploration_pose.h"
@@ -30,7 +31,7 @@ RouteLeg TransitionLeg(const LocomotionModel& model, const GroundedStance& from,
     leg.backwards = backwards;
     leg.from = from.pose;
     leg.to = to.pose;
-    leg.z = from.z;
+    leg.z = leg.z_to = from.z;
     return leg;
   }
   throw std::logic_error("a path changes gait without a transition");
@@ -39,18 +40,21 @@ RouteLeg TransitionLeg(const LocomotionModel& model, const GroundedStance& from,
 }  // namespace
 
 int StartGait(const LocomotionModel& model, const RouteLeg& leg) {
+  if (leg.jump >= 0) return model.jumps[leg.jump].from;
   if (leg.transition < 0) return leg.gait;
   const LocomotionModel::TransitionEntry& transition = model.transitions[leg.transition];
   return leg.backwards ? transition.to : transition.from;
 }
 
 int EndGait(const LocomotionModel& model, const RouteLeg& leg) {
+  if (leg.jump >= 0) return model.jumps[leg.jump].to;
   if (leg.transition < 0) return leg.gait;
   const LocomotionModel::TransitionEntry& transition = model.transitions[leg.transition];
   return leg.backwards ? transition.from : transition.to;
 }
 
 std::string LegName(const LocomotionModel& model, const RouteLeg& leg) {
+  if (leg.jump >= 0) return model.jumps[leg.jump].name;
   const std::string& start = model.gaits[StartGait(model, leg)]->stance.gait->name;
   if (leg.transition < 0) return start;
   return start + "->" + model.gaits[EndGait(model, leg)]->stance.gait->name;
@@ -58,7 +62,7 @@ std::string LegName(const LocomotionModel& model, const RouteLeg& leg) {
 
 graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg) {
   return {ToPoint(model.gaits[StartGait(model, leg)]->stance.RootPose(leg.from, leg.z)),
-          ToPoint(model.gaits[EndGait(model, leg)]->stance.RootPose(leg.to, leg.z))};
+          ToPoint(model.gaits[EndGait(model, leg)]->stance.RootPose(leg.to, leg.z_to))};
 }
 
 Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge>& path) {
@@ -68,11 +72,14 @@ Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge
     const std::optional<GroundedStance> to = AnyStance(model, ToPose(edge.points.to));
     if (!from || !to) throw std::logic_error("a path leaves the nominal stances");
     RouteLeg leg;
-    if (from->gait == to->gait) {
+    const int jump = edge.action - static_cast<int>(model.gaits.size());
+    if (jump >= 0 || from->gait == to->gait) {
       leg.gait = from->gait;
+      leg.jump = std::max(jump, -1);
       leg.from = from->pose;
       leg.to = to->pose;
       leg.z = from->z;
+      leg.z_to = to->z;
     } else {
       leg = TransitionLeg(model, *from, *to);
     }
@@ -83,10 +90,17 @@ Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge
   return route;
 }
 
+JumpTask TaskOf(const RouteLeg& leg) {
+  return JumpLibrary::OnGrid({(leg.to.position() - leg.from.position()).norm(), leg.z_to - leg.z});
+}
+
 double ExpectedDuration(const LocomotionModel& model, const Route& route) {
   double duration = 0;
   for (const RouteLeg& leg : route) {
-    if (leg.transition >= 0) {
+    if (leg.jump >= 0) {
+      const std::optional<JumpAnswer> answer = model.jumps[leg.jump].library->Find(TaskOf(leg));
+      if (answer && answer->jump) duration += answer->jump->duration();
+    } else if (leg.transition >= 0) {
       duration += model.transitions[leg.transition].motion->ExpectedDuration();
     } else {
       const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];

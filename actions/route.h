@@ -11,15 +11,17 @@
 
 namespace possibility::actions {
 
-/// One leg of a route, all of it confirmed by C_S: straight on with one gait, or a transition.
+/// One leg of a route, all of it confirmed: straight on with one gait, a transition, or a jump.
 /// Headings continue from leg to leg without wrapping.
 struct RouteLeg {
   int gait = 0;            ///< of an extension
   int transition = -1;     ///< index into the model's transitions, or -1 for an extension
   bool backwards = false;  ///< the transition runs from its second gait to its first
+  int jump = -1;           ///< index into the model's jumps, or -1
   PlanarPose from;         ///< stance of the gait that the leg starts in
   PlanarPose to;           ///< stance of the gait that the leg ends in
-  double z = 0;            ///< m, height of the ground
+  double z = 0;            ///< m, height of the ground that the leg starts on
+  double z_to = 0;         ///< m, of the ground that it ends on: another one only after a jump
 };
 
 using Route = std::vector<RouteLeg>;
@@ -28,16 +30,20 @@ using Route = std::vector<RouteLeg>;
 int StartGait(const LocomotionModel& model, const RouteLeg& leg);
 int EndGait(const LocomotionModel& model, const RouteLeg& leg);
 
-/// "walk", "walk->crawl", ...
+/// "walk", "walk->crawl", "jump", ...
 std::string LegName(const LocomotionModel& model, const RouteLeg& leg);
 
 /// The edge of E that the leg executes.
 graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg);
 
-/// The route along a confirmed path. `path`: edges between nominal stances, end to end.
+/// The route along a confirmed path. `path`: edges between nominal stances, end to end; their
+/// actions are the model's gaits in order, then its jumps.
 Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge>& path);
 
-/// Expected time to execute, s.
+/// The jump that a leg is.
+JumpTask TaskOf(const RouteLeg& leg);
+
+/// Expected time to execute, s; its jumps are in the model's libraries.
 double ExpectedDuration(const LocomotionModel& model, const Route& route);
 
 }  // namespace possibility::actions

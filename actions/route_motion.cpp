@@ -5,6 +5,8 @@
 #include <optional>
 #include <thread>
 
+#include "actions/jump_motion.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -34,6 +36,12 @@ Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) 
   Eigen::VectorXd q = model.gaits[gait]->stance.q;
   q.segment<2>(4) = stance.position();
   return q;
+}
+
+std::vector<Phase> JumpPhases(const LocomotionModel& model, const RouteLeg& leg) {
+  const std::optional<JumpAnswer> answer = model.jumps[leg.jump].library->Find(TaskOf(leg));
+  if (!answer || !answer->jump) throw MotionError("the jump is not in the library");
+  return Placed(answer->jump->phases, leg.from, leg.z);
 }
 
 /// Legs shared out to workers; the first failure in route order wins.
@@ -88,6 +96,7 @@ class LegQueue {
 
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
                                const std::function<bool()>& keep_going) {
+  if (leg.jump >= 0) return JumpPhases(model, leg);
   MotionBuilder builder(*model.robot);
   for (const double scale : kTimeScales) {
     try {

@@ -201,7 +201,7 @@ class RouteRefiner {
     leg.gait = gait;
     leg.from = from;
     leg.to = to;
-    leg.z = route_.front().z;
+    leg.z = leg.z_to = route_.front().z;
     return leg;
   }
 
@@ -308,15 +308,15 @@ void Unwrap(Route* route) {
   }
 }
 
-/// One pass over the pieces of a route that start and end in one gait.
+/// One pass over the pieces of a route that start and end in one gait. Jumps stay as they are.
 Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions& actions,
                  const std::function<bool()>& keep_going) {
   Route refined;
   for (size_t begin = 0; begin < route.size();) {
     const int base = StartGait(model, route[begin]);
-    // Up to where the route leaves its gait for good.
+    // Up to where the route leaves its gait for good, or the ground.
     size_t end = begin;
-    for (size_t i = begin; i < route.size(); ++i) {
+    for (size_t i = begin; i < route.size() && route[i].jump < 0; ++i) {
       if (EndGait(model, route[i]) == base) end = i + 1;
     }
     if (end == begin) {

@@ -30,6 +30,26 @@ double RestToRestDuration(double distance, double acceleration);
 /// The bump 64 s^3 (1 - s)^3, 0 at both ends with zero rate and acceleration, 1 in the middle.
 ScalarSignal Bump(double t, double duration);
 
+/// The quintic that begins at `value` with `rate` and no acceleration and is at rest at 0 from
+/// `duration` on.
+template <typename T>
+Signal<T> DyingOut(const T& value, const T& rate, double t, double duration) {
+  const double s = t < duration ? t / duration : 1;
+  const double s2 = s * s;
+  const double s3 = s2 * s;
+  return {T(value * (1 - s3 * (10 - 15 * s + 6 * s2)) +
+            rate * (duration * (s - s3 * (6 - 8 * s + 3 * s2)))),
+          T(value * (-30 * s2 * (1 - s) * (1 - s) / duration) +
+            rate * (1 - s2 * (18 - 32 * s + 15 * s2))),
+          T(value * (-60 * s * (1 - s) * (1 - 2 * s) / (duration * duration)) +
+            rate * (-s * (36 - 96 * s + 60 * s2) / duration))};
+}
+
+template <typename T>
+Signal<T> operator+(const Signal<T>& a, const Signal<T>& b) {
+  return {T(a.value + b.value), T(a.rate + b.rate), T(a.acceleration + b.acceleration)};
+}
+
 /// from + s (to - from).
 ScalarSignal Blend(double from, double to, const ScalarSignal& s);
 

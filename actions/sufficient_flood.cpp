@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -24,13 +25,15 @@ using Eigen::Vector3d;
 constexpr double kCheckerError = 0.0002;
 constexpr int kHeadings = 24;
 
-/// The flood over C_S. Cells: gait, x, y, heading.
+/// The flood over C_S. Cells: layer (a gait at a height), x, y, heading.
 class SufficientFlood {
  public:
-  SufficientFlood(const LocomotionModel& model, const World& world, double z, double resolution)
+  SufficientFlood(const LocomotionModel& model, const World& world, double z, double resolution,
+                  const std::vector<FloodJump>& jumps)
       : model_(model),
         world_(world),
-        z_(z),
+        heights_(jumps.empty() ? std::vector<double>{z} : world.ground->levels()),
+        jumps_(jumps),
         resolution_(resolution),
         origin_(world.environment->bounds.min() - Vector2d::Constant(Margin(model))),
         checker_(*world.environment),
@@ -42,10 +45,12 @@ class SufficientFlood {
                   const std::function<bool()>& keep_going) {
     std::set<Cell> goal_cells;
     for (const GroundedStance& goal : goals) {
-      if (std::abs(goal.z - z_) < 1e-6) goal_cells.insert(CellOf(goal.gait, goal.pose));
+      if (const auto layer = LayerOf(goal)) goal_cells.insert(CellOf(*layer, goal.pose));
     }
+    const std::optional<int> first = LayerOf(start);
+    if (!first) return {};
     return FloodGrid(
-        &grid_, CellOf(start.gait, start.pose), goal_cells, goals, keep_going,
+        &grid_, CellOf(*first, start.pose), goal_cells, goals, keep_going,
         [this](const Cell& cell) { return Centre(cell).position(); },
         [this](const Cell& cell) { OfferNeighbours(cell); },
         [&](const Cell& cell) { return Barrier(cell, goals); });
@@ -69,7 +74,7 @@ class SufficientFlood {
   Cell GridSize() const {
     const Vector2d size =
         world_.environment->bounds.max() - origin_ + Vector2d::Constant(Margin(model_));
-    return {static_cast<int>(model_.gaits.size()),
+    return {static_cast<int>(model_.gaits.size() * heights_.size()),
             static_cast<int>(std::ceil(size.x() / resolution_)) + 1,
             static_cast<int>(std::ceil(size.y() / resolution_)) + 1, kHeadings};
   }
@@ -93,11 +98,25 @@ class SufficientFlood {
     return shrunk;
   }
 
-  Cell CellOf(int gait, const PlanarPose& pose) const {
+  int GaitOf(const Cell& cell) const { return cell[0] % static_cast<int>(model_.gaits.size()); }
+  double HeightOf(const Cell& cell) const { return heights_[cell[0] / model_.gaits.size()]; }
+  int Layer(int gait, size_t height) const {
+    return static_cast<int>(height * model_.gaits.size()) + gait;
+  }
+  std::optional<int> LayerOf(const GroundedStance& stance) const {
+    for (size_t i = 0; i < heights_.size(); ++i) {
+      if (std::abs(heights_[i] - stance.z) < 1e-6) return Layer(stance.gait, i);
+    }
+    return std::nullopt;
+  }
+  /// The layer of another gait at the cell's height.
+  int SameHeight(const Cell& cell, int gait) const { return cell[0] - GaitOf(cell) + gait; }
+
+  Cell CellOf(int layer, const PlanarPose& pose) const {
     const Vector2d p = (pose.position() - origin_) / resolution_;
     const double turn = std::floor((pose.yaw + HalfHeading()) / (2 * HalfHeading()));
     const int heading = static_cast<int>(turn - kHeadings * std::floor(turn / kHeadings));
-    return {gait, static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
+    return {layer, static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
             heading % kHeadings};
   }
 
@@ -108,28 +127,28 @@ class SufficientFlood {
 
   bool GroundMayHold(const Cell& cell) const {
     const PlanarPose centre = Centre(cell);
-    for (const auto& points : model_.gaits[cell[0]]->stance.bearing_points) {
+    for (const auto& points : model_.gaits[GaitOf(cell)]->stance.bearing_points) {
       for (const Vector2d& p_S : points) {
         const double slack = HalfDiagonal() + p_S.norm() * HalfHeading();
-        if (LargestClearance(centre * p_S) < -slack) return false;
+        if (LargestClearance(centre * p_S, HeightOf(cell)) < -slack) return false;
       }
     }
     return true;
   }
 
-  double LargestClearance(const Vector2d& p) const {
+  double LargestClearance(const Vector2d& p, double z) const {
     double clearance = -std::numeric_limits<double>::infinity();
     const std::vector<double>& levels = world_.ground->levels();
     for (size_t level = 0; level < levels.size(); ++level) {
-      if (std::abs(levels[level] - z_) > 1e-6) continue;
+      if (std::abs(levels[level] - z) > 1e-6) continue;
       clearance = std::max(clearance, world_.ground->Clearance(static_cast<int>(level), p));
     }
     return clearance;
   }
 
   bool MayBeFree(const Cell& cell) {
-    const Isometry3d X_WS = Centre(cell).At(z_);
-    const std::vector<ShrunkBox>& boxes = shrunk_[cell[0]];
+    const Isometry3d X_WS = Centre(cell).At(HeightOf(cell));
+    const std::vector<ShrunkBox>& boxes = shrunk_[GaitOf(cell)];
     return std::all_of(boxes.begin(), boxes.end(), [&](const ShrunkBox& box) {
       return checker_.IsFree(box.shape, X_WS * box.X_SB, 0);
     });
@@ -150,20 +169,39 @@ class SufficientFlood {
     }
     for (const LocomotionModel::TransitionEntry& transition : model_.transitions) {
       const PlanarPose& d = transition.motion->displacement();
-      if (transition.from == cell[0]) OfferImage(cell, transition.to, d, offer);
-      if (transition.to == cell[0]) OfferImage(cell, transition.from, d.Inverse(), offer);
+      const int gait = GaitOf(cell);
+      if (transition.from == gait) OfferImage(cell, SameHeight(cell, transition.to), d, offer);
+      if (transition.to == gait) {
+        OfferImage(cell, SameHeight(cell, transition.from), d.Inverse(), offer);
+      }
+    }
+    for (const FloodJump& jump : jumps_) {
+      if (jump.from == GaitOf(cell)) OfferLandings(cell, jump, offer);
+    }
+  }
+
+  template <typename Offer>
+  void OfferLandings(const Cell& cell, const FloodJump& jump, const Offer& offer) {
+    for (size_t i = 0; i < heights_.size(); ++i) {
+      const JumpTask rise = JumpLibrary::OnGrid({0, heights_[i] - HeightOf(cell)});
+      const auto distances = jump.reach.Distances(rise.height);
+      if (!distances) continue;
+      // At half the cells' size, images of neighbouring distances overlap.
+      for (double d = 0; d < distances->second + resolution_ / 2; d += resolution_ / 2) {
+        OfferImage(cell, Layer(jump.to, i), {std::min(d, distances->second), 0, 0}, offer);
+      }
     }
   }
 
   /// All cells that a stance in `cell` can be displaced into.
   template <typename Offer>
-  void OfferImage(const Cell& cell, int gait, const PlanarPose& displacement, const Offer& offer) {
+  void OfferImage(const Cell& cell, int layer, const PlanarPose& displacement, const Offer& offer) {
     const PlanarPose image = Centre(cell) * displacement;
     const double spread = resolution_ / 2 + displacement.position().norm() * HalfHeading();
-    const Cell low = CellOf(gait, {image.x - spread, image.y - spread, image.yaw});
-    const Cell high = CellOf(gait, {image.x + spread, image.y + spread, image.yaw});
+    const Cell low = CellOf(layer, {image.x - spread, image.y - spread, image.yaw});
+    const Cell high = CellOf(layer, {image.x + spread, image.y + spread, image.yaw});
     for (int x = low[1]; x <= high[1]; ++x) {
-      for (int y = low[2]; y <= high[2]; ++y) offer({gait, x, y, low[3]});
+      for (int y = low[2]; y <= high[2]; ++y) offer({layer, x, y, low[3]});
     }
   }
 
@@ -180,8 +218,8 @@ class SufficientFlood {
       if (!grid_.Contains(beyond)) continue;
       if (!GroundMayHold(beyond)) names.insert("no ground");
       std::vector<models::PosedShape> posed;
-      for (const ShrunkBox& box : shrunk_[cell[0]]) {
-        posed.push_back({box.plain, Centre(beyond).At(z_) * box.X_SB});
+      for (const ShrunkBox& box : shrunk_[GaitOf(cell)]) {
+        posed.push_back({box.plain, Centre(beyond).At(HeightOf(beyond)) * box.X_SB});
       }
       for (std::string& name : Blockers(*world_.environment, posed)) names.insert(std::move(name));
     }
@@ -190,7 +228,8 @@ class SufficientFlood {
 
   const LocomotionModel& model_;
   const World& world_;
-  double z_;
+  std::vector<double> heights_;  ///< of the ground, that the flood may reach
+  const std::vector<FloodJump>& jumps_;
   double resolution_;
   Vector2d origin_;
   models::CollisionChecker checker_;
@@ -202,8 +241,9 @@ class SufficientFlood {
 
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                            double resolution, const std::function<bool()>& keep_going) {
-  return SufficientFlood(model, world, start.z, resolution).Run(start, goals, keep_going);
+                            double resolution, const std::function<bool()>& keep_going,
+                            const std::vector<FloodJump>& jumps) {
+  return SufficientFlood(model, world, start.z, resolution, jumps).Run(start, goals, keep_going);
 }
 
 }  // namespace possibility::actions

@@ -26,6 +26,35 @@ std::string Line(const Violation& violation) {
   return line + "\n";
 }
 
+std::string Line(const SegmentRollout& rollout) {
+  const RolloutDrift& drift = rollout.drift;
+  std::string line = fmt::format("  simulated segment {} ({:.3f} to {:.3f} s): ", rollout.segment,
+                                 drift.start, drift.end);
+  if (!drift.failure.empty()) return line + drift.failure + "\n";
+  return line + fmt::format(
+                    "root within {:.3g} m and {:.3g} rad of the plan, joints {:.3g}; ends {:.3g} m "
+                    "and {:.3g} rad off\n",
+                    drift.worst_position, drift.worst_orientation, drift.worst_joint,
+                    drift.end_position, drift.end_orientation);
+}
+
+nlohmann::ordered_json ToJson(const SegmentRollout& rollout) {
+  const RolloutDrift& drift = rollout.drift;
+  nlohmann::ordered_json json;
+  json["segment"] = rollout.segment;
+  json["start_s"] = drift.start;
+  json["end_s"] = drift.end;
+  json["worst_position_m"] = drift.worst_position;
+  json["worst_orientation_rad"] = drift.worst_orientation;
+  json["worst_joint"] = drift.worst_joint;
+  json["end_position_m"] = drift.end_position;
+  json["end_orientation_rad"] = drift.end_orientation;
+  json["end_speed"] = drift.end_speed;
+  json["impacts"] = drift.impacts;
+  json["failure"] = drift.failure;
+  return json;
+}
+
 }  // namespace
 
 std::string FormatText(const VerificationReport& report) {
@@ -33,6 +62,7 @@ std::string FormatText(const VerificationReport& report) {
                                  report.accepted() ? "accepted" : "rejected", report.samples,
                                  1e3 * report.resolution, report.seconds);
   for (const Violation& violation : report.violations) text += Line(violation);
+  for (const SegmentRollout& rollout : report.rollouts) text += Line(rollout);
   return text;
 }
 
@@ -54,6 +84,8 @@ std::string FormatJson(const VerificationReport& report) {
     entry["unit"] = violation.unit;
     json["violations"].push_back(std::move(entry));
   }
+  if (!report.rollouts.empty()) json["rollout"] = nlohmann::ordered_json::array();
+  for (const SegmentRollout& rollout : report.rollouts) json["rollout"].push_back(ToJson(rollout));
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -6,13 +6,16 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "actions/interpolation.h"
 #include "actions/verifier_collision.h"
 #include "actions/verifier_contacts.h"
+#include "actions/verifier_flight.h"
 #include "actions/verifier_forces.h"
+#include "actions/verifier_impact.h"
 #include "actions/verifier_limits.h"
 #include "actions/verifier_structure.h"
 #include "models/ground_map.h"
@@ -26,7 +29,8 @@ struct Subject {
   const models::RobotModel& robot;
   const models::Scenario& scenario;
   models::GroundMap ground;
-  std::vector<PhaseContacts> contacts;  ///< by phase, over all segments
+  std::vector<PhaseContacts> contacts;         ///< by phase, over all segments
+  std::vector<std::optional<Flight>> flights;  ///< likewise
   double resolution;
 };
 
@@ -115,6 +119,10 @@ class Worker {
     CheckJointCouplings(sample.state.knot, subject_->robot, at, &log_);
     CheckContacts(sample.state, contacts, subject_->robot, subject_->ground, at, &log_);
     CheckForces(sample.state, contacts, subject_->robot, evaluator_.dynamics(), at_knot, at, &log_);
+    const std::optional<Flight>& flight = subject_->flights[chunk.phase_index];
+    if (flight) {
+      CheckFlight(sample.state, *flight, subject_->robot, evaluator_.dynamics(), at, &log_);
+    }
   }
 
   /// Collision only: everything else is smooth on the scale of the resolution. A motion beyond
@@ -171,6 +179,13 @@ class Tally {
   std::exception_ptr error_;
 };
 
+/// Runs `work` on as many threads as wanted, this one included.
+void RunOnThreads(int threads, const std::function<void()>& work) {
+  std::vector<std::jthread> others;
+  for (int i = 1; i < threads; ++i) others.emplace_back(work);
+  work();
+}
+
 void VerifyMotion(const Subject& subject, const VerifierSettings& settings, ViolationLog* log,
                   VerificationReport* report) {
   const std::vector<Chunk> chunks = Divide(subject.plan);
@@ -192,13 +207,53 @@ void VerifyMotion(const Subject& subject, const VerifierSettings& settings, Viol
       tally.Fail(std::current_exception());
     }
   };
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < settings.threads; ++i) others.emplace_back(work);
-    work();
-  }
+  RunOnThreads(settings.threads, work);
   tally.Finish(log, report);
   report->abandoned = abandoned;
+}
+
+void JudgeRollout(const SegmentRollout& rollout, ViolationLog* log) {
+  const RolloutDrift& drift = rollout.drift;
+  const Instant at{rollout.segment, drift.end};
+  if (!drift.failure.empty()) {
+    log->Report(ViolationKind::kRollout, at, "simulation " + drift.failure);
+    return;
+  }
+  // The limits are tolerances about zero, so that the log can say which is exceeded most.
+  log->RequireAtMost(ViolationKind::kRollout, at, drift.end_position, 0, kRolloutPosition, "m",
+                     [] { return std::string("root position at the end of the simulation"); });
+  log->RequireAtMost(ViolationKind::kRollout, at, drift.end_orientation, 0, kRolloutOrientation,
+                     "rad",
+                     [] { return std::string("root orientation at the end of the simulation"); });
+  if (!drift.ends_at_rest) return;
+  log->RequireAtMost(ViolationKind::kRollout, at, drift.end_speed, 0, kRolloutSpeed, "m/s or rad/s",
+                     [] { return std::string("root speed at the end of the simulation"); });
+}
+
+void VerifyRollouts(const Subject& subject, const VerifierSettings& settings, ViolationLog* log,
+                    VerificationReport* report) {
+  std::vector<SegmentRollout> rollouts;
+  for (std::size_t s = 0; s < subject.plan.segments.size(); ++s) {
+    if (IsDynamic(subject.plan.segments[s])) rollouts.push_back({static_cast<int>(s), {}});
+  }
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> abandoned = false;
+  RolloutCheckSettings check;
+  check.stop = [&] {
+    if (settings.keep_going && !settings.keep_going(1)) abandoned = true;
+    return abandoned.load();
+  };
+  const int threads = std::min(settings.threads, static_cast<int>(rollouts.size()));
+  RunOnThreads(threads, [&] {
+    for (std::size_t i = next++; i < rollouts.size() && !abandoned; i = next++) {
+      const Segment& segment = subject.plan.segments[rollouts[i].segment];
+      rollouts[i].drift = RollOutSegment(segment, subject.robot, subject.ground, check);
+    }
+  });
+  report->abandoned = abandoned;
+  if (abandoned) return;
+  for (const SegmentRollout& rollout : rollouts) JudgeRollout(rollout, log);
+  report->rollouts = std::move(rollouts);
 }
 
 void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
@@ -213,8 +268,11 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
                         scenario,
                         models::GroundMap(scenario.environment),
                         FollowContacts(plan, robot, &evaluator),
+                        FollowFlights(plan, &evaluator),
                         settings.resolution};
+  CheckImpacts(plan, robot, subject.contacts, &evaluator, log);
   VerifyMotion(subject, settings, log, report);
+  if (log->Worst().empty() && !report->abandoned) VerifyRollouts(subject, settings, log, report);
 }
 
 }  // namespace
@@ -233,6 +291,8 @@ std::string ToString(ViolationKind kind) {
       return "position_continuity";
     case ViolationKind::kVelocityContinuity:
       return "velocity_continuity";
+    case ViolationKind::kImpact:
+      return "impact";
     case ViolationKind::kJointPosition:
       return "joint_position";
     case ViolationKind::kJointSpeed:
@@ -253,6 +313,10 @@ std::string ToString(ViolationKind kind) {
       return "dynamics";
     case ViolationKind::kFriction:
       return "friction";
+    case ViolationKind::kFlight:
+      return "flight";
+    case ViolationKind::kRollout:
+      return "rollout";
   }
   throw std::invalid_argument("unknown kind of violation");
 }

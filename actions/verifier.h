@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "actions/plan.h"
+#include "actions/rollout_check.h"
 #include "models/robot_model.h"
 #include "models/scenario.h"
 
@@ -17,7 +18,8 @@ enum class ViolationKind {
   kStart,               ///< the first state is not the scenario's start at rest
   kGoal,                ///< the last state is not a goal at rest
   kPositionContinuity,  ///< q jumps between phases or segments
-  kVelocityContinuity,  ///< v jumps between phases or segments
+  kVelocityContinuity,  ///< v jumps between phases or segments, and no impact is declared
+  kImpact,              ///< impulses that do not make the jump of v, or that no ground gives
   kJointPosition,
   kJointSpeed,  ///< a joint, or the root, is too fast
   kJointTorque,
@@ -28,6 +30,8 @@ enum class ViolationKind {
   kSelfCollision,
   kDynamics,  ///< tau and forces do not realise the motion
   kFriction,  ///< a contact force leaves its cone or pulls
+  kFlight,    ///< centre of mass off its parabola, or angular momentum not kept
+  kRollout,   ///< a simulation of the motion ends elsewhere
 };
 
 /// "file_mismatch", "structure", ...: the words of the report.
@@ -44,8 +48,16 @@ struct Violation {
   std::string unit;  ///< empty if the violation has no measure
 };
 
+/// What became of a segment with flight or impacts in a simulation.
+struct SegmentRollout {
+  int segment = 0;  ///< index
+  RolloutDrift drift;
+};
+
 struct VerificationReport {
   std::vector<Violation> violations;  ///< at most one (the worst) of each kind; empty: accepted
+  /// By dynamic segment, in order. Empty if something else is wrong with the plan.
+  std::vector<SegmentRollout> rollouts;
   std::int64_t samples = 0;
   double resolution = 0;  ///< s, largest time between samples
   double seconds = 0;
@@ -64,7 +76,8 @@ struct VerifierSettings {
 /// Re-derives from the plan, the robot and the scenario alone that the plan can be executed.
 /// Never uses the planner's constraint functions: its own sampling, exact geometry, Simbody
 /// inverse dynamics. If the plan's structure is broken, or the robot or scenario do not fit its
-/// sizes, only kFileMismatch and kStructure are looked at.
+/// sizes, only kFileMismatch and kStructure are looked at. Segments with flight or impacts are
+/// simulated if nothing else is wrong.
 /// @throws std::invalid_argument if the resolution or the number of threads is not positive;
 ///   InputError if the scenario names an action for which the robot has no gait.
 VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actions/contact_name.h"
 #include "actions/verifier_structure.h"
 
 namespace possibility::actions {
@@ -79,12 +80,13 @@ void CheckPosture(const End& end, const models::RobotModel& robot, const models:
 
 void CheckBearing(const End& end, const models::RobotModel& robot, const models::Gait& gait,
                   StateEvaluator* evaluator, ViolationLog* log) {
+  const std::vector<BearingPatch> bearing = BearingPatches(robot, *end.phase);
   for (const models::GaitLimb& limb : gait.limbs) {
-    const std::string& name = robot.contacts[limb.contact].name;
-    const std::vector<std::string>& bearing = end.phase->contacts;
-    if (std::find(bearing.begin(), bearing.end(), name) == bearing.end()) {
-      log->Report(end.kind, end.at, name + " does not bear");
-    }
+    const models::ContactPatch& patch = robot.contacts[limb.contact];
+    const bool bears_whole = std::any_of(bearing.begin(), bearing.end(), [&](const auto& b) {
+      return b.patch == limb.contact && b.points.size() == patch.points.size();
+    });
+    if (!bears_whole) log->Report(end.kind, end.at, patch.name + " does not bear as a whole");
   }
   const VerifierState state = evaluator->Evaluate(*end.knot);
   for (const BearingPoint& point : BearingPoints(robot, *end.phase)) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "actions/contact_name.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -17,11 +19,10 @@ double FarthestCorner(const Eigen::AlignedBox3d& box) {
 
 std::vector<BearingPoint> BearingPoints(const models::RobotModel& robot, const Phase& phase) {
   std::vector<BearingPoint> points;
-  for (const std::string& name : phase.contacts) {
-    const int patch = robot.ContactIndex(name);
-    const models::ContactPatch& contact = robot.contacts[patch];
-    for (std::size_t i = 0; i < contact.points.size(); ++i) {
-      points.push_back({patch, static_cast<int>(i), contact.link, contact.points[i]});
+  for (const BearingPatch& bearing : BearingPatches(robot, phase)) {
+    const models::ContactPatch& contact = robot.contacts[bearing.patch];
+    for (const int i : bearing.points) {
+      points.push_back({bearing.patch, i, contact.link, contact.points[i]});
     }
   }
   return points;

@@ -18,7 +18,7 @@ struct BearingPoint {
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();
 };
 
-/// The bearing points of a phase whose contacts are all known to the robot.
+/// The bearing points of a phase. @throws InputError if its contacts are not the robot's.
 std::vector<BearingPoint> BearingPoints(const models::RobotModel& robot, const Phase& phase);
 
 /// "left_sole point 2".

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
+
+#include "actions/contact_name.h"
+#include "models/input_error.h"
 
 namespace possibility::actions {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double kTimeTolerance = 1e-9;   // s
 constexpr double kLongestInterval = 1.0;  // s, between two knots
 constexpr double kQuaternionTolerance = 1e-6;
-constexpr double kLargestNumber = 1e6;  // SI, of q, v, a, tau and forces
+constexpr double kLargestNumber = 1e6;  // SI, of q, v, a, tau, forces and impulses
 constexpr double kContinuity = 1e-6;    // m, rad, m/s, rad/s
 
 /// Thrown out of the walk through the plan: one structural fault is enough.
@@ -26,16 +27,11 @@ void Require(bool holds, const Instant& at, const std::string& quantity) {
 }
 
 int NumPoints(const models::RobotModel& robot, const Phase& phase, const Instant& at) {
-  std::set<std::string> seen;
-  int num_points = 0;
-  for (const std::string& name : phase.contacts) {
-    const auto patch = std::find_if(robot.contacts.begin(), robot.contacts.end(),
-                                    [&](const auto& contact) { return contact.name == name; });
-    Require(patch != robot.contacts.end(), at, "contact " + name + " unknown to the robot");
-    Require(seen.insert(name).second, at, "contact " + name + " listed twice");
-    num_points += static_cast<int>(patch->points.size());
+  try {
+    return static_cast<int>(CountPoints(robot, phase));
+  } catch (const InputError& error) {
+    throw Fault{at, error.what()};
   }
-  return num_points;
 }
 
 template <typename Matrix>
@@ -56,10 +52,19 @@ void CheckKnot(const Knot& knot, const models::RobotModel& robot, int num_points
           "root quaternion is not of unit length");
 }
 
+void CheckImpulses(const Phase& phase, int num_points, bool is_first, const Instant& at) {
+  if (phase.impulses.cols() == 0) return;
+  Require(!is_first, at, "impact before which there is no motion");
+  Require(phase.impulses.cols() == num_points, at, "impulses are not one per contact point");
+  Require(IsSane(phase.impulses), at, "an impulse is not finite, or beyond 1e6");
+}
+
 /// `end`: the time up to which the plan has come; moved on to the end of the phase.
-void CheckPhase(const Phase& phase, const models::RobotModel& robot, int segment, double* end) {
+void CheckPhase(const Phase& phase, const models::RobotModel& robot, int segment, bool is_first,
+                double* end) {
   Require(phase.knots.size() >= 2, {segment, *end}, "phase of fewer than two knots");
   const int num_points = NumPoints(robot, phase, {segment, *end});
+  CheckImpulses(phase, num_points, is_first, {segment, *end});
   const double start = phase.knots.front().t;
   Require(std::abs(start - *end) <= kTimeTolerance, {segment, *end},
           fmt::format("time jumps to {} s", start));
@@ -86,35 +91,43 @@ void CheckPlan(const Plan& plan, const models::RobotModel& robot) {
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
     const int segment = static_cast<int>(s);
     Require(!plan.segments[s].phases.empty(), {segment, end}, "segment without phases");
-    for (const Phase& phase : plan.segments[s].phases) CheckPhase(phase, robot, segment, &end);
+    for (const Phase& phase : plan.segments[s].phases) {
+      const bool is_first = &phase == &plan.segments.front().phases.front();
+      CheckPhase(phase, robot, segment, is_first, &end);
+    }
   }
 }
 
-void CheckSameState(const Knot& before, const Knot& after, const models::RobotModel& robot,
-                    const Instant& at, ViolationLog* log) {
-  const auto q_name = [](const std::string& what) {
-    return [what] { return what + " jumps between phases"; };
-  };
+auto Jumps(const std::string& what) {
+  return [what] { return what + " jumps between phases"; };
+}
+
+void CheckSamePosition(const Knot& before, const Knot& after, const models::RobotModel& robot,
+                       const Instant& at, ViolationLog* log) {
   const Eigen::Quaterniond R0(before.q[0], before.q[1], before.q[2], before.q[3]);
   const Eigen::Quaterniond R1(after.q[0], after.q[1], after.q[2], after.q[3]);
   log->RequireAtMost(ViolationKind::kPositionContinuity, at, R0.angularDistance(R1), 0, kContinuity,
-                     "rad", q_name("root orientation"));
+                     "rad", Jumps("root orientation"));
   log->RequireAtMost(ViolationKind::kPositionContinuity, at,
                      (after.q - before.q).segment<3>(4).norm(), 0, kContinuity, "m",
-                     q_name("root position"));
+                     Jumps("root position"));
   for (int j = 0; j < robot.num_joints(); ++j) {
     log->RequireAtMost(ViolationKind::kPositionContinuity, at,
                        std::abs(after.q[7 + j] - before.q[7 + j]), 0, kContinuity, "rad",
-                       q_name(robot.joints[j].name));
+                       Jumps(robot.joints[j].name));
   }
+}
+
+void CheckSameVelocity(const Knot& before, const Knot& after, const models::RobotModel& robot,
+                       const Instant& at, ViolationLog* log) {
   const Eigen::VectorXd dv = after.v - before.v;
   log->RequireAtMost(ViolationKind::kVelocityContinuity, at, dv.head<3>().norm(), 0, kContinuity,
-                     "rad/s", q_name("root angular velocity"));
+                     "rad/s", Jumps("root angular velocity"));
   log->RequireAtMost(ViolationKind::kVelocityContinuity, at, dv.segment<3>(3).norm(), 0,
-                     kContinuity, "m/s", q_name("root velocity"));
+                     kContinuity, "m/s", Jumps("root velocity"));
   for (int j = 0; j < robot.num_joints(); ++j) {
     log->RequireAtMost(ViolationKind::kVelocityContinuity, at, std::abs(dv[6 + j]), 0, kContinuity,
-                       "rad/s", q_name(robot.joints[j].name + " speed"));
+                       "rad/s", Jumps(robot.joints[j].name + " speed"));
   }
 }
 
@@ -150,7 +163,9 @@ void CheckContinuity(const Plan& plan, const models::RobotModel& robot, Violatio
     for (const Phase& phase : plan.segments[s].phases) {
       const Knot& after = phase.knots.front();
       if (before != nullptr) {
-        CheckSameState(*before, after, robot, {static_cast<int>(s), after.t}, log);
+        const Instant at{static_cast<int>(s), after.t};
+        CheckSamePosition(*before, after, robot, at, log);
+        if (phase.impulses.cols() == 0) CheckSameVelocity(*before, after, robot, at, log);
       }
       before = &phase.knots.back();
     }

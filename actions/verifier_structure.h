@@ -13,7 +13,7 @@ void CheckFiles(const Plan& plan, const models::RobotModel& robot, const models:
 /// contacts, and time that runs without gaps. Everything else may only be looked at if so.
 bool CheckStructure(const Plan& plan, const models::RobotModel& robot, ViolationLog* log);
 
-/// Whether q and v are continuous where phases and segments meet.
+/// Whether q is continuous where phases and segments meet, and v where no impact lies between.
 void CheckContinuity(const Plan& plan, const models::RobotModel& robot, ViolationLog* log);
 
 /// Whether the plan begins at the scenario's start and ends at its goal, at rest.

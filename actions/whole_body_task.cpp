@@ -32,6 +32,18 @@ int RowCount(const WholeBodyTask& task) {
 
 }  // namespace
 
+RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch) {
+  const Vector3d z = Vector3d::UnitZ();
+  RootTurn turn;
+  turn.orientation =
+      TurnedBy(yaw.value, Eigen::AngleAxisd(pitch.value, Vector3d::UnitY()).toRotationMatrix());
+  const Vector3d y = TurnedBy(yaw.value, Matrix3d::Identity()).col(1);
+  turn.angular_velocity = yaw.rate * z + pitch.rate * y;
+  turn.angular_acceleration =
+      yaw.acceleration * z + pitch.acceleration * y + yaw.rate * pitch.rate * z.cross(y);
+  return turn;
+}
+
 WholeBodySolver::WholeBodySolver(const models::RobotModel& robot) : kinematics_(robot) {}
 
 WholeBodyState WholeBodySolver::Solve(const WholeBodyTask& task, const VectorXd& guess) {
@@ -61,9 +73,7 @@ WholeBodyState WholeBodySolver::Solve(const WholeBodyTask& task, const VectorXd&
 }
 
 void WholeBodySolver::SetKnownCoordinates(const WholeBodyTask& task, VectorXd* q) const {
-  const Eigen::Quaterniond orientation =
-      Eigen::AngleAxisd(task.root_yaw.value, Vector3d::UnitZ()) *
-      Eigen::AngleAxisd(task.root_pitch.value, Vector3d::UnitY());
+  const Eigen::Quaterniond orientation(Turn(task).orientation);
   q->head<4>() << orientation.w(), orientation.x(), orientation.y(), orientation.z();
   (*q)[6] = task.root_height.value;
   if (!task.centre_of_mass) q->segment<2>(4) = task.root_position.value;
@@ -130,15 +140,17 @@ void WholeBodySolver::Jacobian(const WholeBodyTask& task) {
   }
 }
 
+RootTurn WholeBodySolver::Turn(const WholeBodyTask& task) {
+  return task.root_turn ? *task.root_turn : YawAndPitch(task.root_yaw, task.root_pitch);
+}
+
 void WholeBodySolver::KnownRates(const WholeBodyTask& task, WholeBodyState* state) const {
   const int nv = kinematics_.model().nv();
   state->v.setZero(nv);
   state->a.setZero(nv);
-  const Vector3d z = Vector3d::UnitZ();
-  const Vector3d y = TurnedBy(task.root_yaw.value, Matrix3d::Identity()).col(1);
-  state->v.head<3>() = task.root_yaw.rate * z + task.root_pitch.rate * y;
-  state->a.head<3>() = task.root_yaw.acceleration * z + task.root_pitch.acceleration * y +
-                       task.root_yaw.rate * task.root_pitch.rate * z.cross(y);
+  const RootTurn turn = Turn(task);
+  state->v.head<3>() = turn.angular_velocity;
+  state->a.head<3>() = turn.angular_acceleration;
   state->v[5] = task.root_height.rate;
   state->a[5] = task.root_height.acceleration;
   if (!task.centre_of_mass) {

@@ -27,12 +27,23 @@ struct LimbTask {
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< of the link at yaw 0
 };
 
+/// How the root is turned, in world axes.
+struct RootTurn {
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
+};
+
+/// Rz(yaw) Ry(pitch) over time.
+RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch);
+
 /// What the whole body has to do at one instant. The unknowns are the joints of the limbs and,
 /// if the centre of mass is tasked, x and y of the root: as many as there are rows, so the motion
 /// is a smooth function of the task, without memory of how it got there.
 struct WholeBodyTask {
   ScalarSignal root_yaw;
   ScalarSignal root_pitch;
+  std::optional<RootTurn> root_turn;  ///< in place of yaw and pitch
   ScalarSignal root_height;
   /// Used if there is no task for the centre of mass.
   Signal<Eigen::Vector2d> root_position = ConstantVector<Eigen::Vector2d>(Eigen::Vector2d::Zero());
@@ -64,6 +75,7 @@ class WholeBodySolver {
   void SelectUnknowns(const WholeBodyTask& task);
   void Residual(const WholeBodyTask& task);
   void Jacobian(const WholeBodyTask& task);
+  static RootTurn Turn(const WholeBodyTask& task);
   void KnownRates(const WholeBodyTask& task, WholeBodyState* state) const;
   void SolveRates(const WholeBodyTask& task, WholeBodyState* state);
 

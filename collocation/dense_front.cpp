@@ -20,6 +20,7 @@ constexpr double kZeroPivot = 1e-13;     // entries are of order one
 void DenseFront::Reset(int size) {
   size_ = size;
   num_pivots_ = num_negative_ = pending_ = 0;
+  has_zero_candidate_ = false;
   index_.clear();
   pivots_.clear();
   inverse_diagonal_.clear();
@@ -37,6 +38,10 @@ double DenseFront::LargestBeside(int k) const {
   return std::max(
       largest,
       Eigen::Map<const Eigen::VectorXd>(column(k) + k + 1, below).lpNorm<Eigen::Infinity>());
+}
+
+bool DenseFront::IsZero(int k) const {
+  return std::abs(column(k)[k]) <= kZeroPivot && LargestBeside(k) <= kZeroPivot;
 }
 
 int DenseFront::LargestCandidateBeside(int k) const {
@@ -193,6 +198,9 @@ void DenseFront::Eliminate(int candidates, double threshold, bool last,
     first_pivot = num_pivots_;
     if (found == 0 && window == candidates) break;
     window = std::min(candidates, window + kWindow);
+  }
+  for (int k = num_pivots_; k < candidates && !has_zero_candidate_; ++k) {
+    has_zero_candidate_ = IsZero(k);
   }
 }
 

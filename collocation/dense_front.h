@@ -29,6 +29,9 @@ class DenseFront {
                  const std::function<void()>& interrupt = {});
 
   int num_pivots() const { return num_pivots_; }
+  /// Whether a candidate that is left has no entry but zeros, to rounding: then it never gets one,
+  /// wherever it is eliminated, and the matrix is singular.
+  bool has_zero_candidate() const { return has_zero_candidate_; }
   int num_negative() const { return num_negative_; }
   const std::vector<Pivot>& pivots() const { return pivots_; }
   /// The inverse of D: its diagonal, and below the diagonal of each pair (at the pair's first).
@@ -38,6 +41,7 @@ class DenseFront {
  private:
   /// The largest magnitude in row and column k, the diagonal excepted, among what is left.
   double LargestBeside(int k) const;
+  bool IsZero(int k) const;
   /// Where it is if only the candidates count; -1 if all are zero.
   int LargestCandidateBeside(int k) const;
   /// Brings a pivot to num_pivots(): returns 0 (none found), 1 or 2, its size.
@@ -52,6 +56,7 @@ class DenseFront {
   int candidates_ = 0;
   int num_pivots_ = 0;
   int num_negative_ = 0;
+  bool has_zero_candidate_ = false;
   std::vector<int> index_;
   std::vector<double> values_;
   std::vector<double> scaled_;  ///< columns of L D whose updates are pending, size_ rows each

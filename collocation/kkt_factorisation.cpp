@@ -245,12 +245,10 @@ KktStatus KktFactorisation::Factorise(const double* values, double pivot_thresho
     const bool is_root = analysis_.fronts[f].parent < 0;
     Assemble(f);
     front_.Eliminate(candidates_, pivot_threshold, is_root, interrupt);
+    const bool is_stuck = is_root && front_.num_pivots() < candidates_;
+    if (is_stuck || front_.has_zero_candidate()) return KktStatus::kSingular;
     StoreFactor();
-    if (!is_root) {
-      PassOn(f);
-    } else if (front_.num_pivots() < candidates_) {
-      return KktStatus::kSingular;
-    }
+    if (!is_root) PassOn(f);
   }
   return KktStatus::kFactorised;
 }

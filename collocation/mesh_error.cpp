@@ -1,6 +1,7 @@
 // How well a transcribed motion obeys its constraints between the points where they were imposed.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "collocation/optimal_control.h"
 
@@ -14,7 +15,8 @@ class MeshErrorEstimate {
         motion_(trajectory.phases[phase]),
         parameters_(trajectory.parameters) {}
 
-  /// Greatest integral of |residual| / scale over one mesh interval, by the midpoint rule.
+  /// Greatest integral of |residual| / scale over one mesh interval, by the midpoint rule; infinite
+  /// where a function is not defined.
   double Of(int interval) const {
     constexpr int kSamples = 10;
     const double begin = motion_.mesh[interval];
@@ -27,7 +29,9 @@ class MeshErrorEstimate {
         sum += Residual(constraint, begin + share * (i + 0.5) / kSamples);
       }
       const double h = share * motion_.duration / kSamples;
-      if (sum.size() > 0) greatest = std::max(greatest, h * sum.maxCoeff());
+      if (sum.size() == 0) continue;
+      const double error = sum.allFinite() ? h * sum.maxCoeff() : kInfinity;
+      greatest = std::max(greatest, error);
     }
     return greatest;
   }
@@ -55,7 +59,12 @@ class MeshErrorEstimate {
     Eigen::VectorXd z(f.num_inputs());
     for (int i = 0; i < f.num_inputs(); ++i) z[i] = ValueOf(constraint.arguments[i], s);
     Eigen::VectorXd y(f.num_outputs());
-    f.Evaluate(z, &y);
+    try {
+      f.Evaluate(z, &y);
+    } catch (const std::runtime_error&) {  // not defined here
+      y.setConstant(kInfinity);
+      return y;
+    }
     for (int o = 0; o < f.num_outputs(); ++o) {
       const Bounds& bounds = constraint.bounds[o];
       y[o] =

@@ -189,6 +189,63 @@ class PointPositionsFunction : public MultibodyFunction {
   }
 };
 
+/// |p_0 - p_1|^2: wherever the base is.
+class SquaredDistanceFunction : public MultibodyFunction {
+ public:
+  SquaredDistanceFunction(const PlanarModel& model, const ContactPoint& from,
+                          const ContactPoint& to)
+      : MultibodyFunction(model, {from, to}, model->nv(), 1) {}
+
+  void Evaluate(const VectorXd& z, VectorXd* y) override { (*y)[0] = Difference(z).squaredNorm(); }
+
+  void Jacobian(const VectorXd& z, MatrixXd* J) override {
+    const Vector3d difference = Difference(z);
+    *J = 2 * difference.transpose() * DifferenceJacobian();
+    J->leftCols(3).setZero();  // what the base moves cancels but for rounding
+  }
+
+  void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
+    const Vector3d gradient = 2 * multipliers[0] * Difference(z);
+    std::vector<PointTerm> terms(2);
+    for (int i = 0; i < 2; ++i) {
+      terms[i].link = points_[i].link;
+      terms[i].p_L = points_[i].p_L;
+      terms[i].on_position = i == 0 ? gradient : Vector3d(-gradient);
+    }
+    const MatrixXd J = DifferenceJacobian();
+    *H = dynamics_.Hessian(VectorXd::Zero(n_), terms).qq + 2 * multipliers[0] * J.transpose() * J;
+    H->topRows(3).setZero();
+    H->leftCols(3).setZero();
+  }
+
+  Mask JacobianMask() const override {
+    Mask mask = Mask::Constant(1, n_, true);
+    mask.leftCols(3).setConstant(false);
+    return mask;
+  }
+
+  Mask HessianMask() const override {
+    Mask mask = Mask::Constant(n_, n_, true);
+    mask.topRows(3).setConstant(false);
+    mask.leftCols(3).setConstant(false);
+    return mask;
+  }
+
+ private:
+  Vector3d Difference(const VectorXd& z) {
+    dynamics_.SetState(z, VectorXd::Zero(n_));
+    return dynamics_.Position(points_[0]) - dynamics_.Position(points_[1]);
+  }
+
+  MatrixXd DifferenceJacobian() {
+    MatrixXd first(3, n_);
+    MatrixXd second(3, n_);
+    dynamics_.Jacobian(points_[0], first);
+    dynamics_.Jacobian(points_[1], second);
+    return first - second;
+  }
+};
+
 class PointVelocitiesFunction : public MultibodyFunction {
  public:
   PointVelocitiesFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
@@ -242,6 +299,73 @@ class PointVelocitiesFunction : public MultibodyFunction {
       mask.col(unmoving).setConstant(false);
     }
     return mask;
+  }
+};
+
+class PointAccelerationsFunction : public MultibodyFunction {
+ public:
+  PointAccelerationsFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
+      : MultibodyFunction(model, points, 3 * model->nv(), 2 * static_cast<int>(points.size())) {}
+
+  void Evaluate(const VectorXd& z, VectorXd* y) override {
+    Set(z);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Vector3d acceleration = dynamics_.Acceleration(points_[i]);
+      y->segment<2>(2 * static_cast<Eigen::Index>(i)) << acceleration.x(), acceleration.z();
+    }
+  }
+
+  void Jacobian(const VectorXd& z, MatrixXd* J) override {
+    Set(z);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const dynamics::PointDerivatives& D = dynamics_.DifferentiatePoint(points_[i]);
+      for (int k = 0; k < 2; ++k) {
+        J->row(2 * static_cast<Eigen::Index>(i) + k) << D.acceleration_dq.row(2 * k),
+            D.acceleration_dv.row(2 * k), D.jacobian.row(2 * k);
+      }
+    }
+  }
+
+  void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
+    Set(z);
+    std::vector<PointTerm> terms(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      terms[i].link = points_[i].link;
+      terms[i].p_L = points_[i].p_L;
+      terms[i].on_acceleration = ForceOn(multipliers, 0, i);
+    }
+    const dynamics::HessianProduct& products = dynamics_.Hessian(VectorXd::Zero(n_), terms);
+    H->setZero();
+    H->block(0, 0, n_, n_) = products.qq;
+    H->block(0, n_, n_, n_) = products.qv;
+    H->block(n_, 0, n_, n_) = products.qv.transpose();
+    H->block(n_, n_, n_, n_) = products.vv;
+    H->block(0, 2 * n_, n_, n_) = products.qa;
+    H->block(2 * n_, 0, n_, n_) = products.qa.transpose();
+  }
+
+  Mask JacobianMask() const override {
+    Mask mask = Mask::Constant(num_outputs(), num_inputs(), true);
+    mask.middleCols(1, 2).setConstant(false);
+    mask.middleCols(n_ + 1, 2).setConstant(false);
+    return mask;
+  }
+
+  Mask HessianMask() const override {
+    Mask mask = Mask::Constant(num_inputs(), num_inputs(), true);
+    mask.bottomRightCorner(n_, n_).setConstant(false);
+    for (int part = 0; part < 3; ++part) {
+      mask.middleRows(part * n_ + 1, 2).setConstant(false);
+      mask.middleCols(part * n_ + 1, 2).setConstant(false);
+    }
+    mask.block(n_, 2 * n_, n_, n_).setConstant(false);
+    mask.block(2 * n_, n_, n_, n_).setConstant(false);
+    return mask;
+  }
+
+ private:
+  void Set(const VectorXd& z) {
+    dynamics_.SetState(z.head(n_), z.segment(n_, n_), z.segment(2 * n_, n_));
   }
 };
 
@@ -315,9 +439,19 @@ std::shared_ptr<Function> PointPositions(const PlanarModel& model,
   return std::make_shared<PointPositionsFunction>(Checked(model), points);
 }
 
+std::shared_ptr<Function> SquaredDistance(const PlanarModel& model, const ContactPoint& from,
+                                          const ContactPoint& to) {
+  return std::make_shared<SquaredDistanceFunction>(model, from, to);
+}
+
 std::shared_ptr<Function> PointVelocities(const PlanarModel& model,
                                           const std::vector<ContactPoint>& points) {
   return std::make_shared<PointVelocitiesFunction>(Checked(model), points);
+}
+
+std::shared_ptr<Function> PointAccelerations(const PlanarModel& model,
+                                             const std::vector<ContactPoint>& points) {
+  return std::make_shared<PointAccelerationsFunction>(model, points);
 }
 
 std::shared_ptr<Function> ImpactMap(const PlanarModel& model,

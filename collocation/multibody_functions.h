@@ -23,9 +23,18 @@ std::shared_ptr<Function> EquationOfMotion(const PlanarModel& model,
 std::shared_ptr<Function> PointPositions(const PlanarModel& model,
                                          const std::vector<dynamics::ContactPoint>& points);
 
+/// The squared distance of two points of the system, m^2. Inputs: q.
+std::shared_ptr<Function> SquaredDistance(const PlanarModel& model,
+                                          const dynamics::ContactPoint& from,
+                                          const dynamics::ContactPoint& to);
+
 /// Velocities, x and z of each point. Inputs: q, v.
 std::shared_ptr<Function> PointVelocities(const PlanarModel& model,
                                           const std::vector<dynamics::ContactPoint>& points);
+
+/// Accelerations, x and z of each point. Inputs: q, v, a.
+std::shared_ptr<Function> PointAccelerations(const PlanarModel& model,
+                                             const std::vector<dynamics::ContactPoint>& points);
 
 /// M(q) (v+ - v-) - J' impulses: nv outputs, zero at an impact. Inputs: q, v-, v+, impulses (x, z
 /// of each point, N s).

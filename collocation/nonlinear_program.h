@@ -49,6 +49,9 @@ class NonlinearProgram {
   /// For messages: "swing, knot 3: knee_rate".
   virtual std::string VariableName(int variable) const = 0;
   virtual std::string ConstraintName(int constraint) const = 0;
+  /// What they were divided by, so that messages tell them in their own units.
+  virtual double VariableScale(int) const { return 1; }
+  virtual double ConstraintScale(int) const { return 1; }
 };
 
 }  // namespace possibility::collocation

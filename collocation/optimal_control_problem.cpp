@@ -67,6 +67,13 @@ void Phase::Fail(const std::string& what) const {
   problem_->Fail(fmt::format("phase '{}': {}", name_, what));
 }
 
+PhaseNames Phase::Names() const {
+  PhaseNames names{name_, order_, {}, {}};
+  for (const auto& orders : coordinates_) names.coordinates.push_back(orders[0].name);
+  for (const Quantity& control : controls_) names.controls.push_back(control.name);
+  return names;
+}
+
 Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, double scale) {
   std::vector<Quantity> orders(order_ + 1);
   for (int order = 0; order <= order_; ++order) {
@@ -257,6 +264,12 @@ Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bou
   }
   parameters_.push_back({name, bounds, scale, guess});
   return {VariableKind::kParameter, -1, static_cast<int>(parameters_.size()) - 1, 0};
+}
+
+std::vector<std::string> OptimalControlProblem::ParameterNames() const {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
+  return names;
 }
 
 void OptimalControlProblem::CheckEnds(const std::string& name, const Function* f,

@@ -46,6 +46,15 @@ struct Bounds {
   double upper = kInfinity;
 };
 
+/// What a phase consists of, for whoever shows or stores its motions.
+struct PhaseNames {
+  std::string phase;
+  int order = 1;
+  std::vector<std::string> coordinates, controls;
+
+  bool operator==(const PhaseNames&) const = default;
+};
+
 class OptimalControlProblem;
 
 /// A stretch of time with one system. Its coordinates y come with their derivatives up to the
@@ -56,6 +65,7 @@ class Phase {
  public:
   const std::string& name() const { return name_; }
   int order() const { return order_; }
+  PhaseNames Names() const;
 
   /// A coordinate; `scale`: its typical size, above 0.
   Variable AddCoordinate(const std::string& name, Bounds bounds = {}, double scale = 1);
@@ -153,6 +163,7 @@ class OptimalControlProblem {
 
   Variable AddParameter(const std::string& name, Bounds bounds = {}, double scale = 1,
                         double guess = 0);
+  std::vector<std::string> ParameterNames() const;
 
   /// The quantity at the end of a phase and that at the start of the next are one and the same
   /// variable. Bounds intersect.

@@ -49,13 +49,16 @@ void CheckPattern(const SparsityPattern& pattern, int rows, int columns, const c
   }
 }
 
-void CheckGuessPart(const VectorXd& part, int size, const char* what) {
+void CheckGuessPart(const VectorXd& part, int size, const char* what,
+                    const std::function<std::string(int)>& name) {
   if (part.size() != size) {
     throw std::invalid_argument(
         fmt::format("the guess has {} {} instead of {}", part.size(), what, size));
   }
-  if (!part.allFinite()) {
-    throw std::invalid_argument(fmt::format("the guess of the {} is not finite", what));
+  for (int i = 0; i < size; ++i) {
+    if (std::isfinite(part[i])) continue;
+    throw std::invalid_argument(
+        fmt::format("the guess of the {}: '{}' is {}", what, name(i), part[i]));
   }
 }
 
@@ -68,17 +71,17 @@ bool IsWarm(const SolverGuess& guess) {
 void CheckInput(const NonlinearProgram& program, const SolverGuess& guess) {
   const int n = program.num_variables(), m = program.num_constraints();
   if (n == 0) throw std::invalid_argument("the program has no variables");
-  CheckBounds(program.lower(), program.upper(), n, "variable",
-              [&](int i) { return program.VariableName(i); });
-  CheckBounds(program.constraint_lower(), program.constraint_upper(), m, "constraint",
-              [&](int i) { return program.ConstraintName(i); });
+  const auto variable = [&](int i) { return program.VariableName(i); };
+  const auto constraint = [&](int i) { return program.ConstraintName(i); };
+  CheckBounds(program.lower(), program.upper(), n, "variable", variable);
+  CheckBounds(program.constraint_lower(), program.constraint_upper(), m, "constraint", constraint);
   CheckPattern(program.jacobian_pattern(), m, n, "Jacobian");
   CheckPattern(program.hessian_pattern(), n, n, "Hessian");
-  CheckGuessPart(guess.x, n, "variables");
+  CheckGuessPart(guess.x, n, "variables", variable);
   if (IsWarm(guess)) {
-    CheckGuessPart(guess.constraint_multipliers, m, "constraint multipliers");
-    CheckGuessPart(guess.lower_multipliers, n, "lower multipliers");
-    CheckGuessPart(guess.upper_multipliers, n, "upper multipliers");
+    CheckGuessPart(guess.constraint_multipliers, m, "constraint multipliers", constraint);
+    CheckGuessPart(guess.lower_multipliers, n, "lower multipliers", variable);
+    CheckGuessPart(guess.upper_multipliers, n, "upper multipliers", variable);
   }
 }
 
@@ -101,23 +104,29 @@ TurnQueue& MumpsTurns() {
 
 /// A violated bound or constraint.
 struct Violation {
-  double size = 0;
+  double size = 0;      // scaled
+  double own_size = 0;  // in its own unit
   std::string name;
 };
 
 Violation WorstViolation(const NonlinearProgram& program, const VectorXd& x, const VectorXd& g) {
   Violation worst;
   auto look = [&](const VectorXd& value, const VectorXd& lower, const VectorXd& upper,
-                  const std::function<std::string(int)>& name) {
+                  const std::function<std::string(int)>& name,
+                  const std::function<double(int)>& scale) {
     for (int i = 0; i < value.size(); ++i) {
       const double size = std::max(lower[i] - value[i], value[i] - upper[i]);
-      if (size > worst.size) worst = {size, name(i)};
+      if (size > worst.size) worst = {size, size * scale(i), name(i)};
     }
   };
-  look(x, program.lower(), program.upper(),
-       [&](int i) { return fmt::format("variable '{}'", program.VariableName(i)); });
-  look(g, program.constraint_lower(), program.constraint_upper(),
-       [&](int i) { return fmt::format("constraint '{}'", program.ConstraintName(i)); });
+  look(
+      x, program.lower(), program.upper(),
+      [&](int i) { return fmt::format("variable '{}'", program.VariableName(i)); },
+      [&](int i) { return program.VariableScale(i); });
+  look(
+      g, program.constraint_lower(), program.constraint_upper(),
+      [&](int i) { return fmt::format("constraint '{}'", program.ConstraintName(i)); },
+      [&](int i) { return program.ConstraintScale(i); });
   return worst;
 }
 
@@ -165,14 +174,26 @@ std::string FailureText(ApplicationReturnStatus status) {
 std::string LargestVariable(const NonlinearProgram& program, const VectorXd& x) {
   int largest = 0;
   x.cwiseAbs().maxCoeff(&largest);
-  return fmt::format("'{}' reached {:.3g}", program.VariableName(largest), x[largest]);
+  return fmt::format("'{}' reached {:.3g}", program.VariableName(largest),
+                     x[largest] * program.VariableScale(largest));
+}
+
+/// A solve that got nowhere while its objective fell by orders of magnitude.
+bool ObjectiveRanAway(const SolverResult& result) {
+  constexpr double kFar = 1e12;
+  const bool gave_up =
+      result.status == SolverStatus::kFailed || result.status == SolverStatus::kIterationLimit;
+  const double first = result.history.empty() ? 0 : std::abs(result.history.front().objective);
+  return gave_up && result.objective < -kFar * std::max(1.0, first);
 }
 
 std::string Message(const NonlinearProgram& program, const SolverOptions& options,
                     const SolverResult& result, const Violation& worst, const std::string& culprit,
                     ApplicationReturnStatus ipopt_status) {
   const std::string violation =
-      worst.name.empty() ? "" : fmt::format("; {} is off by {:.3g}", worst.name, worst.size);
+      worst.size <= options.constraint_tolerance
+          ? ""
+          : fmt::format("; {} is off by {:.3g}", worst.name, worst.own_size);
   switch (result.status) {
     case SolverStatus::kSolved:
       return "solved";
@@ -181,7 +202,10 @@ std::string Message(const NonlinearProgram& program, const SolverOptions& option
     case SolverStatus::kInfeasible:
       return "a local minimum of the constraint violation" + violation;
     case SolverStatus::kUnbounded:
-      return "the iterates diverge: " + LargestVariable(program, result.x);
+      return fmt::format(
+          "the iterates diverge, as they do when nothing bounds the objective: it "
+          "is {:.3g} and {}",
+          result.objective, LargestVariable(program, result.x));
     case SolverStatus::kIterationLimit:
       return fmt::format("{} iterations were not enough{}", options.max_iterations, violation);
     case SolverStatus::kTimeLimit:
@@ -275,6 +299,7 @@ SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
   if (clock.stop() == SolveClock::Stop::kCancelled) result.status = SolverStatus::kCancelled;
   if (clock.stop() == SolveClock::Stop::kTimeLimit) result.status = SolverStatus::kTimeLimit;
   const Violation worst = EvaluateResult(program, &result);
+  if (ObjectiveRanAway(result)) result.status = SolverStatus::kUnbounded;
   result.message = Message(*program, options, result, worst, adapter->culprit(), status);
   SolverTimes& times = result.times;
   times.total = clock.Seconds();

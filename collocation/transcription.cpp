@@ -22,10 +22,6 @@ namespace {
 
 double Factorial(int n) { return n <= 1 ? 1 : n * Factorial(n - 1); }
 
-double Clamped(double value, double lower, double upper) {
-  return std::min(std::max(value, lower), upper);
-}
-
 void CheckMesh(const OptimalControlProblem& problem, int phase, const Mesh& mesh) {
   bool ascends = mesh.size() >= 2 && mesh.front() == 0 && mesh.back() == 1;
   for (std::size_t i = 1; i < mesh.size(); ++i) ascends = ascends && mesh[i] > mesh[i - 1];
@@ -38,7 +34,8 @@ void CheckMesh(const OptimalControlProblem& problem, int phase, const Mesh& mesh
 }  // namespace
 
 Transcription::Transcription(const OptimalControlProblem& problem,
-                             const TranscriptionScheme& scheme, std::vector<Mesh> meshes)
+                             const TranscriptionScheme& scheme, std::vector<Mesh> meshes,
+                             const Interrupt& interrupt)
     : problem_(problem), scheme_(scheme) {
   if (problem.num_phases() == 0) problem.Fail("the problem has no phase");
   if (static_cast<int>(meshes.size()) != problem.num_phases()) {
@@ -46,7 +43,8 @@ Transcription::Transcription(const OptimalControlProblem& problem,
   }
   layouts_.resize(meshes.size());
   for (const auto& parameter : problem_.parameters_) {
-    parameters_.push_back(AddVariable(parameter.scale, parameter.bounds, parameter.name));
+    parameters_.push_back(
+        AddVariable(parameter.scale, parameter.bounds, {-1, -1, parameter.name, -1}));
   }
   for (int p = 0; p < problem.num_phases(); ++p) {
     CheckMesh(problem, p, meshes[p]);
@@ -57,10 +55,11 @@ Transcription::Transcription(const OptimalControlProblem& problem,
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));
   };
-  for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p);
+  ones_.setOnes(static_cast<Eigen::Index>(scales_.size()));
+  for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, interrupt);
   for (int p = 0; p < problem.num_phases(); ++p) {
-    AddPathConstraints(p);
-    AddIntegralCosts(p);
+    AddPathConstraints(p, interrupt);
+    AddIntegralCosts(p, interrupt);
   }
   AddEnds();
   scale_ = copy(scales_);
@@ -70,11 +69,11 @@ Transcription::Transcription(const OptimalControlProblem& problem,
   constraint_upper_ = copy(row_uppers_);
 }
 
-int Transcription::AddVariable(double scale, Bounds bounds, const std::string& name) {
+int Transcription::AddVariable(double scale, Bounds bounds, PlacedName name) {
   scales_.push_back(scale);
   lowers_.push_back(bounds.lower);
   uppers_.push_back(bounds.upper);
-  variable_names_.push_back(name);
+  variable_names_.push_back(std::move(name));
   return static_cast<int>(scales_.size()) - 1;
 }
 
@@ -86,7 +85,8 @@ void Transcription::LayOut(int phase_index) {
   if (!(duration.lower > 0 && duration.upper < kInfinity)) phase.Fail("no duration was set");
   layout.fixed_duration = duration.lower;
   if (duration.lower < duration.upper) {
-    layout.duration = AddVariable(duration.upper, duration, phase.name() + ": duration");
+    layout.duration =
+        AddVariable(duration.upper, duration, {-1, -1, phase.name() + ": duration", -1});
   }
   const int intervals = static_cast<int>(layout.mesh.size()) - 1;
   const int inside = scheme_.num_nodes() - 1;
@@ -104,7 +104,6 @@ void Transcription::LayOut(int phase_index) {
 void Transcription::LayOutPoint(int phase_index, int point) {
   const Phase& phase = problem_.phase(phase_index);
   PhaseLayout& layout = layouts_[phase_index];
-  const std::string where = PointName(phase_index, point);
   auto& coordinates = layout.coordinates.emplace_back();
   for (std::size_t c = 0; c < phase.coordinates_.size(); ++c) {
     std::vector<int>& orders = coordinates.emplace_back(phase.order() + 1, -1);
@@ -122,7 +121,8 @@ void Transcription::LayOutPoint(int phase_index, int point) {
         orders[order] = earlier.coordinates.back()[from.variable.index][from.variable.order];
       }
       if (orders[order] < 0) {
-        orders[order] = AddVariable(quantity.scale, bounds, where + quantity.name);
+        orders[order] =
+            AddVariable(quantity.scale, bounds, {phase_index, point, quantity.name, -1});
         continue;
       }
       double& lower = lowers_[orders[order]];
@@ -130,15 +130,15 @@ void Transcription::LayOutPoint(int phase_index, int point) {
       lower = std::max(lower, bounds.lower);
       upper = std::min(upper, bounds.upper);
       if (lower > upper) {
-        problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet", where,
-                                  quantity.name, lower, upper));
+        problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet",
+                                  PointName(phase_index, point), quantity.name, lower, upper));
       }
     }
   }
   auto& controls = layout.controls.emplace_back();
   for (const Phase::Quantity& quantity : phase.controls_) {
-    controls.push_back(
-        AddVariable(quantity.scale, BoundsAt(quantity, phase_index, point), where + quantity.name));
+    controls.push_back(AddVariable(quantity.scale, BoundsAt(quantity, phase_index, point),
+                                   {phase_index, point, quantity.name, -1}));
   }
 }
 
@@ -267,14 +267,13 @@ PolynomialForm Transcription::EndForm(const EndVariable& end) const {
   return FormOf(end.variable, phase, end.at == At::kStart ? 0 : last);
 }
 
-void Transcription::AddFormRow(PolynomialForm form, double scale, Bounds bounds, RowName name) {
+void Transcription::AddFormRow(PolynomialForm form, double scale, Bounds bounds, PlacedName name) {
   const int row = static_cast<int>(row_lowers_.size());
   FormRow form_row{std::move(form), 1 / scale, {}, {}};
-  const Eigen::VectorXd x = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(scales_.size()));
-  form_row.form.Gradient(x, [&](int variable, double) {
+  form_row.form.Gradient(ones_, [&](int variable, double) {
     form_row.jacobian_slots.push_back(jacobian_.At(row, variable));
   });
-  form_row.form.Hessian(x, [&](int i, int j, double) {
+  form_row.form.Hessian(ones_, [&](int i, int j, double) {
     form_row.hessian_slots.push_back(hessian_.At(std::max(i, j), std::min(i, j)));
   });
   form_rows_.push_back(std::move(form_row));
@@ -284,12 +283,13 @@ void Transcription::AddFormRow(PolynomialForm form, double scale, Bounds bounds,
   row_names_.push_back(std::move(name));
 }
 
-void Transcription::AddDefects(int phase_index) {
+void Transcription::AddDefects(int phase_index, const Interrupt& interrupt) {
   const Phase& phase = problem_.phase(phase_index);
   const PhaseLayout& layout = layouts_[phase_index];
   const int inside = scheme_.num_nodes() - 1;
   const int n = static_cast<int>(phase.coordinates_.size());
   for (int interval = 0; interval + 1 < static_cast<int>(layout.mesh.size()); ++interval) {
+    if (interrupt) interrupt();
     for (int node = 1; node <= inside; ++node) {
       const int point = interval * inside + node;
       for (int c = 0; c < n; ++c) {
@@ -297,7 +297,7 @@ void Transcription::AddDefects(int phase_index) {
           const Phase::Quantity& quantity = phase.coordinates_[c][order];
           const int index = layout.coordinates[point][c][order];
           PolynomialForm form = Integrated(phase_index, interval, node, c, order);
-          const RowName name{phase_index, point, "defect of " + quantity.name, -1};
+          const PlacedName name{phase_index, point, "defect of " + quantity.name, -1, true};
           if (index >= 0) {
             form.monomials.push_back({index, -1, 0});
             AddFormRow(std::move(form), quantity.scale, {0, 0}, name);
@@ -315,7 +315,7 @@ void Transcription::AddDefects(int phase_index) {
 }
 
 void Transcription::AddBlock(FunctionBlock block, const std::vector<Bounds>& bounds,
-                             const Eigen::VectorXd& scales, RowName name) {
+                             const Eigen::VectorXd& scales, PlacedName name) {
   block.FindSlots(static_cast<int>(row_lowers_.size()), &jacobian_, &hessian_);
   for (std::size_t o = 0; o < bounds.size(); ++o) {
     const double scale = scales.size() == 0 ? 1 : scales[static_cast<Eigen::Index>(o)];
@@ -328,10 +328,11 @@ void Transcription::AddBlock(FunctionBlock block, const std::vector<Bounds>& bou
   blocks_.push_back(std::move(block));
 }
 
-void Transcription::AddPathConstraints(int phase_index) {
+void Transcription::AddPathConstraints(int phase_index, const Interrupt& interrupt) {
   const Phase& phase = problem_.phase(phase_index);
   const int n = static_cast<int>(layouts_[phase_index].points.size());
   for (int point = 0; point < n; ++point) {
+    if (interrupt) interrupt();
     for (const Phase::PathConstraint& constraint : phase.constraints_) {
       if (!Holds(constraint.at, point, n)) continue;
       std::vector<PolynomialForm> arguments;
@@ -344,29 +345,26 @@ void Transcription::AddPathConstraints(int phase_index) {
   }
 }
 
-void Transcription::AddIntegralCosts(int phase_index) {
+void Transcription::AddIntegralCosts(int phase_index, const Interrupt& interrupt) {
   const Phase& phase = problem_.phase(phase_index);
   const PhaseLayout& layout = layouts_[phase_index];
-  const int inside = scheme_.num_nodes() - 1;
-  const Eigen::VectorXd weights = scheme_.weights();
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(layout.points.size()));
-  for (int i = 0; i + 1 < static_cast<int>(layout.mesh.size()); ++i) {
-    shares.segment(i * inside, inside + 1) += (layout.mesh[i + 1] - layout.mesh[i]) * weights;
-  }
+  const MeshPoints points(layout.mesh, scheme_);
   for (const Phase::IntegralCost& cost : phase.costs_) {
     for (int point = 0; point < static_cast<int>(layout.points.size()); ++point) {
+      if (interrupt) interrupt();
       std::vector<PolynomialForm> arguments;
       for (const Variable& argument : cost.arguments) {
         arguments.push_back(FormOf(argument, phase_index, point));
       }
       PolynomialForm weight;
       weight.duration = layout.duration;
-      const double share = cost.weight * shares[point];
+      const double share = cost.weight * points.weights[point];
       weight.monomials.push_back(layout.duration < 0
                                      ? Monomial{-1, share * layout.fixed_duration, 0}
                                      : Monomial{-1, share, 1});
       costs_.emplace_back(cost.function, std::move(arguments));
       costs_.back().FindCostSlots(weight, &hessian_);
+      cost_names_.push_back({phase_index, point, cost.name, -1});
     }
   }
 }
@@ -384,13 +382,20 @@ void Transcription::AddEnds() {
   for (const auto& cost : problem_.costs_) {
     costs_.emplace_back(cost.function, forms(cost.arguments));
     costs_.back().FindCostSlots({-1, {{-1, cost.weight, 0}}}, &hessian_);
+    cost_names_.push_back({-1, -1, cost.name, -1});
   }
 }
 
 double Transcription::Objective(const Eigen::VectorXd& x) {
   const Eigen::VectorXd unscaled = Scaled(x);
   double sum = 0;
-  for (FunctionBlock& cost : costs_) sum += cost.Cost(unscaled);
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    const double cost = costs_[i].Cost(unscaled);
+    if (!std::isfinite(cost)) {
+      throw std::runtime_error(fmt::format("cost '{}' is {}", FullName(cost_names_[i]), cost));
+    }
+    sum += cost;
+  }
   return sum;
 }
 
@@ -399,6 +404,20 @@ void Transcription::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient
   gradient->setZero(num_variables());
   for (FunctionBlock& cost : costs_) cost.AddGradient(unscaled, gradient);
   gradient->array() *= scale_.array();
+  if (!gradient->allFinite()) FailForGradient(unscaled);
+}
+
+void Transcription::FailForGradient(const Eigen::VectorXd& unscaled) {
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_variables());
+    costs_[i].AddGradient(unscaled, &gradient);
+    for (int k = 0; k < num_variables(); ++k) {
+      if (std::isfinite(gradient[k])) continue;
+      throw std::runtime_error(fmt::format("the derivative of cost '{}' with respect to '{}' is {}",
+                                           FullName(cost_names_[i]), VariableName(k), gradient[k]));
+    }
+  }
+  throw std::runtime_error("the derivative of the sum of all costs is not finite");
 }
 
 void Transcription::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g) {
@@ -445,155 +464,28 @@ void Transcription::Hessian(const Eigen::VectorXd& x, double objective_factor,
   }
 }
 
-std::string Transcription::VariableName(int variable) const { return variable_names_.at(variable); }
+std::string Transcription::FullName(const PlacedName& name) const {
+  const std::string where = name.phase < 0 ? "" : PointName(name.phase, name.point);
+  const std::string output = name.output < 0 ? "" : fmt::format("[{}]", name.output);
+  return where + name.name + output;
+}
+
+std::string Transcription::VariableName(int variable) const {
+  return FullName(variable_names_.at(variable));
+}
 
 std::string Transcription::ConstraintName(int constraint) const {
-  const RowName& row = row_names_.at(constraint);
-  std::string name = row.phase < 0 ? row.name : PointName(row.phase, row.point) + row.name;
-  if (row.output >= 0) name += fmt::format("[{}]", row.output);
-  return name;
+  return FullName(row_names_.at(constraint));
 }
 
 std::string Transcription::ConstraintGroup(int constraint) const {
-  const RowName& row = row_names_.at(constraint);
+  const PlacedName& row = row_names_.at(constraint);
   return row.phase < 0 ? row.name : problem_.phase(row.phase).name() + ": " + row.name;
 }
 
 double Transcription::DurationOf(int phase, const Eigen::VectorXd& x) const {
   const PhaseLayout& layout = layouts_[phase];
   return layout.duration < 0 ? layout.fixed_duration : x[layout.duration];
-}
-
-double Transcription::GuessOf(const Phase& phase, Variable variable, double share,
-                              double duration) const {
-  const Phase::Quantity& quantity = phase.Find(variable);
-  if (quantity.guess) return quantity.guess(share);
-  if (variable.kind == VariableKind::kCoordinate && variable.order > 0) {
-    // The slope of the guess one order below.
-    Variable below = variable;
-    --below.order;
-    constexpr double kStep = 1e-4;
-    const double before = std::max(0.0, share - kStep);
-    const double after = std::min(1.0, share + kStep);
-    return (GuessOf(phase, below, after, duration) - GuessOf(phase, below, before, duration)) /
-           ((after - before) * duration);
-  }
-  Bounds start, end, everywhere;
-  const auto intersect = [](Bounds* bounds, const Bounds& with) {
-    bounds->lower = std::max(bounds->lower, with.lower);
-    bounds->upper = std::min(bounds->upper, with.upper);
-  };
-  for (const auto& [at, bounds] : quantity.bounds) {
-    if (Holds(at, 0, 3)) intersect(&start, bounds);
-    if (Holds(at, 1, 3)) intersect(&everywhere, bounds);
-    if (Holds(at, 2, 3)) intersect(&end, bounds);
-  }
-  const bool start_is_fixed = start.lower == start.upper;
-  const bool end_is_fixed = end.lower == end.upper;
-  if (start_is_fixed && end_is_fixed) return start.lower + share * (end.lower - start.lower);
-  if (start_is_fixed) return start.lower;
-  if (end_is_fixed) return end.lower;
-  return Clamped(0, everywhere.lower, everywhere.upper);
-}
-
-Eigen::VectorXd Transcription::InitialGuess() const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables());
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    x[parameters_[i]] = problem_.parameters_[i].guess;
-  }
-  for (int p = 0; p < problem_.num_phases(); ++p) {
-    const Phase& phase = problem_.phase(p);
-    const PhaseLayout& layout = layouts_[p];
-    double duration = layout.fixed_duration;
-    if (layout.duration >= 0) {
-      duration = phase.duration_guess_ ? phase.duration_guess_(0)
-                                       : (phase.duration_.lower + phase.duration_.upper) / 2;
-      x[layout.duration] = duration;
-    }
-    for (std::size_t k = 0; k < layout.points.size(); ++k) {
-      const double share = layout.points[k].share;
-      for (int c = 0; c < static_cast<int>(phase.coordinates_.size()); ++c) {
-        for (int order = 0; order <= phase.order(); ++order) {
-          const int index = layout.coordinates[k][c][order];
-          if (index < 0) continue;
-          x[index] = GuessOf(phase, {VariableKind::kCoordinate, p, c, order}, share, duration);
-        }
-      }
-      for (int c = 0; c < static_cast<int>(phase.controls_.size()); ++c) {
-        x[layout.controls[k][c]] =
-            GuessOf(phase, {VariableKind::kControl, p, c, 0}, share, duration);
-      }
-    }
-  }
-  return x.cwiseQuotient(scale_).cwiseMax(lower_).cwiseMin(upper_);
-}
-
-Eigen::VectorXd Transcription::GuessFrom(const Trajectory& trajectory) const {
-  if (static_cast<int>(trajectory.phases.size()) != problem_.num_phases()) {
-    problem_.Fail(fmt::format("a guess has {} phases, expected {}", trajectory.phases.size(),
-                              problem_.num_phases()));
-  }
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables());
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    x[parameters_[i]] = trajectory.parameters[static_cast<Eigen::Index>(i)];
-  }
-  for (int p = 0; p < problem_.num_phases(); ++p) {
-    const PhaseLayout& layout = layouts_[p];
-    const PhaseTrajectory& phase = trajectory.phases[p];
-    if (layout.duration >= 0) x[layout.duration] = phase.duration;
-    for (std::size_t k = 0; k < layout.points.size(); ++k) {
-      const double share = layout.points[k].share;
-      for (int order = 0; order <= problem_.phase(p).order(); ++order) {
-        const Eigen::VectorXd values = phase.Coordinates(share, order);
-        for (std::size_t c = 0; c < layout.coordinates[k].size(); ++c) {
-          const int index = layout.coordinates[k][c][order];
-          if (index >= 0) x[index] = values[static_cast<Eigen::Index>(c)];
-        }
-      }
-      const Eigen::VectorXd controls = phase.Controls(share);
-      for (std::size_t c = 0; c < layout.controls[k].size(); ++c) {
-        x[layout.controls[k][c]] = controls[static_cast<Eigen::Index>(c)];
-      }
-    }
-  }
-  return x.cwiseQuotient(scale_).cwiseMax(lower_).cwiseMin(upper_);
-}
-
-Trajectory Transcription::TrajectoryOf(const Eigen::VectorXd& scaled) const {
-  const Eigen::VectorXd x = Scaled(scaled);
-  Trajectory trajectory;
-  trajectory.parameters.resize(static_cast<Eigen::Index>(parameters_.size()));
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    trajectory.parameters[static_cast<Eigen::Index>(i)] = x[parameters_[i]];
-  }
-  double begin = 0;
-  for (int p = 0; p < problem_.num_phases(); ++p) {
-    const Phase& problem_phase = problem_.phase(p);
-    const PhaseLayout& layout = layouts_[p];
-    PhaseTrajectory phase;
-    phase.begin = begin;
-    phase.duration = DurationOf(p, x);
-    phase.mesh = layout.mesh;
-    phase.scheme = scheme_;
-    begin += phase.duration;
-    const auto points = static_cast<Eigen::Index>(layout.points.size());
-    const auto n = static_cast<Eigen::Index>(problem_phase.coordinates_.size());
-    phase.coordinates.assign(problem_phase.order() + 1, Eigen::MatrixXd(n, points));
-    phase.controls.resize(static_cast<Eigen::Index>(problem_phase.controls_.size()), points);
-    for (int k = 0; k < points; ++k) {
-      for (int order = 0; order <= problem_phase.order(); ++order) {
-        for (int c = 0; c < n; ++c) {
-          phase.coordinates[order](c, k) =
-              FormOf({VariableKind::kCoordinate, p, c, order}, p, k).Value(x);
-        }
-      }
-      for (int c = 0; c < phase.controls.rows(); ++c) {
-        phase.controls(c, k) = x[layout.controls[k][c]];
-      }
-    }
-    trajectory.phases.push_back(std::move(phase));
-  }
-  return trajectory;
 }
 
 }  // namespace possibility::collocation

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "experiments/bench_collocation.h"
+#include "experiments/bench_confirmation.h"
 #include "experiments/bench_dynamics.h"
 #include "experiments/benchmark.h"
 #include "experiments/commands.h"
@@ -27,6 +28,7 @@ using Bench = BenchmarkReport (*)(const models::RobotModel&,
                                   const std::function<void(int, int)>& progress);
 const std::map<std::string, Bench>& Benches() {
   static const std::map<std::string, Bench> benches = {{"collocation", &BenchCollocation},
+                                                       {"confirmation", &BenchConfirmation},
                                                        {"dynamics", &BenchDynamics}};
   return benches;
 }
@@ -61,7 +63,7 @@ ExitCode RunBench(const BenchOptions& options) {
 Command AddBenchCommand(CLI::App& program) {
   CLI::App* app = program.add_subcommand("bench", "Measures speed, against peers in the same run.");
   auto options = std::make_shared<BenchOptions>();
-  app->add_option("SUBJECT", options->subject, "collocation or dynamics")->required();
+  app->add_option("SUBJECT", options->subject, "collocation, confirmation or dynamics")->required();
   app->add_option("--robot", options->robot, "Robot YAML")->capture_default_str();
   app->add_flag("--json", options->json, "One JSON object on stdout, nothing else");
   return {app, [options] { return RunBench(*options); }};

@@ -115,6 +115,7 @@ nlohmann::ordered_json BenchmarkReport::Json() const {
   }
   json["ratios"] = nlohmann::ordered_json::object();
   for (const BenchmarkRatio& ratio : ratios) json["ratios"][ratio.name] = ratio.value;
+  for (const auto& [name, value] : figures) json[name] = value;
   return json;
 }
 

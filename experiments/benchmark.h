@@ -3,6 +3,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace possibility::experiments {
@@ -29,8 +30,10 @@ struct BenchmarkRatio {
 struct BenchmarkReport {
   std::vector<BenchmarkRow> rows;
   std::vector<BenchmarkRatio> ratios;
+  /// What is no ratio: "cold_s_median", ...
+  std::vector<std::pair<std::string, double>> figures;
 
-  /// {"rows": [{"name", "microseconds"}...], "ratios": {name: value...}}
+  /// {"rows": [{"name", "microseconds"}...], "ratios": {name: value...}, and each figure}
   nlohmann::ordered_json Json() const;
   std::string Text() const;
   /// Median over rounds of slow / fast, each round's two taken a moment apart. Rows by name.

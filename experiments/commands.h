@@ -30,5 +30,6 @@ Command AddViewCommand(CLI::App& program);
 Command AddExportCommand(CLI::App& program);
 Command AddBenchCommand(CLI::App& program);
 Command AddRegressCommand(CLI::App& program);
+Command AddLibraryCommand(CLI::App& program);
 
 }  // namespace possibility::experiments

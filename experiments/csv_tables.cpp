@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "actions/contact_name.h"
 #include "dynamics/tree_kinematics.h"
 #include "models/input_error.h"
 
@@ -110,13 +111,13 @@ std::string ContactForcesCsv(const std::vector<PlanSample>& samples, const actio
   for (const PlanSample& sample : samples) {
     kinematics.SetPosition(sample.knot.q);
     Eigen::Index column = 0;
-    for (const std::string& name : sample.phase->contacts) {
-      const models::ContactPatch& patch = robot.contacts[robot.ContactIndex(name)];
-      for (std::size_t i = 0; i < patch.points.size(); ++i, ++column) {
+    for (const actions::BearingPatch& bearing : actions::BearingPatches(robot, *sample.phase)) {
+      const models::ContactPatch& patch = robot.contacts[bearing.patch];
+      for (const int i : bearing.points) {
         text += fmt::format("{},{},{},{},{}", sample.knot.t, sample.segment,
-                            Field(plan.segments[sample.segment].action), Field(name), i);
+                            Field(plan.segments[sample.segment].action), Field(patch.name), i);
         AppendNumbers(kinematics.Position(patch.link, patch.points[i]), &text);
-        AppendNumbers(sample.knot.forces.col(column), &text);
+        AppendNumbers(sample.knot.forces.col(column++), &text);
         text += "\n";
       }
     }

@@ -5,21 +5,13 @@
 #include <algorithm>
 #include <system_error>
 
+#include "actions/contact_name.h"
 #include "models/input_error.h"
 
 namespace possibility::experiments {
 namespace {
 
-Eigen::Index NumContactPoints(const actions::Phase& phase, const models::RobotModel& robot) {
-  Eigen::Index count = 0;
-  for (const std::string& contact : phase.contacts) {
-    count += static_cast<Eigen::Index>(robot.contacts[robot.ContactIndex(contact)].points.size());
-  }
-  return count;
-}
-
-bool Fits(const actions::Phase& phase, const models::RobotModel& robot) {
-  const Eigen::Index num_points = NumContactPoints(phase, robot);
+bool Fits(const actions::Phase& phase, const models::RobotModel& robot, Eigen::Index num_points) {
   return phase.knots.size() >= 2 &&
          std::all_of(phase.knots.begin(), phase.knots.end(), [&](const actions::Knot& knot) {
            return knot.q.size() == robot.nq() && knot.v.size() == robot.nv() &&
@@ -48,7 +40,14 @@ LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory) {
 void RequireFit(const LoadedPlan& loaded) {
   for (std::size_t i = 0; i < loaded.plan.segments.size(); ++i) {
     for (const actions::Phase& phase : loaded.plan.segments[i].phases) {
-      if (Fits(phase, loaded.robot)) continue;
+      Eigen::Index num_points = 0;
+      try {
+        num_points = actions::CountPoints(loaded.robot, phase);
+      } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}: segments[{}]: {}", loaded.file.string(), i, error.what()));
+      }
+      if (Fits(phase, loaded.robot, num_points)) continue;
       throw InputError(fmt::format(
           "{}: segments[{}]: sizes do not fit the robot {}, expected {} joints and the forces of "
           "every contact point",

@@ -15,9 +15,9 @@
 namespace possibility::experiments {
 namespace {
 
-constexpr Command (*kCommands[])(CLI::App&) = {&AddPlanCommand,  &AddVerifyCommand,
-                                               &AddViewCommand,  &AddExportCommand,
-                                               &AddBenchCommand, &AddRegressCommand};
+constexpr Command (*kCommands[])(CLI::App&) = {
+    &AddPlanCommand,  &AddVerifyCommand,  &AddViewCommand,   &AddExportCommand,
+    &AddBenchCommand, &AddRegressCommand, &AddLibraryCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -31,6 +31,7 @@ struct PlanOptions {
   std::string threads;
   std::string time_limit;
   std::string actions;
+  std::string library;
   bool json = false;
 };
 
@@ -54,6 +55,7 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
     request->time_limit = ParseSeconds("--time-limit", options.time_limit);
   }
   if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
+  request->library = options.library;
 }
 
 actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
@@ -114,6 +116,7 @@ Command AddPlanCommand(CLI::App& program) {
   app->add_option("--threads", options->threads, "1 to 256 (default: all this machine has)");
   app->add_option("--time-limit", options->time_limit, "s (default: the scenario's)");
   app->add_option("--actions", options->actions, "Names and commas, e.g. walk,crawl");
+  app->add_option("--library", options->library, "Folder of solved jumps (default: none)");
   app->add_flag("--json", options->json, "Print one JSON object");
   return {app, [options] { return RunPlan(*options); }};
 }

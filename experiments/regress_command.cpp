@@ -15,6 +15,7 @@
 #include "experiments/option_values.h"
 #include "experiments/output_file.h"
 #include "experiments/regression_comparison.h"
+#include "experiments/regression_pages.h"
 #include "experiments/regression_run.h"
 #include "models/input_error.h"
 #include "models/nearest_name.h"
@@ -27,6 +28,7 @@ constexpr int kMaxIntervals = 10000;
 
 struct RegressOptions {
   std::string out;
+  std::string plots;
   std::string against;
   std::string problems;
   std::string robot = "models/drchubo1/drchubo1.yaml";
@@ -182,12 +184,14 @@ ExitCode RunRegress(const RegressOptions& options) {
   std::optional<nlohmann::json> old_run;
   if (!options.against.empty()) old_run = ReadRegressionFile(options.against);
   if (!options.out.empty()) CheckOutput(options.out);
+  if (!options.plots.empty()) PrepareOutputFolder("--plots", options.plots);
 
   const RegressionReport report = RunWithProgress(problems, run_options);
   if (!options.out.empty()) {
     WriteOutput(options.out,
                 report.Json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
+  if (!options.plots.empty()) WriteRegressionPages(report, options.plots);
   std::optional<RegressionComparison> comparison;
   if (old_run) {
     comparison = CompareRegressions(*old_run, report.Json(), options.problems.empty());
@@ -204,7 +208,10 @@ Command AddRegressCommand(CLI::App& program) {
   auto options = std::make_shared<RegressOptions>();
   app->add_option("--out", options->out, "File for the results, JSON");
   app->add_option("--against", options->against, "File of an earlier run: what got worse since?");
+  app->add_option("--plots", options->plots,
+                  "Folder for pictures of the solutions, SVG, and a page with all of them");
   app->add_option("--problem", options->problems, "Names and commas (default: all)");
+  app->add_option("--robot", options->robot, "For the robot's problems")->capture_default_str();
   app->add_option(
       "--scheme", options->scheme,
       "trapezoidal, hermite_simpson or hermite_simpson_compressed (default: each problem's own)");

@@ -4,7 +4,7 @@ namespace possibility::experiments {
 
 std::vector<RegressionProblem> RegressionProblems() {
   std::vector<RegressionProblem> all = ClosedFormProblems();
-  for (auto&& more : {TextbookProblems(), SwingUpProblems()}) {
+  for (auto&& more : {TextbookProblems(), SwingUpProblems(), WalkingProblems()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

@@ -40,6 +40,7 @@ std::vector<RegressionProblem> RegressionProblems(const models::RobotModel& huma
 std::vector<RegressionProblem> ClosedFormProblems();
 std::vector<RegressionProblem> TextbookProblems();
 std::vector<RegressionProblem> SwingUpProblems();
+std::vector<RegressionProblem> WalkingProblems();
 /// Of a humanoid with DRC-HUBO1's joint names.
 std::vector<RegressionProblem> RobotProblems(const models::RobotModel& humanoid);
 

@@ -123,6 +123,7 @@ RegressionRecord RunProblem(const RegressionProblem& problem, const RegressionOp
     const auto posed = problem.build();
     const OptimalControlResult result = SolveOptimalControl(*posed, solve);
     CopyResult(result, &record);
+    record.solution = Store(*posed, result);
     LookUp(problem, &record);
     record.within_tolerance =
         result.succeeded() && record.relative_error <= record.nearest.tolerance;

@@ -42,6 +42,7 @@ struct RegressionRecord {
   collocation::SolverTimes seconds;
   int variables = 0;
   int constraints = 0;
+  collocation::StoredSolution solution;  ///< without phases if there is none; not in the JSON
 
   nlohmann::ordered_json Json() const;
 };

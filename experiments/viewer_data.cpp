@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "actions/contact_name.h"
 #include "experiments/base64.h"
 #include "experiments/plan_summary.h"
 
@@ -123,7 +124,11 @@ class MotionPacker {
 
   Json Add(const actions::Phase& phase) {
     Json contacts = Json::array();
-    for (const std::string& name : phase.contacts) contacts.push_back(robot_.ContactIndex(name));
+    Json points = Json::array();
+    for (const actions::BearingPatch& bearing : actions::BearingPatches(robot_, phase)) {
+      contacts.push_back(bearing.patch);
+      points.push_back(bearing.points);
+    }
     const int first = count_;
     const std::size_t first_force = forces_.size();
     const actions::Knot* kept = nullptr;
@@ -134,6 +139,7 @@ class MotionPacker {
       AddKnot(knot);
     }
     return {{"contacts", contacts},
+            {"points", points},
             {"first", first},
             {"count", count_ - first},
             {"forces", first_force}};

@@ -288,6 +288,18 @@ Transition ReadTransition(const YamlNode& node, const RobotModel& robot) {
   return transition;
 }
 
+Jump ReadJump(const YamlNode& node, const RobotModel& robot) {
+  node.MapOf({"name", "from", "to"});
+  const Gait& from = robot.gaits[IndexOfNamed(node.At("from"), robot.gaits, "gait")];
+  const Gait& to = robot.gaits[IndexOfNamed(node.At("to"), robot.gaits, "gait")];
+  if (&from == &to) node.At("to").FailExpected("another gait than 'from'");
+  const Jump jump{node.At("name").String(), from.name, to.name};
+  for (const Gait& gait : robot.gaits) {
+    if (gait.name == jump.name) node.At("name").Fail("this name is already that of a gait");
+  }
+  return jump;
+}
+
 }  // namespace
 
 std::vector<Gait> ReadGaits(const YamlNode& list, const RobotModel& robot) {
@@ -314,6 +326,18 @@ std::vector<Transition> ReadTransitions(const YamlNode& list, const RobotModel& 
     }
   }
   return transitions;
+}
+
+std::vector<Jump> ReadJumps(const YamlNode& list, const RobotModel& robot) {
+  std::vector<Jump> jumps;
+  for (const YamlNode& node : list.Items()) {
+    Jump jump = ReadJump(node, robot);
+    for (const Jump& other : jumps) {
+      if (other.name == jump.name) node.At("name").Fail("this name is already taken");
+    }
+    jumps.push_back(std::move(jump));
+  }
+  return jumps;
 }
 
 }  // namespace possibility::models

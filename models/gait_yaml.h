@@ -15,4 +15,7 @@ std::vector<Gait> ReadGaits(const YamlNode& list, const RobotModel& robot);
 /// Reads the `transitions` list; the gaits of `robot` are complete.
 std::vector<Transition> ReadTransitions(const YamlNode& list, const RobotModel& robot);
 
+/// Reads the `jumps` list; the gaits of `robot` are complete.
+std::vector<Jump> ReadJumps(const YamlNode& list, const RobotModel& robot);
+
 }  // namespace possibility::models

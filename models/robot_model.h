@@ -114,6 +114,13 @@ struct Transition {
   std::vector<TransitionKeyframe> keyframes;  ///< the last one is the nominal posture of `to`
 };
 
+/// A standing long jump from the nominal stance of one gait to that of another, straight ahead.
+struct Jump {
+  std::string name;  ///< the action it is: "jump"
+  std::string from;
+  std::string to;
+};
+
 /// Immutable description of a robot: URDF + robot YAML (docs/file_formats.md).
 ///
 /// Mimic joints have their entries in q, v, a and torques like all others; those of q, v and a
@@ -135,6 +142,7 @@ struct RobotModel {
   double friction = 0;
   std::vector<Gait> gaits;
   std::vector<Transition> transitions;
+  std::vector<Jump> jumps;
   int pelvis_shape_link = 0;  ///< the link whose shapes alone form C_N's collision geometry
 
   int num_joints() const { return static_cast<int>(joints.size()); }

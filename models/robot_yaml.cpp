@@ -143,6 +143,7 @@ const std::vector<std::string> kRobotKeys = {"name",
                                              "contacts",
                                              "gaits",
                                              "transitions",
+                                             "jumps",
                                              "sagittal_pairs",
                                              "ignored_collisions"};
 
@@ -167,6 +168,7 @@ void ReadDescription(const YamlNode& root, RobotModel* robot) {
   if (const auto transitions = root.Find("transitions")) {
     robot->transitions = ReadTransitions(*transitions, *robot);
   }
+  if (const auto jumps = root.Find("jumps")) robot->jumps = ReadJumps(*jumps, *robot);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ std::vector<std::string> ReadActions(const YamlNode& list) {
 
 PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   node.MapOf({"step", "rotation_weight", "max_transitions_per_cycle", "flood_after_cycles",
-              "flood_resolution"});
+              "flood_resolution", "skip_jumps"});
   PlannerSettings settings;
   if (const auto step = node.Find("step")) settings.step = step->Number(0.001, 100);
   if (const auto weight = node.Find("rotation_weight")) {
@@ -76,6 +76,7 @@ PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   if (const auto cell = node.Find("flood_resolution")) {
     settings.flood_resolution = cell->Number(0.005, 10);
   }
+  if (const auto skip = node.Find("skip_jumps")) settings.skip_jumps = skip->Number(0, 1);
   return settings;
 }
 
@@ -109,16 +110,39 @@ Scenario LoadScenario(const std::filesystem::path& yaml_file) {
 }
 
 void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot) {
-  std::vector<std::string> known;
-  for (const Gait& gait : robot.gaits) known.push_back(gait.name);
+  CheckActionsOfRobot(scenario.actions, robot, scenario.file.string() + ": actions");
   const auto check = [&](const std::string& action, const std::string& key) {
-    if (std::find(known.begin(), known.end(), action) != known.end()) return;
-    throw InputError(fmt::format("{}: {}: robot '{}' has no action '{}'{}", scenario.file.string(),
-                                 key, robot.name, action, DidYouMean(action, known)));
+    for (const Jump& jump : robot.jumps) {
+      if (jump.name != action) continue;
+      throw InputError(fmt::format("{}: {}: '{}' is a jump, expected a gait to stand in",
+                                   scenario.file.string(), key, action));
+    }
   };
-  for (const std::string& action : scenario.actions) check(action, "actions");
   check(scenario.start.action, "start.action");
   for (const Stance& goal : scenario.goals) check(goal.action, "goal.action");
+}
+
+void CheckActionsOfRobot(const std::vector<std::string>& actions, const RobotModel& robot,
+                         const std::string& where) {
+  std::vector<std::string> known;
+  for (const Gait& gait : robot.gaits) known.push_back(gait.name);
+  for (const Jump& jump : robot.jumps) known.push_back(jump.name);
+  const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string& action : actions) {
+    if (contains(known, action)) continue;
+    throw InputError(fmt::format("{}: robot '{}' has no action '{}'{}", where, robot.name, action,
+                                 DidYouMean(action, known)));
+  }
+  for (const Jump& jump : robot.jumps) {
+    if (!contains(actions, jump.name)) continue;
+    for (const std::string& gait : {jump.from, jump.to}) {
+      if (contains(actions, gait)) continue;
+      throw InputError(fmt::format("{}: '{}' jumps from '{}' to '{}', but '{}' is not among them",
+                                   where, jump.name, jump.from, jump.to, gait));
+    }
+  }
 }
 
 }  // namespace possibility::models

@@ -25,6 +25,7 @@ struct PlannerSettings {
   int max_transitions_per_cycle = 5;  ///< Algorithm 2
   int flood_after_cycles = 200;       ///< exploration cycles before asking whether a route exists
   double flood_resolution = 0.1;      ///< m, cell of that flood
+  double skip_jumps = 0.9;            ///< probability that a cycle does not grow jumps (paper: 0.9)
 };
 
 /// What to plan: robot, world, start, goals, actions and settings.
@@ -45,9 +46,14 @@ struct Scenario {
 /// @throws InputError for anything malformed (see docs/file_formats.md).
 Scenario LoadScenario(const std::filesystem::path& yaml_file);
 
-/// Checks what only the robot can tell: every action of the scenario, its start and its goals is
-/// a gait of the robot.
+/// Checks what only the robot can tell: every action of the scenario is a gait of the robot or a
+/// jump between two gaits that are among the actions as well; start and goals are gaits.
 /// @throws InputError naming the scenario, the action and the nearest known name.
 void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot);
+
+/// The part of it about a list of actions. `where`: begins the message.
+/// @throws InputError.
+void CheckActionsOfRobot(const std::vector<std::string>& actions, const RobotModel& robot,
+                         const std::string& where);
 
 }  // namespace possibility::models

@@ -268,7 +268,7 @@ class Drawing {
   updateForces(t, phase) {
     if (!this.forces.visible) return;
     this.forces.remove(...this.forces.children);
-    const points = [].concat(...phase.contacts.map((c) => this.motion.contactPoints(c)));
+    const points = this.motion.bearingPoints(phase);
     this.motion.contactForces(t, phase).forEach((force, i) => {
       const length = force.length() * kForceScale;
       if (length < 1e-3) return;

@@ -49,7 +49,8 @@ class Motion {
       first: phase.first,
       count: phase.count,
       forces: phase.forces,
-      points: phase.contacts.reduce((sum, c) => sum + this.contacts[c].points.length, 0),
+      bearing: phase.points,
+      points: phase.points.reduce((sum, points) => sum + points.length, 0),
       begin: this.knots[phase.first * this.stride],
       end: this.knots[(phase.first + phase.count - 1) * this.stride],
     };
@@ -104,6 +105,14 @@ class Motion {
   contactPoints(contact) {
     const {link, points} = this.contacts[contact];
     return points.map((p) => new THREE.Vector3(...p).applyMatrix4(this.linkPoses[link]));
+  }
+
+  /* The same for all points that bear in a phase, in the order of its forces. */
+  bearingPoints(phase) {
+    return [].concat(...phase.contacts.map((contact, i) => {
+      const points = this.contactPoints(contact);
+      return phase.bearing[i].map((point) => points[point]);
+    }));
   }
 
   /* Forces (N) at the points of the phase's contacts, in their order. */

@@ -86,6 +86,8 @@ TEST_F(PlanFile, ComesBackAsWritten) {
       const Phase& expected = plan_.segments[s].phases[p];
       const Phase& phase = read.segments[s].phases[p];
       EXPECT_EQ(phase.contacts, expected.contacts);
+      ASSERT_EQ(phase.impulses.cols(), expected.impulses.cols());
+      EXPECT_TRUE(phase.impulses.isApprox(expected.impulses, 1e-11));
       ASSERT_EQ(phase.knots.size(), expected.knots.size());
       for (std::size_t k = 0; k < expected.knots.size(); ++k) {
         EXPECT_EQ(phase.knots[k].t, expected.knots[k].t);
@@ -209,6 +211,44 @@ TEST_F(PlanFile, NamesTheKnotThatIsWrong) {
   ExpectRefused([&](json* d) { phase(d)["q"][0][0] = 5; }, at + "q[0]: expected a unit quaternion");
   ExpectRefused([&](json* d) { phase(d)["contacts"][0] = 7; }, at + "contacts[0]: expected a str");
   ExpectRefused([&](json* d) { phase(d).erase("contacts"); }, "missing key \"contacts\"");
+}
+
+TEST_F(PlanFile, NamesTheContactThatIsWrong) {
+  const auto contacts = [](json* d) -> json& {
+    return (*d)["segments"][1]["phases"][1]["contacts"];
+  };
+  const std::string at = "segments[1].phases[1].contacts";
+  for (const char* name : {"", "]", "[0]", "sole[]", "sole[,]", "sole[0,]", "sole[,0]", "sole[3,0]",
+                           "sole[0,0]", "sole[-1]", "sole[+1]", "sole[00]", "sole[0, 3]",
+                           "sole[0;3]", "sole[x]", "sole[99999999999]", "sole0]", "so\nle[x]"}) {
+    ExpectRefused([&](json* d) { contacts(d)[0] = name; }, at + "[0]: contact \"");
+  }
+  ExpectRefused([&](json* d) { contacts(d)[1] = "left_sole"; },
+                at + "[1]: patch \"left_sole\" stands twice in a phase");
+  ExpectRefused([&](json* d) { contacts(d)[1] = "left_sole[1,2]"; },
+                at + "[1]: patch \"left_sole\" stands twice in a phase");
+}
+
+TEST_F(PlanFile, NamesTheImpulseThatIsWrong) {
+  const auto phase = [](json* d) -> json& { return (*d)["segments"][1]["phases"][1]; };
+  const std::string at = "segments[1].phases[1].";
+  ExpectRefused([&](json* d) { phase(d)["impulses"].push_back(0); },
+                at + "impulses: expected 9 numbers, got 10");
+  ExpectRefused([&](json* d) { phase(d)["impulses"] = json::array(); },
+                at + "impulses: expected 9 numbers, got 0");
+  ExpectRefused([&](json* d) { phase(d)["impulses"] = nullptr; },
+                at + "impulses: expected an array");
+  ExpectRefused([&](json* d) { phase(d)["impulses"][4] = "x"; },
+                at + "impulses[4]: expected a number");
+  ExpectRefused([&](json* d) { (*d)["segments"][0]["phases"][1]["impulses"] = json::array(); },
+                "segments[0].phases[1].impulses: expected none where nothing touches the ground");
+  ExpectRefused([&](json* d) { phase(d)["impulse"] = json::array(); }, "impulse");
+}
+
+TEST_F(PlanFile, SaysNothingOfImpactsWhereThereAreNone) {
+  const json document = json::parse(Written(plan_));
+  EXPECT_FALSE(document["segments"][0]["phases"][0].contains("impulses"));
+  EXPECT_TRUE(document["segments"][1]["phases"][1].contains("impulses"));
 }
 
 TEST_F(PlanFile, RefusesOddJson) {

@@ -27,7 +27,7 @@ inline Knot RandomKnot(double t, int num_joints, int num_points, std::mt19937* g
   return knot;
 }
 
-/// A plan that is a plan in form only: its numbers mean nothing.
+/// A plan that is a plan in form only, flight and impact included: its numbers mean nothing.
 inline Plan RandomPlan(std::mt19937* generator) {
   Plan plan;
   plan.robot_file = "robot folder/robot.yaml";
@@ -45,11 +45,19 @@ inline Plan RandomPlan(std::mt19937* generator) {
     segment.action = s == 0 ? "walk" : "walk->crawl";
     for (int p = 0; p < 2; ++p) {
       Phase phase;
-      if (p == 0) phase.contacts = {"left_sole", "right_sole"};
+      int num_points = 0;
+      if (p == 0) {
+        phase.contacts = {"left_sole", "right_sole"};
+        num_points = 8;
+      } else if (s == 1) {
+        phase.contacts = {"left_sole[0,3]", "right_peg"};
+        num_points = 3;
+      }
       for (int k = 0; k < 3; ++k) {
-        phase.knots.push_back(RandomKnot(t, 3, p == 0 ? 8 : 0, generator));
+        phase.knots.push_back(RandomKnot(t, 3, num_points, generator));
         if (k < 2) t += 0.1;
       }
+      if (s == 1 && p == 1) phase.impulses = RandomKnot(t, 3, num_points, generator).forces;
       segment.phases.push_back(phase);
     }
     plan.segments.push_back(segment);

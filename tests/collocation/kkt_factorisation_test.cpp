@@ -244,6 +244,33 @@ TEST(KktFactorisation, TellsDependentConstraintsAndEmptyRows) {
   }
 }
 
+TEST(KktFactorisation, ZeroColumnsAreNotCarriedToTheRoot) {
+  // A coordinate that the dynamics hold at its bound: x_k+1 = x_k + h v_k, v_k+1 = v_k with a
+  // barrier term so large on every x that the rows of x say nothing but what those of v say.
+  std::mt19937 random(9);
+  constexpr int kSteps = 60;
+  constexpr double kStep = 0.01;
+  Sample sample;
+  sample.size = 4 * kSteps;
+  sample.num_dual = 2 * kSteps;
+  for (int k = 0; k < kSteps; ++k) {
+    const int x = 2 * k, v = 2 * k + 1, row = 2 * kSteps + 2 * k;
+    sample.Add(x, x, 1e17);
+    sample.Add(row, x, 1);
+    sample.Add(row, v, -kStep);
+    sample.Add(row + 1, v, 1);
+    if (k == 0) continue;
+    sample.Add(row, x - 2, -1);
+    sample.Add(row, v - 2, -kStep);
+    sample.Add(row + 1, v - 2, -1);
+  }
+  KktFactorisation kkt(sample.size, sample.num_dual, sample.rows, sample.columns);
+  EXPECT_EQ(kkt.Factorise(sample.values.data(), 1e-6), KktStatus::kSingular);
+  EXPECT_LT(kkt.num_delayed(), kSteps);
+  for (int k = 2 * kSteps; k < sample.size; ++k) sample.Add(k, k, -1e-8);
+  ExpectFactorises(sample, 1e-6, 1e-9, &random);
+}
+
 TEST(KktFactorisation, RefusesWhatIsNotANumber) {
   std::mt19937 random(7);
   Shape shape;

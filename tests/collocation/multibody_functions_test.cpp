@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "dynamics/forward_dynamics.h"
 #include "tests/dynamics/random_robot.h"
@@ -49,7 +51,7 @@ void ExpectExactDerivatives(Function* f, const VectorXd& z, const VectorXd& mult
   EXPECT_LT(RelativeError(H, H.transpose()), 1e-13);
   const Mask hessian_mask = f->HessianMask();
   const MatrixXd masked = hessian_mask.select(H.array(), 0.0);
-  EXPECT_LT((H - masked).cwiseAbs().maxCoeff(), 1e-12 * H.cwiseAbs().maxCoeff());
+  EXPECT_LE((H - masked).cwiseAbs().maxCoeff(), 1e-12 * H.cwiseAbs().maxCoeff());
 }
 
 TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
@@ -59,7 +61,8 @@ TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
         dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
     const auto points = TwoPoints(&random, model);
     for (const auto& f : {EquationOfMotion(model, points), PointPositions(model, points),
-                          PointVelocities(model, points), ImpactMap(model, points)}) {
+                          PointVelocities(model, points), PointAccelerations(model, points),
+                          SquaredDistance(model, points[0], points[1]), ImpactMap(model, points)}) {
       ExpectExactDerivatives(f.get(), dynamics::RandomVector(&random, f->num_inputs(), 1.5),
                              dynamics::RandomVector(&random, f->num_outputs(), 1));
     }
@@ -105,9 +108,83 @@ TEST(MultibodyFunctionsTest, AnImpactSolvesTheImpactMap) {
   }
 }
 
+TEST(MultibodyFunctionsTest, PointsMoveAsTheDynamicsSay) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PlanarModel model =
+        dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
+    const int n = model->nv();
+    const auto points = TwoPoints(&random, model);
+    const VectorXd z = dynamics::RandomVector(&random, 3 * n, 1.5);
+    dynamics::MultibodyDynamics motion(model);
+    motion.SetState(z.head(n), z.segment(n, n), z.tail(n));
+    VectorXd accelerations(4), squared_distance(1);
+    PointAccelerations(model, points)->Evaluate(z, &accelerations);
+    SquaredDistance(model, points[0], points[1])->Evaluate(z.head(n), &squared_distance);
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d expected = motion.Acceleration(points[i]);
+      EXPECT_EQ(accelerations.segment<2>(2 * i), Eigen::Vector2d(expected.x(), expected.z()));
+    }
+    const Eigen::Vector3d apart = motion.Position(points[0]) - motion.Position(points[1]);
+    EXPECT_NEAR(squared_distance[0], apart.squaredNorm(), 1e-14);
+  }
+}
+
+/// Values of f along the parabola q + v t + a t^2 / 2.
+class Along {
+ public:
+  Along(std::shared_ptr<Function> f, const VectorXd& z) : f_(std::move(f)), z_(z) {}
+  VectorXd operator()(double t) const {
+    const int n = static_cast<int>(z_.size()) / 3;
+    VectorXd y(f_->num_outputs());
+    f_->Evaluate(z_.head(n) + t * z_.segment(n, n) + t * t / 2 * z_.tail(n), &y);
+    return y;
+  }
+
+ private:
+  std::shared_ptr<Function> f_;
+  VectorXd z_;
+};
+
+TEST(MultibodyFunctionsTest, AccelerationsAreSecondDerivativesOfPositionsInTime) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PlanarModel model =
+        dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
+    const auto points = TwoPoints(&random, model);
+    const VectorXd z = dynamics::RandomVector(&random, 3 * model->nv(), 1.5);
+    const Along position(PointPositions(model, points), z);
+    constexpr double h = 2e-3;  // fourth-order central differences
+    const VectorXd expected = (16 * (position(h) + position(-h)) - position(2 * h) -
+                               position(-2 * h) - 30 * position(0)) /
+                              (12 * h * h);
+    VectorXd accelerations(4);
+    PointAccelerations(model, points)->Evaluate(z, &accelerations);
+    EXPECT_LT(RelativeError(accelerations, expected), 1e-7);
+  }
+}
+
+TEST(MultibodyFunctionsTest, DistancesAndAccelerationsAreMaskedWhereNothingDepends) {
+  std::mt19937 random(7);
+  const PlanarModel model =
+      dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 4));
+  const int n = model->nv();
+  const auto points = TwoPoints(&random, model);
+  // No distance within the system changes as its base moves.
+  EXPECT_FALSE(SquaredDistance(model, points[0], points[1])->JacobianMask().leftCols(3).any());
+  EXPECT_FALSE(SquaredDistance(model, points[0], points[1])->HessianMask().leftCols(3).any());
+  // Neither the place nor the velocity of the base accelerates a point; its acceleration does.
+  const Mask mask = PointAccelerations(model, points)->JacobianMask();
+  EXPECT_FALSE(mask.middleCols(1, 2).any());
+  EXPECT_FALSE(mask.middleCols(n + 1, 2).any());
+  EXPECT_TRUE(mask.middleCols(2 * n + 1, 2).any());
+}
+
 TEST(MultibodyFunctionsTest, RefusesASpatialModel) {
   std::mt19937 random(4);
   const auto model = dynamics::MultibodyModel::Spatial(dynamics::RandomTree(&random, 2));
+  EXPECT_THROW(PointAccelerations(model, {}), std::invalid_argument);
+  EXPECT_THROW(SquaredDistance(model, {}, {}), std::invalid_argument);
   EXPECT_THROW(EquationOfMotion(model, {}), std::invalid_argument);
 }
 

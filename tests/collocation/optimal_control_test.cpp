@@ -145,6 +145,28 @@ TEST(OptimalControlTest, StartsFromAnotherSolution) {
   EXPECT_NEAR(warm.objective, cold.objective, 1e-6 * cold.objective);
 }
 
+TEST(OptimalControlTest, CancelledWhileItsProgramIsBuilt) {
+  const auto problem = Smooth();
+  SolveControl control;
+  control.Cancel();
+  const OptimalControlResult result = SolveOptimalControl(*problem, {}, std::nullopt, &control);
+  EXPECT_EQ(result.status, SolverStatus::kCancelled);
+  EXPECT_EQ(result.message, "cancelled");
+  EXPECT_TRUE(result.trajectory.phases.empty());
+  EXPECT_TRUE(std::isnan(result.mesh_error));
+  EXPECT_TRUE(result.violations.empty());
+}
+
+TEST(OptimalControlTest, CancelledOnItsWayKeepsTheMotionItHad) {
+  const auto problem = Smooth();
+  SolveControl control;
+  const OptimalControlResult result = SolveOptimalControl(
+      *problem, {}, std::nullopt, &control, [&](const SolverIteration&) { control.Cancel(); });
+  EXPECT_EQ(result.status, SolverStatus::kCancelled);
+  EXPECT_EQ(result.trajectory.phases.size(), 1U);
+  EXPECT_TRUE(std::isnan(result.mesh_error));
+}
+
 TEST(OptimalControlTest, NamesTheConstraintThatCannotBeMet) {
   // The force is far too small to move the mass by 2 m in half a second.
   auto weak = std::make_unique<OptimalControlProblem>("weak");

@@ -350,7 +350,7 @@ TEST(Solver, RefusesBadInputByName) {
 
   program = hs071.program;
   ExpectInvalid(&program, At(Vector({1, 2})), {}, "2 variables instead of 4");
-  ExpectInvalid(&program, At(Vector({1, 2, 3, kInfinity})), {}, "not finite");
+  ExpectInvalid(&program, At(Vector({1, 2, 3, kInfinity})), {}, "'x4' is inf");
   SolverGuess guess = At(hs071.start);
   guess.lower_multipliers = VectorXd::Zero(4);
   ExpectInvalid(&program, guess, {}, "constraint multipliers");

@@ -86,6 +86,21 @@ TEST_F(CsvTables, ForcesStandBesideThePointsTheyActOn) {
   EXPECT_EQ(numbers[3], knot.forces(0, 4));
 }
 
+TEST_F(CsvTables, PartOfAPatchIsListedByItsOwnPoints) {
+  actions::Plan plan = plan_;
+  actions::Phase& phase = plan.segments[0].phases[0];
+  phase.contacts = {"sole[0,3]"};
+  for (actions::Knot& knot : phase.knots) knot.forces = Eigen::Matrix3Xd::Random(3, 2);
+  const std::vector<Row> rows = Parse(ContactForcesCsv(SamplesAtKnots(plan), plan, robot_));
+  ASSERT_EQ(rows.size(), 1u + 9 * 2 + 9 * 5);
+  const std::vector<Row> whole = Parse(ContactForcesCsv(SamplesAtKnots(plan_), plan_, robot_));
+  EXPECT_EQ(rows[1][3], "sole");
+  EXPECT_EQ(rows[1][4], "0");
+  EXPECT_EQ(rows[2][4], "3");
+  for (int i : {5, 6, 7}) EXPECT_EQ(rows[2][i], whole[4][i]);
+  EXPECT_EQ(std::stod(rows[2][8]), phase.knots[0].forces(0, 1));
+}
+
 TEST_F(CsvTables, StepGivesEvenTimesAndTheEnd) {
   const std::vector<PlanSample> samples = SamplesEvery(plan_, 0.3);
   ASSERT_EQ(samples.size(), 15u);

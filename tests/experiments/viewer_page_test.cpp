@@ -47,6 +47,20 @@ TEST_F(ViewerPageTest, HoldsEveryName) {
   EXPECT_EQ(data["explored"]["actions"], (std::vector<std::string>{"walk", "crawl"}));
 }
 
+TEST_F(ViewerPageTest, SaysWhichPointsOfAPatchBear) {
+  using Points = std::vector<std::vector<int>>;
+  EXPECT_EQ(EmbeddedData(Page())["segments"][1]["phases"][0]["points"],
+            (Points{{0, 1, 2, 3}, {0}}));
+  actions::Phase& phase = plan_.segments[1].phases[0];
+  phase.contacts[0] = "sole[0,3]";
+  for (actions::Knot& knot : phase.knots) knot.forces.setZero(3, 3);
+  plan_.segments[0].phases[0].contacts.clear();
+  const nlohmann::json data = EmbeddedData(Page());
+  EXPECT_EQ(data["segments"][1]["phases"][0]["contacts"], (std::vector<int>{0, 1}));
+  EXPECT_EQ(data["segments"][1]["phases"][0]["points"], (Points{{0, 3}, {0}}));
+  EXPECT_TRUE(data["segments"][0]["phases"][0]["points"].empty());
+}
+
 TEST_F(ViewerPageTest, FactsArePairsInOrder) {
   const nlohmann::json facts = EmbeddedData(Page())["facts"];
   ASSERT_TRUE(facts.is_array());

@@ -1,13 +1,16 @@
-#include "actions/json_cursor.h"
+#include "models/json_cursor.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
+#include <vector>
 
 #include "models/input_error.h"
 
-namespace possibility::actions {
+namespace possibility::models {
 namespace {
 
 /// A key as it may stand in a one-line message.
@@ -16,7 +19,53 @@ std::string Printable(const std::string& key) {
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
+/// Refuses a key that an object holds twice.
+class DuplicateKeyGuard {
+ public:
+  explicit DuplicateKeyGuard(const std::filesystem::path& file) : file_(&file) {}
+
+  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) keys_.emplace_back();
+    if (event == Event::object_end) keys_.pop_back();
+    if (event == Event::key && !keys_.back().insert(parsed).second) {
+      throw InputError(fmt::format("{}: key {} stands twice in one object, expected once",
+                                   file_->string(), Printable(parsed)));
+    }
+    return true;
+  }
+
+ private:
+  const std::filesystem::path* file_;
+  std::vector<std::set<std::string>> keys_;
+};
+
 }  // namespace
+
+nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& file,
+                         std::string_view kind) {
+  try {
+    DuplicateKeyGuard guard(file);
+    return nlohmann::json::parse(text, std::ref(guard));
+  } catch (const nlohmann::json::parse_error& error) {
+    throw InputError(fmt::format("{}: not valid JSON at byte {} of {}, expected {}", file.string(),
+                                 error.byte, text.size(), kind));
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(fmt::format("{}: not valid JSON (a number is out of range), expected {}",
+                                 file.string(), kind));
+  }
+}
+
+void JsonCursor::ExpectFormat(std::string_view format) const {
+  if (!value_->is_object() || !value_->contains("format")) {
+    Fail(fmt::format("no \"format\", expected \"{}\"", format));
+  }
+  const JsonCursor cursor = (*this)["format"];
+  const std::string found = cursor.String();
+  if (found != format) {
+    cursor.Fail(fmt::format("{}, expected \"{}\"", Printable(found), format));
+  }
+}
 
 void JsonCursor::ExpectKeys(std::initializer_list<std::string_view> keys) const {
   if (!value_->is_object()) {
@@ -71,6 +120,13 @@ std::string JsonCursor::String() const {
   return value_->get<std::string>();
 }
 
+bool JsonCursor::Bool() const {
+  if (!value_->is_boolean()) {
+    Fail(fmt::format("expected true or false, got {}", value_->type_name()));
+  }
+  return value_->get<bool>();
+}
+
 std::size_t JsonCursor::ArraySize() const {
   if (!value_->is_array()) Fail(fmt::format("expected an array, got {}", value_->type_name()));
   return value_->size();
@@ -89,4 +145,4 @@ std::string JsonCursor::Path() const {
   return parent.empty() ? key_ : fmt::format("{}.{}", parent, key_);
 }
 
-}  // namespace possibility::actions
+}  // namespace possibility::models

@@ -7,7 +7,13 @@
 #include <string>
 #include <string_view>
 
-namespace possibility::actions {
+namespace possibility::models {
+
+/// A JSON document. `kind` says what was expected, in messages: "a FORMAT file".
+/// @throws InputError if the text is not JSON, or an object holds a key twice (of which the parser
+/// alone would keep the last).
+nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& file,
+                         std::string_view kind);
 
 /// A place in a JSON document that knows its way from the root, so that whatever is wrong there
 /// can be reported with file and path. The path is only spelled out when something is wrong.
@@ -17,6 +23,9 @@ class JsonCursor {
   /// The root. `file` is only named in messages.
   JsonCursor(const nlohmann::json& value, const std::filesystem::path& file)
       : value_(&value), file_(&file) {}
+
+  /// @throws InputError unless this is an object whose "format" is this.
+  void ExpectFormat(std::string_view format) const;
 
   /// @throws InputError unless this is an object with exactly these keys, in any order.
   void ExpectKeys(std::initializer_list<std::string_view> keys) const;
@@ -32,6 +41,7 @@ class JsonCursor {
   std::int64_t Integer(std::int64_t lowest, std::int64_t highest) const;
   std::uint64_t Unsigned() const;
   std::string String() const;
+  bool Bool() const;
   std::size_t ArraySize() const;
 
   /// @throws InputError "FILE: PATH: MESSAGE".
@@ -50,4 +60,4 @@ class JsonCursor {
   std::size_t index_ = 0;
 };
 
-}  // namespace possibility::actions
+}  // namespace possibility::models

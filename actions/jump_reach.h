@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "actions/jump_library.h"
+
+namespace possibility::actions {
+
+/// Distances that any legged body has a fair chance of jumping, for lack of a table: by leg length
+/// alone, whatever the height. One row per height (m, ascending).
+JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& heights);
+
+/// The same rows with the farthest distance found out by solving; the shortest stays. What is
+/// solved on the way stays in the library. Takes for granted that nothing beyond an impossible
+/// distance is possible. `keep_going`: asked often, may be empty.
+/// @throws Abandoned if it says no.
+JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
+                         const std::function<bool()>& keep_going = {});
+
+/// Upper bounds, by joint speeds and lengths alone, of how a body that legs throw up can fly.
+struct FlightBounds {
+  double rise = 0;   ///< m, of the highest point of flight above the launch
+  double range = 0;  ///< m, between the stances, on level ground
+};
+FlightBounds BoundFlight(const JumpModel& model);
+
+}  // namespace possibility::actions

@@ -1,0 +1,369 @@
+#include "actions/long_jump.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "actions/exploration_pose.h"
+#include "actions/jump_reach.h"
+#include "collocation/solve_control.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+
+/// Heights and positions of points in E agree when closer than this, m.
+constexpr double kSamePlace = 1e-6;
+/// Headings, rad.
+constexpr double kSameHeading = 1e-6;
+
+/// Apexes and points of parabolas that C_N looks at, m.
+constexpr double kRiseSpacing = 0.05;
+constexpr double kArcSpacing = 0.05;
+
+/// Ground this far to all sides is wide enough for every stance, m: what is narrower is looked at
+/// closely.
+constexpr double kWideGround = 0.4;
+
+bool SamePoint(const graph::Point& a, const graph::Point& b) {
+  return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
+}
+
+bool SameEdge(const graph::PointPair& a, const graph::PointPair& b) {
+  return SamePoint(a.from, b.from) && SamePoint(a.to, b.to);
+}
+
+bool SameTask(const JumpTask& a, const JumpTask& b) {
+  return std::abs(a.distance - b.distance) < kSamePlace &&
+         std::abs(a.height - b.height) < kSamePlace;
+}
+
+}  // namespace
+
+/// Solves the jump unless it is known, then looks for collisions where it is to happen.
+class LongJump::Job : public graph::ConfirmationJob {
+ public:
+  Job(const LongJump& action, graph::PointPair edge, const Leap& leap)
+      : action_(action), edge_(std::move(edge)), leap_(leap) {}
+
+  graph::JobVerdict Run(graph::JobControl* control) override {
+    collocation::SolveControl solve;
+    JumpAnswer answer;
+    const bool go_on = control->RunSteered(
+        {.pause = [&] { solve.Pause(); },
+         .resume = [&] { solve.Resume(); },
+         .cancel = [&] { solve.Cancel(); }},
+        [&] { answer = action_.entry().library->FindOrSolve(leap_.task, &solve); });
+    if (!go_on || answer.cancelled) return graph::JobVerdict::kUndecided;
+    if (answer.jump) return Place(answer.jump, control);
+    action_.RecordImpossible(leap_.task);
+    return Decide(false, answer.reason);
+  }
+
+  std::string reason() const override { return reason_; }
+
+ private:
+  graph::JobVerdict Place(std::shared_ptr<const SolvedJump> jump, graph::JobControl* control) {
+    const Solved solved = action_.Examined(std::move(jump));
+    if (!solved.hit.empty()) {
+      action_.RecordImpossible(leap_.task);
+      return Decide(false, solved.hit);
+    }
+    const std::string hit =
+        FirstHit(*action_.model_->robot, *action_.world_.environment, action_.robot_checker_,
+                 *solved.poses, leap_.launch.pose.At(leap_.launch.z), [&] { return control->Checkpoint(); });
+    if (!control->Checkpoint()) return graph::JobVerdict::kUndecided;
+    return Decide(hit.empty(), hit);
+  }
+
+  graph::JobVerdict Decide(bool possible, const std::string& reason) {
+    reason_ = reason;
+    action_.Record(edge_, possible, reason);
+    return possible ? graph::JobVerdict::kConfirmed : graph::JobVerdict::kRefuted;
+  }
+
+  const LongJump& action_;
+  graph::PointPair edge_;
+  Leap leap_;
+  std::string reason_;
+};
+
+LongJump::LongJump(const LocomotionModel& model, int jump, const World& world,
+                   std::shared_ptr<const QuasiStaticAction> launch,
+                   std::shared_ptr<const QuasiStaticAction> landing, JumpReach reach)
+    : model_(&model),
+      jump_(jump),
+      world_(world),
+      launch_(std::move(launch)),
+      landing_(std::move(landing)),
+      reach_(std::move(reach)),
+      highest_rise_(BoundFlight(model.jumps[jump].solver->model()).rise),
+      pelvis_checker_(*world.environment),
+      robot_checker_(*model.robot, *world.environment),
+      pelvis_(*model.robot, pelvis_checker_) {
+  for (const LocomotionModel::TransitionEntry& transition : model.transitions) {
+    if (transition.from == entry().from && transition.to == entry().to) transition_ = &transition;
+  }
+  const auto add = [this](const std::vector<Eigen::AlignedBox3d>& boxes, double x) {
+    for (const Eigen::AlignedBox3d& box : boxes) {
+      room_.extend(box.translated(Eigen::Vector3d(x, 0, 0)));
+    }
+  };
+  add(model.gaits[entry().from]->sweep, 0);
+  add(model.gaits[entry().to]->sweep, 0);
+  if (transition_ != nullptr) add(transition_->sweep, -transition_->motion->displacement().x);
+}
+
+bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double end) const {
+  const Vector2d middle = launch.pose * Vector2d((begin + end) / 2, 0);
+  const std::optional<int> level = world_.ground->LevelAt(middle, launch.z, kSamePlace);
+  if (!level) return false;
+  const double half = (end - begin) / 2;
+  const double clearance = world_.ground->Clearance(*level, middle);
+  if (clearance >= half + kWideGround) return true;
+  if (clearance < kWideGround) return false;
+  return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
+}
+
+bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
+  if (!GroundIsWide(launch, -kWideGround, distance + kWideGround)) return false;
+  Eigen::AlignedBox3d box = room_;
+  box.extend(room_.translated(Eigen::Vector3d(distance, 0, 0)));
+  Isometry3d X_SB = Isometry3d::Identity();
+  X_SB.translation() = box.center();
+  return pelvis_checker_.IsFree(models::Shape::Box(box.sizes()), launch.pose.At(launch.z) * X_SB,
+                                0);
+}
+
+bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const {
+  if (transition_ == nullptr || std::abs(launch.z - landing.z) > kSamePlace) return false;
+  const double distance = (landing.pose.position() - launch.pose.position()).norm();
+  if (WayIsOpen(launch, distance)) return true;
+  const PlanarPose& displacement = transition_->motion->displacement();
+  GroundedStance standing = launch;
+  standing.pose = landing.pose * displacement.Inverse();
+  GroundedStance sitting = landing;
+  sitting.pose = launch.pose * displacement;
+  const graph::Point a = PointOf(launch);
+  const graph::Point b = PointOf(landing);
+  const auto way = [&](const QuasiStaticAction& first, const graph::Point& via,
+                       const QuasiStaticAction& second) {
+    return first.CS(graph::PointPair{a, via}) && second.CS(graph::PointPair{via, b});
+  };
+  return way(*launch_, PointOf(standing), *landing_) || way(*landing_, PointOf(sitting), *landing_);
+}
+
+std::optional<GroundedStance> LongJump::LaunchStance(const graph::Point& v) const {
+  return AsStance(*model_, entry().from, ToPose(v));
+}
+
+std::optional<GroundedStance> LongJump::LandingStance(const graph::Point& v) const {
+  return AsStance(*model_, entry().to, ToPose(v));
+}
+
+graph::Point LongJump::PointOf(const GroundedStance& stance) const {
+  return ToPoint(model_->gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
+}
+
+std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
+                                                 bool forward) const {
+  std::optional<GroundedStance> best;
+  double longest = 0;
+  for (const double level : world_.ground->levels()) {
+    const double height = forward ? level - stance.z : stance.z - level;
+    const auto reach = reach_.Distances(JumpLibrary::OnGrid({0, height}).height);
+    if (!reach) continue;
+    const double limit = std::min(distance, reach->second) + kSamePlace;
+    for (int i = static_cast<int>(limit / JumpLibrary::kDistanceStep);; --i) {
+      const double d = i * JumpLibrary::kDistanceStep;
+      if (d < reach->first - kSamePlace || d <= longest) break;
+      const GroundedStance end{forward ? entry().to : entry().from,
+                               stance.pose * PlanarPose{forward ? d : -d, 0, 0}, level};
+      if (!(forward ? landing_ : launch_)->GroundHolds(end, 0) ||
+          IsImpossible(JumpLibrary::OnGrid({d, height}))) {
+        continue;
+      }
+      best = end;
+      longest = d;
+      break;
+    }
+  }
+  return best;
+}
+
+graph::Point LongJump::ExtendTowards(const graph::Point& v0, const graph::Point& v1) const {
+  const std::optional<GroundedStance> launch = LaunchStance(v0);
+  if (!launch) return v0;
+  const Vector2d ahead = launch->pose.Inverse() * Vector2d(v1.head<2>());
+  const std::optional<GroundedStance> landing = OtherEnd(*launch, ahead.x(), true);
+  return landing ? PointOf(*landing) : v0;
+}
+
+graph::Point LongJump::ReverseExtend(const graph::Point& v0, const graph::Point& v1) const {
+  const std::optional<GroundedStance> landing = LandingStance(v0);
+  if (!landing) return v0;
+  const Vector2d ahead = landing->pose.Inverse() * Vector2d(v1.head<2>());
+  const std::optional<GroundedStance> launch = OtherEnd(*landing, -ahead.x(), false);
+  return launch ? PointOf(*launch) : v0;
+}
+
+std::optional<graph::Point> LongJump::FindLaunchPoint(const graph::Point& v,
+                                                      const graph::Point& v1) const {
+  std::optional<GroundedStance> stance = LaunchStance(v);
+  const Vector2d towards = (v1 - v).head<2>();
+  if (!stance || towards.norm() < JumpLibrary::kDistanceStep) return std::nullopt;
+  const double heading = std::atan2(towards.y(), towards.x());
+  const bool is_lined_up = std::abs(WrapAngle(heading - stance->pose.yaw)) < kSameHeading;
+  if (!is_lined_up) stance->pose.yaw = heading;
+  // Algorithm 4 asks for every vertex: the cheapest reason to say no comes first.
+  const std::optional<GroundedStance> landing = OtherEnd(*stance, towards.norm(), true);
+  if (!landing || IsNeedless(*stance, *landing)) return std::nullopt;
+  return is_lined_up ? v : PointOf(*stance);
+}
+
+std::optional<graph::Point> LongJump::FindLandingPoint(const graph::Point& v,
+                                                       const graph::Point& v1) const {
+  std::optional<GroundedStance> stance = LandingStance(v);
+  const Vector2d away = (v - v1).head<2>();
+  if (!stance || away.norm() < JumpLibrary::kDistanceStep) return std::nullopt;
+  const double heading = std::atan2(away.y(), away.x());
+  const bool is_lined_up = std::abs(WrapAngle(heading - stance->pose.yaw)) < kSameHeading;
+  if (!is_lined_up) stance->pose.yaw = heading;
+  const std::optional<GroundedStance> launch = OtherEnd(*stance, away.norm(), false);
+  if (!launch || IsNeedless(*launch, *stance)) return std::nullopt;
+  return is_lined_up ? v : PointOf(*stance);
+}
+
+std::optional<LongJump::Leap> LongJump::AsLeap(const graph::PointPair& edge) const {
+  const std::optional<GroundedStance> launch = LaunchStance(edge.from);
+  const std::optional<GroundedStance> landing = LandingStance(edge.to);
+  if (!launch || !landing) return std::nullopt;
+  const PlanarPose ahead = launch->pose.Inverse() * landing->pose;
+  const JumpTask exact{ahead.x, landing->z - launch->z};
+  const JumpTask task = JumpLibrary::OnGrid(exact);
+  if (!SameTask(task, exact) || std::abs(ahead.y) > kSamePlace ||
+      std::abs(WrapAngle(ahead.yaw)) > kSameHeading) {
+    return std::nullopt;
+  }
+  return Leap{*launch, *landing, task};
+}
+
+bool LongJump::CN(const graph::Point& vertex) const {
+  return launch_->CS(vertex) || landing_->CS(vertex);
+}
+
+bool LongJump::CN(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  return leap && reach_.Allows(leap->task) && landing_->CS(edge.to) && launch_->CS(edge.from) &&
+         SomeParabolaIsFree(edge);
+}
+
+bool LongJump::SomeParabolaIsFree(const graph::PointPair& edge) const {
+  const int steps = static_cast<int>(highest_rise_ / kRiseSpacing);
+  for (int i = 0; i <= steps; ++i) {
+    if (ParabolaIsFree(edge, i * kRiseSpacing)) return true;
+  }
+  return false;
+}
+
+bool LongJump::ParabolaIsFree(const graph::PointPair& edge, double rise) const {
+  const Isometry3d from = ToPose(edge.from);
+  const Isometry3d to = ToPose(edge.to);
+  const double length = (to.translation() - from.translation()).norm() + 2 * rise;
+  const int samples = 1 + static_cast<int>(length / kArcSpacing);
+  for (int i = 1; i < samples; ++i) {
+    const double s = static_cast<double>(i) / samples;
+    Isometry3d X_WR = Interpolate(from, to, s);
+    X_WR.translation().z() += 4 * rise * s * (1 - s);
+    if (!pelvis_.IsFree(X_WR)) return false;
+  }
+  return true;
+}
+
+bool LongJump::Explorable(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap || IsImpossible(leap->task) || IsNeedless(leap->launch, leap->landing)) return false;
+  const std::optional<Verdict> verdict = VerdictOn(edge);
+  return verdict ? verdict->possible : CN(edge);
+}
+
+bool LongJump::CS(const graph::PointPair& edge) const {
+  const std::optional<Verdict> verdict = VerdictOn(edge);
+  return verdict && verdict->possible;
+}
+
+double LongJump::ExpectedDuration(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  const std::lock_guard lock(mutex_);
+  for (const Solved& solved : solved_) {
+    if (leap && SameTask(solved.jump->task, leap->task)) return solved.jump->duration();
+  }
+  return kNominalDuration;
+}
+
+std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
+    const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap || !CN(edge)) return nullptr;
+  return std::make_unique<Job>(*this, edge, *leap);
+}
+
+void LongJump::Forbid(const graph::PointPair& edge, const std::string& reason) {
+  if (AsLeap(edge)) Record(edge, false, reason);
+}
+
+std::vector<LongJump::Refusal> LongJump::Refusals() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Refusal> refusals;
+  for (const Verdict& verdict : verdicts_) {
+    if (!verdict.possible) refusals.push_back({verdict.edge, verdict.reason});
+  }
+  return refusals;
+}
+
+std::optional<LongJump::Verdict> LongJump::VerdictOn(const graph::PointPair& edge) const {
+  const std::lock_guard lock(mutex_);
+  for (const Verdict& verdict : verdicts_) {
+    if (SameEdge(verdict.edge, edge)) return verdict;
+  }
+  return std::nullopt;
+}
+
+void LongJump::Record(const graph::PointPair& edge, bool possible,
+                      const std::string& reason) const {
+  const std::lock_guard lock(mutex_);
+  for (Verdict& verdict : verdicts_) {
+    if (!SameEdge(verdict.edge, edge)) continue;
+    verdict = {edge, possible, reason};
+    return;
+  }
+  verdicts_.push_back({edge, possible, reason});
+}
+
+void LongJump::RecordImpossible(const JumpTask& task) const {
+  const std::lock_guard lock(mutex_);
+  impossible_.push_back(task);
+}
+
+bool LongJump::IsImpossible(const JumpTask& task) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(impossible_.begin(), impossible_.end(),
+                     [&](const JumpTask& other) { return SameTask(task, other); });
+}
+
+LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) const {
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Solved& solved : solved_) {
+      if (solved.jump == jump) return solved;
+    }
+  }
+  const auto poses = std::make_shared<const JumpPoses>(*model_->robot, *jump);
+  const std::string hit =
+      FirstHitOnBareGround(*model_->robot, entry().solver->model(), *jump, *poses);
+  const std::lock_guard lock(mutex_);
+  return solved_.emplace_back(Solved{std::move(jump), poses, hit});
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,34 @@
+#include "actions/sit_down_problem.h"
+
+namespace possibility::actions {
+
+using collocation::At;
+
+double SitDownProblem::Displacement(const JumpModel& model) {
+  return model.Position(model.heel(), model.ready()).x() -
+         model.Position(model.heel(), model.landed()).x();
+}
+
+SitDownProblem::SitDownProblem(const JumpModel& model, const SitDownSettings& settings)
+    : SagittalProblem("sit down", model, Displacement(model), 0, settings) {
+  AddPhase("sit", Feet(), settings.sit);
+  AddPhase("bear", FeetAndHands(), settings.bear);
+  ContinueSagittally(&problem_, phases_[kSit], phases_[kBear], true);
+  StartAtRest(kSit);
+  HoldSoles(kSit, At::kAfterStart);
+  KeepAbove(kSit, "hands", model.hands(), 0, At::kInside);
+  StartPlaced(kBear, 2);
+  StartHeld(kBear, HeldSolesAnd(model.hands().size()));
+  HoldFeetAndHands(kBear, At::kBeforeEnd);
+  EndAtRest(kBear);
+  for (int phase = 0; phase < kNumPhases; ++phase) {
+    const At at = phase == kSit ? At::kAfterStart : At::kEverywhere;
+    KeepAbove(phase, "body", model.guards(), settings.body_clearance, at);
+    StayWithinRanges(phase, at);
+  }
+  AddCosts();
+  GuessLine(kSit, 1.2, 0, 0.8);
+  GuessLine(kBear, 0.8, 0.8, 1);
+}
+
+}  // namespace possibility::actions
