@@ -28,9 +28,9 @@ std::string Identity(const models::RobotModel& robot, const JumpSettings& s) {
        fmt::format("{} {} {} {} {} {} {} {} {}", l.friction, l.friction_fraction, l.speed_fraction,
                    l.torque_fraction, l.max_acceleration, l.max_base_speed, l.min_normal_force,
                    l.max_normal_force, l.joint_margin),
-       fmt::format("{} {} {} {} {} {} {} {} {}", s.body_clearance, s.hand_clearance,
-                   s.min_stance_pitch, s.max_stance_pitch, s.max_contact_speed, s.sole_margin,
-                   s.max_hand_tilt, s.leg_reach, s.arm_reach)});
+       fmt::format("{} {} {} {} {} {} {} {} {} {}", s.body_clearance, s.hand_clearance,
+                   s.hand_approach, s.min_stance_pitch, s.max_stance_pitch, s.max_contact_speed,
+                   s.sole_margin, s.max_hand_tilt, s.leg_reach, s.arm_reach)});
 }
 
 /// Nobody jumps farther than a body does that leaves the ground as fast as stretching legs could

@@ -53,7 +53,10 @@ JumpModel::JumpModel(const models::RobotModel& robot, const NominalStance& launc
   landed_ = reduction_.ReduceConfiguration(landing.q, kSymmetry);
   FindContacts(robot, *launch.gait, *landing.gait);
   leg_ = LimbTo({heel_.link, Vector3d::Zero()});
-  for (const ContactPoint& hand : hands_) arms_.push_back(LimbTo(hand));
+  for (const ContactPoint& hand : hands_) {
+    arms_.push_back(LimbTo(hand));
+    peg_ends_.push_back(PegEnd(hand));
+  }
   FindGuards();
   FindSeparations();
   FindFreeRanges(robot);
@@ -91,6 +94,21 @@ void JumpModel::FindContacts(const models::RobotModel& robot, const models::Gait
   });
   heel_ = feet[0];
   toe_ = feet[1];
+}
+
+JumpModel::Ball JumpModel::PegEnd(const ContactPoint& hand) const {
+  constexpr double kSame = 1e-3;  // m
+  for (const models::PosedShape& posed : planar()->tree().links[hand.link].shapes) {
+    if (posed.shape.type != models::ShapeType::kCapsule) continue;
+    for (const double end : {-posed.shape.length / 2, posed.shape.length / 2}) {
+      const Vector3d centre = posed.X_PS * Vector3d(0, 0, end);
+      const Eigen::Vector2d reach(hand.p_L.x() - centre.x(), hand.p_L.z() - centre.z());
+      if (std::abs(reach.norm() - posed.shape.radius) < kSame) {
+        return {{hand.link, {centre.x(), 0, centre.z()}}, posed.shape.radius};
+      }
+    }
+  }
+  return {hand, 0};
 }
 
 JumpModel::Limb JumpModel::LimbTo(const ContactPoint& tip) const {
@@ -194,8 +212,9 @@ void JumpModel::FindGuards() {
   for (int link = 1; link < tree.num_links(); ++link) {
     if (!bearing.contains(link)) guards_.push_back({link, Vector3d::Zero()});
   }
-  // A hand that bears on a peg sticks out on its other side.
+  // A hand that bears on a peg sticks out on its other side, and the forearm ends at it.
   for (const ContactPoint& hand : hands_) {
+    guards_.push_back({hand.link, Vector3d::Zero()});
     Eigen::AlignedBox3d box;
     for (const models::PosedShape& posed : tree.links[hand.link].shapes) {
       box.extend(posed.shape.Bounds(posed.X_PS));

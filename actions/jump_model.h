@@ -39,6 +39,13 @@ class JumpModel {
   const dynamics::ContactPoint& toe() const { return toe_; }
   /// What lands besides the feet, a point per patch.
   const std::vector<dynamics::ContactPoint>& hands() const { return hands_; }
+  /// By hand: the rounded end of its peg, which touches the ground wherever the peg leans; of
+  /// radius 0 if the end is not round.
+  struct Ball {
+    dynamics::ContactPoint centre;
+    double radius = 0;  ///< m
+  };
+  const std::vector<Ball>& peg_ends() const { return peg_ends_; }
   /// A chain of links from the trunk to a point.
   struct Limb {
     dynamics::ContactPoint root;  ///< its first joint
@@ -68,6 +75,7 @@ class JumpModel {
  private:
   void FindContacts(const models::RobotModel& robot, const models::Gait& launch,
                     const models::Gait& landing);
+  Ball PegEnd(const dynamics::ContactPoint& hand) const;
   Limb LimbTo(const dynamics::ContactPoint& tip) const;
   void FindGuards();
   void FindSeparations();
@@ -81,6 +89,7 @@ class JumpModel {
   dynamics::ContactPoint heel_;
   dynamics::ContactPoint toe_;
   std::vector<dynamics::ContactPoint> hands_;
+  std::vector<Ball> peg_ends_;
   Limb leg_;
   std::vector<Limb> arms_;
   std::vector<dynamics::ContactPoint> guards_;

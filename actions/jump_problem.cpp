@@ -74,7 +74,8 @@ void JumpProblem::Fly(const JumpSettings& settings) {
                 {kZero});
   KeepAbove(kRise, "feet", Feet(), 0, At::kAfterStart);
   KeepAbove(kRise, "hands", model_.hands(), settings.hand_clearance, At::kEverywhere);
-  KeepAbove(kDescent, "feet and hands", FeetAndHands(), height_, At::kInside);
+  KeepAbove(kDescent, "feet", Feet(), height_, At::kInside);
+  KeepHandsAbove(kDescent, height_ + settings.hand_approach, At::kInside);
 }
 
 void JumpProblem::Land(const JumpSettings& settings) {
@@ -87,7 +88,7 @@ void JumpProblem::Land(const JumpSettings& settings) {
   KeepBent(kSettle, "leg", model_.leg(), settings.leg_reach, At::kStart);
   StartHeld(kSettle, HeldSoles());
   HoldSoles(kSettle, At::kEverywhere);
-  KeepAbove(kSettle, "hands", model_.hands(), height_, At::kBeforeEnd);
+  KeepHandsAbove(kSettle, height_ + settings.hand_approach, At::kBeforeEnd);
   // The feet are where they are; the hands are set down at no speed.
   StartPlaced(kLanding, 2);
   StartHeld(kLanding, HeldSolesAnd(model_.hands().size()));

@@ -71,8 +71,8 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
   for (JumpReach::Row& row : reach.rows) {
     const auto bounds = library->reach().Distances(row.height);
     const int limit = bounds ? steps(bounds->second) : 0;
-    row.farthest = GridStep(
-        Farthest(steps(row.shortest), steps(row.farthest), limit, [&](int distance) {
+    row.farthest =
+        GridStep(Farthest(steps(row.shortest), steps(row.farthest), limit, [&](int distance) {
           return IsPossible({GridStep(distance), row.height}, library, keep_going);
         }));
   }

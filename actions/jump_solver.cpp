@@ -7,16 +7,15 @@
 #include <chrono>
 #include <cmath>
 
+#include "actions/jump_verification.h"
 #include "collocation/optimal_control.h"
-#include "dynamics/tree_kinematics.h"
-#include "models/collision.h"
 
 namespace possibility::actions {
 namespace {
 
 /// Intervals per phase, times `fineness`.
 std::vector<int> Intervals(double fineness) {
-  constexpr std::array<int, JumpProblem::kNumPhases> kIntervals = {10, 4, 4, 4, 4, 8};
+  constexpr std::array<int, JumpProblem::kNumPhases> kIntervals = {10, 4, 4, 4, 8, 8};
   std::vector<int> intervals;
   for (const int count : kIntervals) {
     intervals.push_back(static_cast<int>(std::lround(fineness * count)));
@@ -47,27 +46,6 @@ void Add(const collocation::SolverTimes& times, collocation::SolverTimes* sum) {
   sum->factorisation += times.factorisation;
   sum->back_solves += times.back_solves;
   sum->rest += times.rest;
-}
-
-/// At the knots and halfway between them. @throws MotionError naming links and time.
-void RequireNoSelfCollision(const models::RobotModel& robot, const std::vector<Phase>& phases) {
-  const models::CollisionChecker checker(robot, models::Environment());
-  dynamics::TreeKinematics kinematics(robot);
-  const auto check = [&](const Knot& knot) {
-    kinematics.SetPosition(knot.q);
-    const std::vector<models::Proximity> pairs = checker.SelfProximities(kinematics.X_WL(), 0);
-    if (pairs.empty()) return;
-    throw MotionError(fmt::format("{} runs into {} at {:.2f} s",
-                                  robot.links[pairs.front().link].name,
-                                  robot.links[pairs.front().other].name, knot.t));
-  };
-  for (const Phase& phase : phases) {
-    for (std::size_t i = 0; i + 1 < phase.knots.size(); ++i) {
-      const Knot& next = phase.knots[i + 1];
-      check(Interpolate(phase.knots[i], next, (phase.knots[i].t + next.t) / 2));
-      check(next);
-    }
-  }
 }
 
 }  // namespace
@@ -114,7 +92,7 @@ bool JumpSolver::Attempt(const JumpTask& task, double fineness, collocation::Sol
                                  result.message);
     return true;
   }
-  RealiseInSpace(problem, result.trajectory, answer);
+  RealiseInSpace(problem, result.trajectory, true, answer);
   if (answer->jump) answer->solution = collocation::Store(problem.problem(), result);
   return answer->jump != nullptr;
 }
@@ -125,14 +103,14 @@ JumpAnswer JumpSolver::Realise(const JumpTask& task,
   const JumpProblem problem(model_, task, settings_);
   collocation::CheckSameQuantities(problem.problem(), solution);
   JumpAnswer answer;
-  RealiseInSpace(problem, solution.trajectory, &answer);
+  RealiseInSpace(problem, solution.trajectory, false, &answer);
   if (answer.jump) answer.solution = solution;
   answer.effort.total = stopwatch.seconds();
   return answer;
 }
 
 void JumpSolver::RealiseInSpace(const JumpProblem& problem,
-                                const collocation::Trajectory& trajectory,
+                                const collocation::Trajectory& trajectory, bool is_new,
                                 JumpAnswer* answer) const {
   const Stopwatch stopwatch;
   auto jump = std::make_shared<SolvedJump>();
@@ -140,7 +118,10 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
   try {
     JumpMotion motion(robot_, model_, launch_, landing_);
     jump->phases = motion.Realise(problem, trajectory, &jump->report);
-    RequireNoSelfCollision(robot_, jump->phases);
+    if (is_new) {
+      const std::string fault = FaultOnBareGround(robot_, model_, launch_, landing_, *jump);
+      if (!fault.empty()) throw MotionError(fault);
+    }
     answer->jump = std::move(jump);
     answer->reason.clear();
   } catch (const MotionError& error) {

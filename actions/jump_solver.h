@@ -41,8 +41,8 @@ struct JumpAnswer {
 };
 
 /// Answers whether a jump is possible by finding it: collocation in the sagittal plane, then the
-/// motion of the whole robot. Stateless: any number of solves at once. The same task has the same
-/// answer.
+/// motion of the whole robot, then its verification on bare ground. Stateless: any number of solves
+/// at once. The same task has the same answer.
 class JumpSolver {
  public:
   /// `robot`, `launch` and `landing` must outlive it. @throws what JumpModel throws.
@@ -63,8 +63,9 @@ class JumpSolver {
   /// failed.
   bool Attempt(const JumpTask& task, double fineness, collocation::SolveControl* control,
                JumpAnswer* answer) const;
+  /// What `is_new` is verified, too.
   void RealiseInSpace(const JumpProblem& problem, const collocation::Trajectory& trajectory,
-                      JumpAnswer* answer) const;
+                      bool is_new, JumpAnswer* answer) const;
 
   const models::RobotModel& robot_;
   const NominalStance& launch_;

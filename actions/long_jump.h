@@ -32,6 +32,7 @@ class LongJump : public graph::NonholonomicAction {
   LongJump(const LocomotionModel& model, int jump, const World& world,
            std::shared_ptr<const QuasiStaticAction> launch,
            std::shared_ptr<const QuasiStaticAction> landing, JumpReach reach);
+  ~LongJump() override;
 
   /// Jobs that ended with a "no" say why.
   struct Refusal {
@@ -66,13 +67,16 @@ class LongJump : public graph::NonholonomicAction {
   const JumpReach& reach() const { return reach_; }
 
   /// The edge failed as motion although a job had confirmed it: impossible from now on.
-  void Forbid(const graph::PointPair& edge, const std::string& reason);
+  /// `anywhere`: and so is every jump of its distance and height, for what is wrong with it does
+  /// not depend on the place.
+  void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere = false);
   std::vector<Refusal> Refusals() const;
 
   const LocomotionModel::JumpEntry& entry() const { return model_->jumps[jump_]; }
 
  private:
   class Job;
+  class SharedSolve;
 
   /// An edge, understood.
   struct Leap {
@@ -114,6 +118,7 @@ class LongJump : public graph::NonholonomicAction {
     std::shared_ptr<const JumpPoses> poses;
     std::string hit;
   };
+  std::shared_ptr<SharedSolve> SolveOf(const JumpTask& task) const;
   Solved Examined(std::shared_ptr<const SolvedJump> jump) const;
 
   const LocomotionModel* model_;
@@ -124,7 +129,7 @@ class LongJump : public graph::NonholonomicAction {
   JumpReach reach_;
   const LocomotionModel::TransitionEntry* transition_ = nullptr;  ///< from launch to landing gait
   Eigen::AlignedBox3d room_;  ///< that the gaits and the transition take, in the launch stance
-  double highest_rise_ = 0;  ///< m, of a flight above its launch
+  double highest_rise_ = 0;   ///< m, of a flight above its launch
   models::CollisionChecker pelvis_checker_;
   models::CollisionChecker robot_checker_;
   PelvisClearance pelvis_;
@@ -134,6 +139,7 @@ class LongJump : public graph::NonholonomicAction {
   mutable std::vector<Verdict> verdicts_;
   mutable std::vector<JumpTask> impossible_;
   mutable std::vector<Solved> solved_;
+  mutable std::vector<std::shared_ptr<SharedSolve>> solves_;
 };
 
 }  // namespace possibility::actions

@@ -121,8 +121,7 @@ class NecessaryFlood {
 
   Cell GridSize() const {
     Vector3d top;
-    top << world_.environment->bounds.max(),
-        world_.ground->levels().back() + reach_ + flight_.rise;
+    top << world_.environment->bounds.max(), world_.ground->levels().back() + reach_ + flight_.rise;
     const Vector3d size = (top - Origin()) / resolution_;
     return {1, static_cast<int>(size.x()) + 1, static_cast<int>(size.y()) + 1,
             static_cast<int>(size.z()) + 1};
@@ -144,8 +143,7 @@ class NecessaryFlood {
       const double height = p.z() - levels[level];
       const double beyond_legs = std::max(height - flight_.rise, std::min(height, 0.0));
       if (std::abs(beyond_legs) > reach_) continue;
-      const double reach =
-          flight_.range + std::sqrt(reach_ * reach_ - beyond_legs * beyond_legs);
+      const double reach = flight_.range + std::sqrt(reach_ * reach_ - beyond_legs * beyond_legs);
       if (world_.ground->Clearance(static_cast<int>(level), p.head<2>()) >= -reach) return true;
     }
     return false;

@@ -53,9 +53,9 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
     for (size_t link = 0; link < X_WL.size(); ++link) X_WL[link] = X_WS * sample.X_SL[link];
     for (const models::Proximity& pair : checker.EnvironmentProximities(X_WL, kClearance)) {
       const models::Obstacle& obstacle = environment.obstacles[pair.other];
-      const double allowed = !obstacle.is_ground  ? kClearance
-                             : bears[pair.link] ? -kGroundTolerance
-                                                : -kTolerance;
+      const double allowed = !obstacle.is_ground ? kClearance
+                             : bears[pair.link]  ? -kGroundTolerance
+                                                 : -kTolerance;
       if (pair.distance >= allowed) continue;
       return fmt::format("hits '{}' with {} at {:.2f} s", obstacle.name,
                          robot.links[pair.link].name, sample.t);
@@ -84,8 +84,7 @@ std::string FirstHitOnBareGround(const models::RobotModel& robot, const JumpMode
   models::Environment environment;
   environment.obstacles = {
       floor("launch ground", launch_end - kVast / 2, 0),
-      floor("landing ground",
-            std::max(launch_end, jump.task.distance + landing_begin) + kVast / 2,
+      floor("landing ground", std::max(launch_end, jump.task.distance + landing_begin) + kVast / 2,
             jump.task.height)};
   const models::CollisionChecker checker(robot, environment);
   return FirstHit(robot, environment, checker, poses, Eigen::Isometry3d::Identity());

@@ -35,6 +35,12 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Whether the same motion may be free of such a violation elsewhere.
+bool DependsOnPlace(ViolationKind kind) {
+  return kind == ViolationKind::kPenetration || kind == ViolationKind::kContactGround ||
+         kind == ViolationKind::kStart || kind == ViolationKind::kGoal;
+}
+
 std::string Describe(const models::Stance& stance) {
   return fmt::format("({:.3f}, {:.3f}, {:.3f}) heading {:.1f} deg", stance.x, stance.y, stance.z,
                      stance.yaw * 180 / EIGEN_PI);
@@ -50,8 +56,8 @@ class TraversalPlanner {
         request_(request),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
-        model_(BuildLocomotionModel(robot, ActionNames(), [this] { return Remaining() > 0; },
-                                    request.library)) {
+        model_(BuildLocomotionModel(
+            robot, ActionNames(), [this] { return Remaining() > 0; }, request.library)) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -227,8 +233,7 @@ class TraversalPlanner {
     std::vector<FloodJump> jumps;
     for (const auto& jump : jumps_) {
       const LocomotionModel::JumpEntry& entry = jump->entry();
-      jumps.push_back(
-          {entry.from, entry.to, jump->reach(), BoundFlight(entry.solver->model())});
+      jumps.push_back({entry.from, entry.to, jump->reach(), BoundFlight(entry.solver->model())});
     }
     return jumps;
   }
@@ -353,7 +358,8 @@ class TraversalPlanner {
       if (violation.segment < 0) continue;
       Forbid(route[static_cast<size_t>(violation.segment)],
              fmt::format("its motion does not verify: {}, {}", ToString(violation.kind),
-                         violation.quantity));
+                         violation.quantity),
+             !DependsOnPlace(violation.kind));
     }
     result->plan.statistics["routes refuted by verification"]++;
     result->plan.segments.clear();
@@ -369,9 +375,9 @@ class TraversalPlanner {
     return leg;
   }
 
-  void Forbid(const RouteLeg& leg, const std::string& reason) {
+  void Forbid(const RouteLeg& leg, const std::string& reason, bool anywhere = false) {
     const graph::PointPair edge = LegEdge(model_, leg);
-    if (leg.jump >= 0) return jumps_[leg.jump]->Forbid(edge, reason);
+    if (leg.jump >= 0) return jumps_[leg.jump]->Forbid(edge, reason, anywhere);
     for (const auto& action : actions_) action->Forbid(edge);
   }
 

@@ -99,9 +99,9 @@ class QuasiStaticAction : public graph::HolonomicAction {
   PreparedSweep sweep_;
   PreparedSweep inflated_sweep_;
   std::vector<PreparedSweep> transition_sweeps_;  ///< by index of the model's transitions
-  double sweep_radius_ = 0;  ///< farthest point of the sweep from the stance's axis, m
+  double sweep_radius_ = 0;            ///< farthest point of the sweep from the stance's axis, m
   std::vector<double> bearing_radii_;  ///< by gait: farthest bearing point from the axis, m
-  double leg_reach_ = 0;     ///< no foot point is farther from the root, m
+  double leg_reach_ = 0;               ///< no foot point is farther from the root, m
   std::vector<graph::PointPair> forbidden_;
 };
 

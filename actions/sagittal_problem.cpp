@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -169,6 +170,16 @@ void SagittalProblem::KeepAbove(int phase, const std::string& name,
   }
   phases_[phase].phase->Constrain(name, PointPositions(model_.planar(), points),
                                   phases_[phase].Positions(), bounds, at);
+}
+
+void SagittalProblem::KeepHandsAbove(int phase, double height, At at) {
+  KeepAbove(phase, "hands", model_.hands(), height, at);
+  const double leaning = std::cos(settings_.max_hand_tilt);
+  for (std::size_t i = 0; i < model_.peg_ends().size(); ++i) {
+    const JumpModel::Ball& end = model_.peg_ends()[i];
+    if (end.radius == 0) continue;
+    KeepAbove(phase, fmt::format("peg {}", i), {end.centre}, height + leaning * end.radius, at);
+  }
 }
 
 void SagittalProblem::StayWithinRanges(int phase, At at) {

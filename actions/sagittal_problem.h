@@ -21,6 +21,7 @@ struct SagittalSettings {
                            .joint_margin = 0.03};
   double body_clearance = 0.05;  ///< m, guards above the ground in every phase
   double hand_clearance = 0.03;  ///< m, hands above the ground they leave
+  double hand_approach = 0.01;   ///< m, hands above the ground they are about to touch
   /// Heel and toe each bear at least this fraction of what the sole bears, while it is flat.
   double sole_margin = 0.1;
   double max_hand_tilt = 0.35;  ///< rad, of a bearing hand from how the stance has it
@@ -70,6 +71,9 @@ class SagittalProblem {
   void KeepAbove(int phase, const std::string& name,
                  const std::vector<dynamics::ContactPoint>& points, double height,
                  collocation::At at);
+  /// Hands and the rounded ends of their pegs above ground of a height; a peg that leans when it
+  /// is set down goes into the ground with its round end by a little.
+  void KeepHandsAbove(int phase, double height, collocation::At at);
   /// Joints where the robot does not run into itself, feet away from the trunk.
   void StayWithinRanges(int phase, collocation::At at);
   void KeepUpright(int phase, const dynamics::ContactPoint& hand, collocation::At at,

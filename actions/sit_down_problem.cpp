@@ -16,7 +16,7 @@ SitDownProblem::SitDownProblem(const JumpModel& model, const SitDownSettings& se
   ContinueSagittally(&problem_, phases_[kSit], phases_[kBear], true);
   StartAtRest(kSit);
   HoldSoles(kSit, At::kAfterStart);
-  KeepAbove(kSit, "hands", model.hands(), 0, At::kInside);
+  KeepHandsAbove(kSit, settings.hand_approach, At::kInside);
   StartPlaced(kBear, 2);
   StartHeld(kBear, HeldSolesAnd(model.hands().size()));
   HoldFeetAndHands(kBear, At::kBeforeEnd);

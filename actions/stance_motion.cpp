@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kPreparation = 1.0;   // s: folding what the plan does not use
-constexpr double kKnotSpacing = 0.02;  // s
+constexpr double kKnotSpacing = 0.01;  // s
 constexpr double kCorrection = 0.5;    // s, at most: until the motion is as planned
 
 Eigen::Quaterniond Orientation(const VectorXd& q) { return {q[0], q[1], q[2], q[3]}; }
@@ -89,7 +89,7 @@ StanceMotion::StanceMotion(const models::RobotModel& robot, const JumpModel& mod
   // A heel unloads to nothing before it lifts.
   settings_.normal_reserve = 0;
   // What the plan in the plane has left over is for what only the whole robot sees.
-  settings_.friction_margin = 0.98;
+  settings_.friction_margin = 0.92;
   settings_.torque_margin = 0.99;
   settings_.speed_margin = 0.99;
 }

@@ -272,7 +272,9 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
                         settings.resolution};
   CheckImpacts(plan, robot, subject.contacts, &evaluator, log);
   VerifyMotion(subject, settings, log, report);
-  if (log->Worst().empty() && !report->abandoned) VerifyRollouts(subject, settings, log, report);
+  if (settings.simulates && log->Worst().empty() && !report->abandoned) {
+    VerifyRollouts(subject, settings, log, report);
+  }
 }
 
 }  // namespace

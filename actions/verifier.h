@@ -70,6 +70,8 @@ struct VerifierSettings {
   /// empty.
   std::function<bool(double)> keep_going;
   double resolution = 0.005;  ///< s
+  /// Whether segments with flight or impacts are simulated, too: seconds for each.
+  bool simulates = true;
   int threads = 1;            ///< samples are independent; the report does not depend on it
 };
 

@@ -5,6 +5,10 @@
 namespace possibility::graph {
 namespace {
 
+/// Every landing is a subgraph of its own that may launch again, and each of those another: what
+/// one growth adds must not depend on how many there are.
+constexpr int kMostPerGrowth = 3;
+
 /// For v and all vertices upstream or downstream from it.
 void SetToFalse(const DirectedGraph& topology, VertexId v, Reachability::Direction direction,
                 std::vector<bool>* useful) {
@@ -46,13 +50,22 @@ NewElements NonholonomicExploration::GrowTowards(const Point& p_target) {
   NewElements found;
   Useful to_launch_from(master.topology().num_vertices(), true);
   Useful to_land_at = to_launch_from;
+  int launches = 0;
+  int landings = 0;
   while (!q_closest.empty() && !context().deadline->Passed()) {
     const VertexId v = q_closest.PopFront();
-    if (to_launch_from[v] && !master.UpstreamFromGoal(v) && LaunchFrom(v, p_target, &found)) {
+    if (launches < kMostPerGrowth && to_launch_from[v] && !master.UpstreamFromGoal(v) &&
+        LaunchFrom(v, p_target, &found)) {
       RecursivelySetUpstreamVerticesToFalse(v, &to_launch_from);
+      ++launches;
     }
-    if (to_land_at[v] && !master.DownstreamFromStart(v) && LandAt(v, p_target, &found)) {
+    if (landings < kMostPerGrowth && to_land_at[v] && !master.DownstreamFromStart(v) &&
+        LandAt(v, p_target, &found)) {
       RecursivelySetDownstreamVerticesToFalse(v, &to_land_at);
+      ++landings;
+    }
+    if (launches == kMostPerGrowth && landings == kMostPerGrowth) {
+      break;
     }
   }
   action_graph().Append(found);

@@ -132,20 +132,10 @@ std::vector<std::pair<int, int>> ReadSagittalPairs(const YamlNode& list, const R
   return pairs;
 }
 
-const std::vector<std::string> kRobotKeys = {"name",
-                                             "urdf",
-                                             "root_link",
-                                             "pelvis_link",
-                                             "lump",
-                                             "friction",
-                                             "effort",
-                                             "shapes",
-                                             "contacts",
-                                             "gaits",
-                                             "transitions",
-                                             "jumps",
-                                             "sagittal_pairs",
-                                             "ignored_collisions"};
+const std::vector<std::string> kRobotKeys = {
+    "name",        "urdf",   "root_link",      "pelvis_link",       "lump",
+    "friction",    "effort", "shapes",         "contacts",          "gaits",
+    "transitions", "jumps",  "sagittal_pairs", "ignored_collisions"};
 
 /// Everything but the tree itself.
 void ReadDescription(const YamlNode& root, RobotModel* robot) {

@@ -245,6 +245,22 @@ const BadRobot kBadYaml[] = {
     {"TransitionWithoutKeyframes", false, kLastKeyframe,
      kLastKeyframe + "\n  - {from: squat, to: stand, keyframes: []}",
      "robot.yaml:38: transitions[1].keyframes: expected at least one keyframe, got an empty list"},
+    {"JumpUnknownGait", false, kLastKeyframe,
+     kLastKeyframe + "\njumps:\n  - {name: leap, from: stan, to: squat}",
+     "robot.yaml:39: jumps[0].from: unknown gait 'stan' (did you mean 'stand'?)"},
+    {"JumpToItself", false, kLastKeyframe,
+     kLastKeyframe + "\njumps:\n  - {name: leap, from: stand, to: stand}",
+     "robot.yaml:39: jumps[0].to: expected another gait than 'from', got stand"},
+    {"JumpNamedLikeAGait", false, kLastKeyframe,
+     kLastKeyframe + "\njumps:\n  - {name: squat, from: stand, to: squat}",
+     "robot.yaml:39: jumps[0].name: this name is already that of a gait"},
+    {"JumpNameTaken", false, kLastKeyframe,
+     kLastKeyframe + "\njumps:\n  - {name: leap, from: stand, to: squat}\n"
+                     "  - {name: leap, from: squat, to: stand}",
+     "robot.yaml:40: jumps[1].name: this name is already taken"},
+    {"JumpUnknownKey", false, kLastKeyframe,
+     kLastKeyframe + "\njumps:\n  - {name: leap, from: stand, too: squat}",
+     "robot.yaml:39: jumps[0]: unknown key 'too' (did you mean 'to'?)"},
 };
 
 const BadRobot kBadUrdf[] = {

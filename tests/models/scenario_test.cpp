@@ -109,6 +109,41 @@ TEST(ScenarioYaml, ThreeRoutesFitTheRobot) {
   }
 }
 
+std::string ErrorOfActions(const std::vector<std::string>& actions) {
+  RobotModel robot;
+  robot.name = "robot";
+  for (const std::string name : {"stand", "squat"}) {
+    robot.gaits.emplace_back();
+    robot.gaits.back().name = name;
+  }
+  robot.jumps = {{"leap", "stand", "squat"}};
+  try {
+    CheckActionsOfRobot(actions, robot, "here");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ScenarioYaml, AJumpNeedsBothOfItsGaits) {
+  EXPECT_EQ(ErrorOfActions({"stand", "leap", "squat"}), "");
+  EXPECT_EQ(ErrorOfActions({"stand", "leap"}),
+            "here: 'leap' jumps from 'stand' to 'squat', but 'squat' is not among them");
+  EXPECT_EQ(ErrorOfActions({"stand", "leep"}),
+            "here: robot 'robot' has no action 'leep' (did you mean 'leap'?)");
+}
+
+TEST(ScenarioYaml, JumpingScenariosFitTheRobot) {
+  const std::string source = POSSIBILITY_SOURCE_DIR;
+  for (const std::string name : {"three_routes_c", "hallway", "double_jump"}) {
+    for (const std::string twin : {"", "_infeasible"}) {
+      const Scenario scenario =
+          LoadScenario(source + "/experiments/scenarios/" + name + twin + ".yaml");
+      EXPECT_NO_THROW(CheckScenarioAgainstRobot(scenario, LoadRobotModel(scenario.robot_file)));
+    }
+  }
+}
+
 struct BadScenario {
   std::string what;
   std::string from;  ///< replaced once, wherever it first appears
@@ -179,6 +214,8 @@ const BadScenario kBad[] = {
      "room.yaml:9: planner.step: expected a number from 0.001 to 100, got 0"},
     {"WeightAboveOne", "rotation_weight: 0.2", "rotation_weight: 1.2",
      "room.yaml:9: planner.rotation_weight: expected a number from 0.001 to 0.999, got 1.2"},
+    {"SkipJumpsAboveOne", "rotation_weight: 0.2", "skip_jumps: 1.2",
+     "room.yaml:9: planner.skip_jumps: expected a number from 0 to 1, got 1.2"},
     {"TransitionsZero", "max_transitions_per_cycle: 3", "max_transitions_per_cycle: 0",
      "room.yaml:9: planner.max_transitions_per_cycle: expected a whole number from 1 to 1000000, "
      "got 0"},
