@@ -55,7 +55,7 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
     request->time_limit = ParseSeconds("--time-limit", options.time_limit);
   }
   if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
-  request->library = options.library;
+  if (!options.library.empty()) request->library = options.library;
 }
 
 actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
@@ -86,6 +86,7 @@ ExitCode RunPlan(const PlanOptions& options) {
   request.seed = scenario.seed;
   request.threads = HardwareThreads();
   request.time_limit = scenario.time_limit;
+  request.library = robot.file.parent_path() / "jumps";
   ApplyOptions(options, &request);
   const std::filesystem::path folder =
       options.out.empty() ? DefaultFolder(scenario.name) : std::filesystem::path(options.out);
@@ -116,7 +117,8 @@ Command AddPlanCommand(CLI::App& program) {
   app->add_option("--threads", options->threads, "1 to 256 (default: all this machine has)");
   app->add_option("--time-limit", options->time_limit, "s (default: the scenario's)");
   app->add_option("--actions", options->actions, "Names and commas, e.g. walk,crawl");
-  app->add_option("--library", options->library, "Folder of solved jumps (default: none)");
+  app->add_option("--library", options->library,
+                  "Folder of solved jumps (default: jumps, beside the robot)");
   app->add_flag("--json", options->json, "Print one JSON object");
   return {app, [options] { return RunPlan(*options); }};
 }
