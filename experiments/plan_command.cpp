@@ -17,6 +17,7 @@
 #include "experiments/plan_summary.h"
 #include "experiments/progress_line.h"
 #include "experiments/viewer_page.h"
+#include "models/input_error.h"
 #include "models/robot_model.h"
 #include "models/scenario.h"
 
@@ -55,7 +56,12 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
     request->time_limit = ParseSeconds("--time-limit", options.time_limit);
   }
   if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
-  if (!options.library.empty()) request->library = options.library;
+  if (!options.library.empty()) {
+    if (!std::filesystem::is_directory(options.library)) {
+      throw InputError(fmt::format("--library: '{}' is not a folder", options.library));
+    }
+    request->library = options.library;
+  }
 }
 
 actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
