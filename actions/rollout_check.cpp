@@ -22,8 +22,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// m/s: pegs that are set down at no speed would otherwise bounce in ever smaller impacts.
-constexpr double kRestSpeed = 5e-3;
 constexpr double kHeight = 1.1e-3;  // m: a plan's points bear within 1 mm of their ground
 constexpr double kEdge = 0.01;      // m: a rigid sole is borne by the edge that it overlaps
 constexpr double kRest = 1e-3;      // m/s and rad/s
@@ -148,7 +146,6 @@ class Rollout {
   dynamics::RobotRolloutSettings SimulatorSettings() const {
     dynamics::RobotRolloutSettings settings;
     settings.touching = kHeight;
-    settings.rest_speed = kRestSpeed;
     settings.hybrid.integration.relative_tolerance = settings_.tolerance;
     settings.hybrid.integration.absolute_tolerance = settings_.tolerance;
     settings.hybrid.integration.stop = settings_.stop;

@@ -67,7 +67,7 @@ ExitCode Run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // Solves allocate and free matrices all the time; giving the pages back to the system and
   // faulting them in again makes threads queue in the kernel (eight solves at a time on two
-  // cores: 1.58 to 1.76 times the throughput of one, 1.70 to 1.74 with this).
+  // cores: 1.58 to 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of reach).
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   return possibility::experiments::Run(argc, argv);
