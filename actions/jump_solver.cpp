@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "actions/jump_verification.h"
+#include "actions/bare_ground.h"
 #include "collocation/optimal_control.h"
 
 namespace possibility::actions {
@@ -119,7 +119,8 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
     JumpMotion motion(robot_, model_, launch_, landing_);
     jump->phases = motion.Realise(problem, trajectory, &jump->report);
     if (is_new) {
-      const std::string fault = FaultOnBareGround(robot_, model_, launch_, landing_, *jump);
+      const std::string fault =
+          FaultOnBareGround(robot_, model_, launch_, landing_, jump->task, jump->phases);
       if (!fault.empty()) throw MotionError(fault);
     }
     answer->jump = std::move(jump);

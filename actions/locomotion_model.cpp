@@ -57,8 +57,8 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     entry.to = model.GaitIndex(transition.to);
     if (entry.from < 0 || entry.to < 0) continue;
     entry.motion = std::make_unique<TransitionMotion>(
-        robot, transition, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance);
-    entry.sweep = SweepTransition(robot, *entry.motion, keep_going).Boxes();
+        robot, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance, library, keep_going);
+    entry.sweep = SweepTransition(robot, *entry.motion).Boxes();
     model.transitions.push_back(std::move(entry));
   }
   for (const models::Jump& jump : robot.jumps) {

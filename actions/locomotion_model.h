@@ -52,7 +52,7 @@ struct LocomotionModel {
 
 /// Solves the stances and computes the swept volumes of the gaits among `actions` and the
 /// transitions among them, and prepares the jumps among `actions`. `robot` must outlive the result.
-/// `library`: folder of solved jumps, empty for none.
+/// `library`: folder of solved jumps and transitions, empty for none.
 /// @throws InputError if an action does not exist, a gait's bounds allow a stride that the robot
 /// cannot
 ///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may

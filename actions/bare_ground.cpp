@@ -1,4 +1,4 @@
-#include "actions/jump_verification.h"
+#include "actions/bare_ground.h"
 
 #include <fmt/format.h>
 
@@ -51,13 +51,13 @@ models::Scenario BareGround(const JumpModel& model, const NominalStance& launch,
 
 std::string FaultOnBareGround(const models::RobotModel& robot, const JumpModel& model,
                               const NominalStance& launch, const NominalStance& landing,
-                              const SolvedJump& jump) {
-  const models::Scenario scenario = BareGround(model, launch, landing, jump.task);
+                              const JumpTask& task, const std::vector<Phase>& phases) {
+  const models::Scenario scenario = BareGround(model, launch, landing, task);
   Plan plan;
   plan.robot_hash = robot.content_hash;
   plan.scenario_hash = scenario.content_hash;
   for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
-  plan.segments = {{"jump", jump.phases}};
+  plan.segments = {{"motion", phases}};
   VerifierSettings settings;
   settings.simulates = false;
   const VerificationReport report = Verify(plan, robot, scenario, settings);

@@ -1,13 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "actions/interpolation.h"
-#include "actions/sit_down_problem.h"
-#include "actions/stance_motion.h"
-#include "collocation/optimal_control.h"
+#include "actions/transition_motion.h"
 #include "dynamics/simbody_dynamics.h"
 #include "dynamics/tree_kinematics.h"
 #include "models/collision.h"
+#include "models/input_error.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/models/temporary_folder.h"
 
 namespace possibility::actions {
 namespace {
@@ -16,32 +18,14 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// The transition, solved once per test program.
-class SitDownTest : public testing::Test {
+class TransitionTest : public testing::Test {
  protected:
   struct Solved {
     NominalStance walk = SolveNominalStance(DrcHubo1(), DrcHubo1().GaitNamed("walk"));
     NominalStance crawl = SolveNominalStance(DrcHubo1(), DrcHubo1().GaitNamed("crawl"));
-    JumpModel model{DrcHubo1(), walk, crawl};
-    double displacement = SitDownProblem::Displacement(model);
-    collocation::OptimalControlResult result;
-    std::vector<Phase> motion;
-
-    Solved() {
-      const SitDownProblem problem(model, {});
-      collocation::OptimalControlOptions options;
-      options.intervals = {14, 8};
-      options.solver.tolerance = 1e-5;
-      options.solver.constraint_tolerance = 1e-7;
-      result = collocation::SolveOptimalControl(problem.problem(), options);
-      const auto& plans = result.trajectory.phases;
-      StanceMotion stance(DrcHubo1(), model, walk, crawl);
-      const Support all = stance.LandingAll(displacement, 0);
-      Append(stance.Prepare(), &motion);
-      Append(stance.FollowUntilPlaced(plans[0], stance.PlannedKnot(plans[0], 0),
-                                      stance.LaunchFeet(), all),
-             &motion);
-      Append(stance.Follow(plans[1], motion.back().knots.back(), all), &motion);
-    }
+    TransitionMotion transition{DrcHubo1(), walk, crawl, {}, {}};
+    double displacement = transition.displacement().x;
+    const std::vector<Phase>& motion = transition.phases();
   };
 
   static const Solved& Sitting() {
@@ -50,12 +34,7 @@ class SitDownTest : public testing::Test {
   }
 };
 
-TEST_F(SitDownTest, ConvergesOnACoarseMesh) {
-  EXPECT_TRUE(Sitting().result.succeeded()) << Sitting().result.message;
-  EXPECT_LT(Sitting().result.mesh_error, 1e-4);
-}
-
-TEST_F(SitDownTest, LeadsFromStanceToStanceAtRest) {
+TEST_F(TransitionTest, LeadsFromStanceToStanceAtRest) {
   const Knot& first = Sitting().motion.front().knots.front();
   const Knot& last = Sitting().motion.back().knots.back();
   EXPECT_LT((first.q - Sitting().walk.q).norm(), 1e-9);
@@ -66,7 +45,7 @@ TEST_F(SitDownTest, LeadsFromStanceToStanceAtRest) {
   EXPECT_LT(first.v.norm() + last.v.norm(), 1e-6);
 }
 
-TEST_F(SitDownTest, FeetStayAndHandsArriveAtRest) {
+TEST_F(TransitionTest, FeetStayAndHandsArriveAtRest) {
   dynamics::TreeKinematics kinematics(DrcHubo1());
   const models::ContactPatch& sole = DrcHubo1().contacts[DrcHubo1().ContactIndex("left_sole")];
   const models::ContactPatch& peg = DrcHubo1().contacts[DrcHubo1().ContactIndex("left_peg")];
@@ -85,7 +64,7 @@ TEST_F(SitDownTest, FeetStayAndHandsArriveAtRest) {
   EXPECT_NEAR(kinematics.Position(peg.link, peg.points[0]).z(), 0, 1e-8);
 }
 
-TEST_F(SitDownTest, ForcesAndTorquesAreThoseOfSimbody) {
+TEST_F(TransitionTest, ForcesAndTorquesAreThoseOfSimbody) {
   const models::RobotModel& robot = DrcHubo1();
   const double weight = robot.TotalMass() * dynamics::kGravity;
   dynamics::SimbodyDynamics simbody(robot);
@@ -113,7 +92,7 @@ TEST_F(SitDownTest, ForcesAndTorquesAreThoseOfSimbody) {
   }
 }
 
-TEST_F(SitDownTest, DoesNotRunIntoItself) {
+TEST_F(TransitionTest, DoesNotRunIntoItself) {
   const models::CollisionChecker checker(DrcHubo1(), models::Environment());
   dynamics::TreeKinematics kinematics(DrcHubo1());
   for (const Phase& phase : Sitting().motion) {
@@ -122,6 +101,53 @@ TEST_F(SitDownTest, DoesNotRunIntoItself) {
       EXPECT_TRUE(checker.SelfProximities(kinematics.X_WL(), 0).empty()) << knot.t;
     }
   }
+}
+
+TEST_F(TransitionTest, IsTheSameFromTheLibrary) {
+  const models::TemporaryFolder folder;
+  const Solved& solved = Sitting();
+  const TransitionMotion first(DrcHubo1(), solved.walk, solved.crawl, folder.path(), {});
+  EXPECT_FALSE(first.was_known());
+  first.Save();
+  const TransitionMotion second(DrcHubo1(), solved.walk, solved.crawl, folder.path(), {});
+  EXPECT_TRUE(second.was_known());
+  ASSERT_EQ(second.phases().size(), first.phases().size());
+  for (std::size_t i = 0; i < first.phases().size(); ++i) {
+    ASSERT_EQ(second.phases()[i].knots.size(), first.phases()[i].knots.size());
+    for (std::size_t k = 0; k < first.phases()[i].knots.size(); ++k) {
+      EXPECT_EQ(second.phases()[i].knots[k].q, first.phases()[i].knots[k].q);
+      EXPECT_EQ(second.phases()[i].knots[k].tau, first.phases()[i].knots[k].tau);
+    }
+  }
+}
+
+TEST_F(TransitionTest, ADamagedLibraryOnlyCostsTime) {
+  const models::TemporaryFolder folder;
+  const Solved& solved = Sitting();
+  TransitionMotion(DrcHubo1(), solved.walk, solved.crawl, folder.path(), {}).Save();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+    if (entry.is_regular_file()) std::ofstream(entry.path()) << "{\"format\": 1";
+  }
+  const TransitionMotion again(DrcHubo1(), solved.walk, solved.crawl, folder.path(), {});
+  EXPECT_FALSE(again.was_known());
+  EXPECT_EQ(again.ExpectedDuration(), solved.transition.ExpectedDuration());
+}
+
+TEST_F(TransitionTest, OnlyLeadsToMoreContacts) {
+  try {
+    const TransitionMotion backwards(DrcHubo1(), Sitting().crawl, Sitting().walk, {}, {});
+    FAIL() << "nothing thrown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("crawl bears on a contact that walk does not"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(TransitionTest, IsAbandonedWhenTimeIsUp) {
+  EXPECT_THROW(
+      TransitionMotion(DrcHubo1(), Sitting().walk, Sitting().crawl, {}, [] { return false; }),
+      Abandoned);
 }
 
 }  // namespace
