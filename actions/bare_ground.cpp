@@ -25,16 +25,11 @@ models::Obstacle Floor(const std::string& name, double x, double height) {
 /// would be on top of the other.
 models::Scenario BareGround(const JumpModel& model, const NominalStance& launch,
                             const NominalStance& landing, const JumpTask& task) {
-  constexpr double kEdge = 1e-3;  // m, of floor beyond a contact
-  const double launch_end = model.Position(model.toe(), model.ready()).x() + kEdge;
-  double landing_begin = model.Position(model.heel(), model.landed()).x();
-  for (const dynamics::ContactPoint& hand : model.hands()) {
-    landing_begin = std::min(landing_begin, model.Position(hand, model.landed()).x());
-  }
-  landing_begin = std::max(launch_end, task.distance + landing_begin - kEdge);
+  const collocation::Bounds gap = GapBetween(model, task.distance);
+  const double landing_begin = std::max(gap.lower, gap.upper);
   models::Scenario scenario;
   scenario.environment.obstacles = {
-      Floor("launch ground", launch_end - kVast / 2, 0),
+      Floor("launch ground", gap.lower - kVast / 2, 0),
       Floor("landing ground", landing_begin + kVast / 2, task.height)};
   scenario.environment.bounds = {Eigen::Vector2d(-kVast, -kVast), Eigen::Vector2d(kVast, kVast)};
   scenario.start.action = launch.gait->name;

@@ -29,6 +29,9 @@ constexpr int kMostIterations = 100;
 /// A coarse mesh first: where the whole robot does not follow it, the mesh may be to blame.
 constexpr std::array<double, 3> kFineness = {1, 1.5, 1.25};
 
+/// Between grounds of different heights, m.
+constexpr double kLeastGap = 0.01;
+
 class Stopwatch {
  public:
   double seconds() const {
@@ -63,6 +66,13 @@ JumpSolver::JumpSolver(const models::RobotModel& robot, const NominalStance& lau
 JumpAnswer JumpSolver::Solve(const JumpTask& task, collocation::SolveControl* control) const {
   const Stopwatch stopwatch;
   JumpAnswer answer;
+  const collocation::Bounds gap = GapBetween(model_, task.distance);
+  if (task.height != 0 && gap.upper - gap.lower < kLeastGap) {
+    answer.reason = fmt::format(
+        "a jump of {:.3f} m by {:.3f} m would land before the edge of the ground it leaves",
+        task.distance, task.height);
+    return answer;
+  }
   for (const double fineness : kFineness) {
     if (Attempt(task, fineness, control, &answer)) break;
   }
