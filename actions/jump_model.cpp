@@ -235,6 +235,12 @@ void JumpModel::FindGuards() {
     guards_.back().radius = thickness;
     const double far = hand.p_L.z() > 0 ? box.min().z() : box.max().z();
     guards_.push_back({{hand.link, {box.center().x(), 0, far}}, thickness});
+    middle_guards_.push_back({{hand.link, {box.center().x(), 0, far / 2}}, thickness});
+    const models::Joint& wrist = tree.joints[hand.link - 1];
+    if (wrist.parent == 0) continue;
+    const Vector3d half = wrist.X_PJ.translation() / 2;
+    middle_guards_.push_back(
+        {{wrist.parent, half}, HousingRadius(Bounds(tree.links[wrist.parent]))});
   }
 }
 

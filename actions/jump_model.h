@@ -73,6 +73,8 @@ class JumpModel {
     double radius = 0;  ///< m
   };
   const std::vector<Guard>& guards() const { return guards_; }
+  /// Half-way along the arms' links, for grounds with an edge that fits between the guards.
+  const std::vector<Guard>& middle_guards() const { return middle_guards_; }
 
   /// x and z of a point of the plane at planar q.
   Eigen::Vector2d Position(const dynamics::ContactPoint& point, const Eigen::VectorXd& q) const;
@@ -98,6 +100,7 @@ class JumpModel {
   Limb leg_;
   std::vector<Limb> arms_;
   std::vector<Guard> guards_;
+  std::vector<Guard> middle_guards_;
   std::vector<Separation> separations_;
   Eigen::VectorXd lower_, upper_;
 };

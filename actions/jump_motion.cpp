@@ -18,10 +18,12 @@ namespace {
 using collocation::PhaseTrajectory;
 using Eigen::VectorXd;
 
-constexpr double kKnotSpacing = 0.01;  // s, where nothing but dynamics holds the robot
+// Where nothing but dynamics holds the robot, s; a push changes faster than a flight.
+constexpr double kPushSpacing = 0.005;
+constexpr double kFlightSpacing = 0.01;
 
-int Intervals(double duration) {
-  return std::max(4, static_cast<int>(std::ceil(duration / kKnotSpacing - 1e-9)));
+int Intervals(double duration, double spacing) {
+  return std::max(4, static_cast<int>(std::ceil(duration / spacing - 1e-9)));
 }
 
 /// x at which change(x) = 0 (Broyden 1965, his first method), from a guess at which moving by
@@ -91,7 +93,7 @@ Phase JumpMotion::RollOverToes(const PhaseTrajectory& plan, const Knot& from) co
   Phase phase;
   phase.contacts = toes.names;
   phase.knots = ToeRoll(spatial_, toes.points, stance_.settings())
-                    .Roll(from.q, from.v, joints, duration, Intervals(duration));
+                    .Roll(from.q, from.v, joints, duration, Intervals(duration, kPushSpacing));
   return phase;
 }
 
@@ -99,7 +101,7 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
                       const Support& feet, JumpMotionReport* report) {
   const int n = stance_.robot().num_joints();
   const double duration = rise.duration + descent.duration;
-  const int intervals = Intervals(duration);
+  const int intervals = Intervals(duration, kFlightSpacing);
   VectorXd correction = VectorXd::Zero(n);
   const JointMotion joints = [&](double t) {
     const Signal<VectorXd> planned =

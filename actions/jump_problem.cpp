@@ -39,7 +39,7 @@ JumpProblem::JumpProblem(const JumpModel& model, const JumpTask& task, const Jum
 
 void JumpProblem::AddPhases() {
   AddPhase("crouch", Feet(), {0.3, 1.0});
-  AddPhase("toes", {model_.toe()}, {0.03, 0.4});
+  AddPhase("toes", {model_.toe()}, {0.03, 0.25});
   AddPhase("rise", {}, {0.03, 0.5});
   AddPhase("descent", {}, {0.03, 0.5});
   AddPhase("settle", Feet(), {0.03, 1.2});
@@ -52,9 +52,7 @@ void JumpProblem::AddPhases() {
 void JumpProblem::Push(const JumpSettings& settings) {
   StartAtRest(kCrouch);
   HoldSoles(kCrouch, At::kAfterStart);
-  const SagittalPhase& toes = phases_[kToes];
-  toes.phase->Constrain("tips", PointVelocities(model_.planar(), toes.points), toes.State(),
-                        {kZero, kZero}, At::kAfterStart);
+  HoldPoints(kToes, {kZero, kZero}, At::kAfterStart);
   StartHeld(kToes, {kZero, kZero});
   KeepAbove(kToes, "heels", {model_.heel()}, 0, At::kAfterStart);
   for (const int phase : {kCrouch, kToes}) {

@@ -108,11 +108,18 @@ std::vector<Bounds> SagittalProblem::HeldSolesAnd(std::size_t hands) {
   return bounds;
 }
 
+void SagittalProblem::HoldPoints(int phase, const std::vector<Bounds>& held, At at) {
+  const SagittalPhase& robot = phases_[phase];
+  robot.phase->ConstrainKnots("contacts", PointVelocities(model_.planar(), robot.points),
+                              robot.State(), held, at);
+  robot.phase->ConstrainKnots("still", PointAccelerations(model_.planar(), robot.points),
+                              robot.Motion(), held, At::kAfterStart, {kAcceleration});
+}
+
 void SagittalProblem::HoldSoles(int phase, At at) {
   const SagittalPhase& robot = phases_[phase];
   const double margin = settings_.sole_margin;
-  robot.phase->Constrain("contacts", PointVelocities(model_.planar(), robot.points), robot.State(),
-                         HeldSolesAnd(robot.points.size() - 2), at);
+  HoldPoints(phase, HeldSolesAnd(robot.points.size() - 2), at);
   robot.phase->Constrain("centre of pressure",
                          Differentiated<2, 2>([margin](const auto& f, auto* g) {
                            (*g)[0] = (1 - margin) * f[0] - margin * f[1];
@@ -209,10 +216,14 @@ void SagittalProblem::KeepAbove(int phase, const std::string& name,
 void SagittalProblem::KeepBodyAbove(int phase, At at) {
   std::vector<ContactPoint> points;
   std::vector<double> clearances;
-  for (const JumpModel::Guard& guard : model_.guards()) {
-    points.push_back(guard.point);
-    clearances.push_back(guard.radius + settings_.body_clearance);
-  }
+  const auto guard = [&](const std::vector<JumpModel::Guard>& guards) {
+    for (const JumpModel::Guard& guard : guards) {
+      points.push_back(guard.point);
+      clearances.push_back(guard.radius + settings_.body_clearance);
+    }
+  };
+  guard(model_.guards());
+  if (step_) guard(model_.middle_guards());
   KeepAbove(phase, "body", points, clearances, at);
 }
 

@@ -19,7 +19,7 @@ struct SagittalSettings {
                            .speed_fraction = 0.9,
                            .torque_fraction = 0.9,
                            .max_base_speed = 8,
-                           .min_normal_force = 5,
+                           .min_normal_force = 30,
                            .joint_margin = 0.03};
   double body_clearance = 0.02;  ///< m, what is around the guards above the ground in every phase
   double hand_clearance = 0.03;  ///< m, hands above the ground they leave
@@ -61,6 +61,11 @@ class SagittalProblem {
 
   /// The phase begins at rest in JumpModel::ready().
   void StartAtRest(int phase);
+  /// The phase's points do not move: no velocities and no accelerations at the knots. With
+  /// velocities at all nodes instead, two of them would determine the accelerations of the interval
+  /// by those at its start, and what is wrong there would stay wrong in every interval after it.
+  /// `held`: of x and z of each point.
+  void HoldPoints(int phase, const std::vector<collocation::Bounds>& held, collocation::At at);
   /// Heel and toe, the phase's first two points, do not move, and both bear.
   void HoldSoles(int phase, collocation::At at);
   /// Heel, toe and hands do not move; arms are never straight.

@@ -89,7 +89,7 @@ StanceMotion::StanceMotion(const models::RobotModel& robot, const JumpModel& mod
   // A heel unloads to nothing before it lifts.
   settings_.normal_reserve = 0;
   // What the plan in the plane has left over is for what only the whole robot sees.
-  settings_.friction_margin = 0.92;
+  settings_.friction_margin = 0.88;
   settings_.torque_margin = 0.99;
   settings_.speed_margin = 0.99;
 }

@@ -219,6 +219,13 @@ void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
                           Eigen::Map<Eigen::VectorXd>(scales.data(), static_cast<int>(n))});
 }
 
+void Phase::ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
+                           std::vector<Variable> arguments, std::vector<Bounds> bounds, At at,
+                           std::vector<double> scales) {
+  Constrain(name, std::move(f), std::move(arguments), std::move(bounds), at, std::move(scales));
+  constraints_.back().only_at_knots = true;
+}
+
 void Phase::AddIntegralCost(const std::string& name, std::shared_ptr<Function> f,
                             std::vector<Variable> arguments, double weight) {
   CheckArguments(name, f.get(), arguments);

@@ -93,6 +93,10 @@ class Phase {
   void Constrain(const std::string& name, std::shared_ptr<Function> f,
                  std::vector<Variable> arguments, std::vector<Bounds> bounds,
                  At at = At::kEverywhere, std::vector<double> scales = {});
+  /// The same at the knots of the mesh alone, not at the nodes between them.
+  void ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
+                      std::vector<Variable> arguments, std::vector<Bounds> bounds,
+                      At at = At::kEverywhere, std::vector<double> scales = {});
   /// Adds weight * the time integral of f(arguments), f of one output.
   void AddIntegralCost(const std::string& name, std::shared_ptr<Function> f,
                        std::vector<Variable> arguments, double weight = 1);
@@ -119,6 +123,7 @@ class Phase {
     std::vector<Bounds> bounds;
     At at;
     Eigen::VectorXd scales;
+    bool only_at_knots = false;
   };
   struct IntegralCost {
     std::string name;

@@ -335,6 +335,7 @@ void Transcription::AddPathConstraints(int phase_index, const Interrupt& interru
     if (interrupt) interrupt();
     for (const Phase::PathConstraint& constraint : phase.constraints_) {
       if (!Holds(constraint.at, point, n)) continue;
+      if (constraint.only_at_knots && !layouts_[phase_index].points[point].is_knot) continue;
       std::vector<PolynomialForm> arguments;
       for (const Variable& argument : constraint.arguments) {
         arguments.push_back(FormOf(argument, phase_index, point));
