@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,8 +7,6 @@
 #include <vector>
 
 #include "actions/gait_motion.h"
-#include "actions/jump_library.h"
-#include "actions/jump_solver.h"
 #include "actions/nominal_stance.h"
 #include "actions/swept_volume.h"
 #include "actions/transition_motion.h"
@@ -32,35 +29,23 @@ struct LocomotionModel {
     std::vector<Eigen::AlignedBox3d> sweep;  ///< in the first gait's stance frame
   };
 
-  /// `solver` and `library` are safe to use from several threads.
-  struct JumpEntry {
-    std::string name;
-    int from = 0;  ///< indices into gaits
-    int to = 0;
-    std::unique_ptr<JumpSolver> solver;
-    std::unique_ptr<JumpLibrary> library;
-  };
-
   const models::RobotModel* robot = nullptr;
   std::vector<std::unique_ptr<GaitEntry>> gaits;
   std::vector<TransitionEntry> transitions;
-  std::vector<JumpEntry> jumps;
 
   /// Index of the gait called `name`, or -1.
   int GaitIndex(const std::string& name) const;
 };
 
 /// Solves the stances and computes the swept volumes of the gaits among `actions` and the
-/// transitions among them, and prepares the jumps among `actions`. `robot` must outlive the result.
-/// `library`: folder of solved jumps, empty for none.
+/// transitions among them; jumps among them add nothing. `robot` must outlive the result.
 /// @throws InputError if an action does not exist, a gait's bounds allow a stride that the robot
 /// cannot
 ///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may
 ///   be empty) says no.
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
-                                     const std::function<bool()>& keep_going = {},
-                                     const std::filesystem::path& library = {});
+                                     const std::function<bool()>& keep_going = {});
 
 /// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
 /// do, m.
