@@ -10,6 +10,12 @@ namespace possibility::actions {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double kStretch = 1.4;
+
+}  // namespace
+
 /// The robot at rest, in the world.
 struct StepUpMotion::State {
   PlanarPose before;           ///< stance that the step starts in
@@ -17,6 +23,7 @@ struct StepUpMotion::State {
   Vector2d centre_of_mass;
   double root_height = 0;
   double lean = 0;
+  double time_scale = 1;
 };
 
 StepUpMotion::StepUpMotion(const models::RobotModel& robot, const LocomotionModel::GaitEntry& gait,
@@ -34,13 +41,25 @@ double StepUpMotion::ExpectedDuration() const {
 
 std::vector<Phase> StepUpMotion::Generate(const PlanarPose& from, double z, double rise,
                                           const std::function<bool()>& keep_going) const {
+  Eigen::VectorXd guess = gait_->stance.q;
+  guess.segment<2>(4) = from.position();
+  MotionBuilder builder(*robot_);
+  try {
+    return builder.Build(Phases(from, z, rise, 1), guess, keep_going);
+  } catch (const MotionError&) {
+    return builder.Build(Phases(from, z, rise, kStretch), guess, keep_going);
+  }
+}
+
+std::vector<MotionPhase> StepUpMotion::Phases(const PlanarPose& from, double z, double rise,
+                                              double time_scale) const {
   const NominalStance& stance = gait_->stance;
   const double nominal_height = z + stance.gait->posture.root_height;
   const PlanarPose before = from * PlanarPose{settings_.approach, 0, 0};
   std::vector<MotionPhase> phases =
-      gait_->motion->Phases(PlanStrides(stance.gait->parameters, from, before), z, 1);
+      gait_->motion->Phases(PlanStrides(stance.gait->parameters, from, before), z, time_scale);
 
-  State state{before, {}, before * stance.centre_of_mass, nominal_height, 0};
+  State state{before, {}, before * stance.centre_of_mass, nominal_height, 0, time_scale};
   for (const Vector3d& p_SF : stance.patch_centres) state.feet.push_back(before.At(z) * p_SF);
   const auto posture = [&](int bearing, const StepPosture& wanted, double ground) {
     State target = state;
@@ -59,10 +78,7 @@ std::vector<Phase> StepUpMotion::Generate(const PlanarPose& from, double z, doub
   end.root_height = nominal_height + rise;
   end.lean = 0;
   Shift(end, &state, &phases);
-
-  Eigen::VectorXd guess = stance.q;
-  guess.segment<2>(4) = from.position();
-  return MotionBuilder(*robot_).Build(phases, guess, keep_going);
+  return phases;
 }
 
 Vector2d StepUpMotion::Over(int limb, const State& state, double ahead) const {
@@ -107,7 +123,7 @@ std::vector<int> StepUpMotion::ContactsBut(int limb) const {
 void StepUpMotion::Shift(const State& target, State* state,
                          std::vector<MotionPhase>* phases) const {
   MotionPhase phase;
-  phase.duration = settings_.shift_time;
+  phase.duration = state->time_scale * settings_.shift_time;
   phase.contacts = ContactsBut(-1);
   phase.task = [=, a = *state, duration = phase.duration, task = TaskOf(*state),
                 pitch = gait_->stance.gait->posture.root_pitch](double t) mutable {
@@ -135,11 +151,11 @@ void StepUpMotion::Swing(int limb, double rise, const State& target, State* stat
 void StepUpMotion::MoveFoot(int limb, const Vector3d& p_WF, const State& target, double duration,
                             State* state, std::vector<MotionPhase>* phases) const {
   MotionPhase phase;
-  phase.duration = duration;
+  phase.duration = state->time_scale * duration;
   phase.contacts = ContactsBut(limb);
-  phase.task = [=, a = *state, task = TaskOf(*state),
+  phase.task = [=, a = *state, length = phase.duration, task = TaskOf(*state),
                 pitch = gait_->stance.gait->posture.root_pitch](double t) mutable {
-    const ScalarSignal s = RestToRest(t, duration);
+    const ScalarSignal s = RestToRest(t, length);
     task.limbs[limb].position = BlendVector<Vector3d>(a.feet[limb], p_WF, s);
     task.centre_of_mass = BlendVector<Vector2d>(a.centre_of_mass, target.centre_of_mass, s);
     task.root_height = Blend(a.root_height, target.root_height, s);
