@@ -57,6 +57,22 @@ std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories)
   return names;
 }
 
+/// @throws InputError if a manoeuvre has the name of another action.
+void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
+                     const std::vector<ManoeuvreFactory>& manoeuvres) {
+  std::vector<std::string> taken = NamesOf(JumpFactories(robot));
+  for (const models::Gait& gait : robot.gaits) taken.push_back(gait.name);
+  for (const std::string& name : NamesOf(manoeuvres)) {
+    if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+      throw InputError(
+          fmt::format("{}: actions: a manoeuvre is called '{}', as another action of robot '{}' or "
+                      "of this request is already",
+                      scenario.file.string(), name, robot.name));
+    }
+    taken.push_back(name);
+  }
+}
+
 /// One request, from the checked scenario to a verified plan.
 class TraversalPlanner {
  public:
@@ -119,19 +135,7 @@ class TraversalPlanner {
   /// Those of the robot's file come first.
   std::vector<ManoeuvreFactory> AllFactories() const {
     std::vector<ManoeuvreFactory> factories = JumpFactories(robot_);
-    std::vector<std::string> taken;
-    for (const models::Gait& gait : robot_.gaits) taken.push_back(gait.name);
-    for (const ManoeuvreFactory& factory : factories) taken.push_back(factory.name);
-    for (const ManoeuvreFactory& factory : request_.manoeuvres) {
-      if (std::find(taken.begin(), taken.end(), factory.name) != taken.end()) {
-        throw InputError(
-            fmt::format("{}: actions: a manoeuvre is called '{}', as another action of robot '{}' "
-                        "or of this request is already",
-                        scenario_.file.string(), factory.name, robot_.name));
-      }
-      taken.push_back(factory.name);
-      factories.push_back(factory);
-    }
+    factories.insert(factories.end(), request_.manoeuvres.begin(), request_.manoeuvres.end());
     return factories;
   }
 
@@ -503,6 +507,7 @@ std::string ToString(PlanStatus status) {
 
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
+  RequireNewNames(robot, scenario, request.manoeuvres);
   models::CheckScenarioAgainstRobot(scenario, robot, NamesOf(request.manoeuvres));
   try {
     return TraversalPlanner(robot, scenario, request).Plan();
