@@ -19,14 +19,12 @@ Vector2d Ahead(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
 
 }  // namespace
 
-// [constructor]
 StepUp::StepUp(const PlanningContext& context)
     : Manoeuvre(context, "step_up", context.model->GaitIndex("walk"),
                 context.model->GaitIndex("walk")),
       motion_(*context.model->robot, *context.model->gaits[from()]),
       checker_(*context.world.environment),
       pelvis_(*context.model->robot, checker_) {
-  // [constructor]
   for (const models::Obstacle& obstacle : context.world.environment->obstacles) {
     if (!obstacle.is_ground) continue;
     for (int side = 0; side < 4; ++side) {
@@ -51,7 +49,6 @@ std::optional<StepUp::Step> StepUp::AsStep(const graph::PointPair& edge) const {
   return step;
 }
 
-// [necessary]
 bool StepUp::CN(const graph::PointPair& edge) const {
   if (!AsStep(edge) || !launch_gait().CS(edge.from) || !landing_gait().CS(edge.to)) return false;
   const Eigen::Isometry3d from = ToPose(edge.from);
@@ -62,7 +59,6 @@ bool StepUp::CN(const graph::PointPair& edge) const {
   }
   return true;
 }
-// [necessary]
 
 std::optional<GroundedStance> StepUp::OtherEnd(const GroundedStance& stance,
                                                const Vector2d& towards) const {
@@ -81,14 +77,12 @@ std::optional<GroundedStance> StepUp::OtherEnd(const GroundedStance& stance,
   return std::nullopt;
 }
 
-// [extend]
 graph::Point StepUp::ExtendTowards(const graph::Point& v0, const graph::Point& v1) const {
   const std::optional<GroundedStance> stance = LaunchStance(v0);
   if (!stance) return v0;
   const std::optional<GroundedStance> end = OtherEnd(*stance, (v1 - v0).head<2>());
   return end ? PointOf(*end) : v0;
 }
-// [extend]
 
 graph::Point StepUp::ReverseExtend(const graph::Point& v0, const graph::Point& v1) const {
   return ExtendTowards(v0, v1);  // a step joins the same two stances in both directions
@@ -114,7 +108,6 @@ std::optional<graph::Point> StepUp::StanceAtAnEdge(const graph::Point& v,
   return std::nullopt;
 }
 
-// [find]
 std::optional<graph::Point> StepUp::FindLaunchPoint(const graph::Point& v,
                                                     const graph::Point& v1) const {
   return StanceAtAnEdge(v, v1);
@@ -123,13 +116,11 @@ std::optional<graph::Point> StepUp::FindLandingPoint(const graph::Point& v,
                                                      const graph::Point& v1) const {
   return StanceAtAnEdge(v, v1);
 }
-// [find]
 
 double StepUp::ExpectedDuration(const graph::PointPair&) const {
   return motion_.ExpectedDuration();
 }
 
-// [motion]
 std::vector<Phase> StepUp::Motion(const graph::PointPair& edge,
                                   const std::function<bool()>& keep_going) const {
   const std::optional<Step> step = AsStep(edge);
@@ -138,9 +129,7 @@ std::vector<Phase> StepUp::Motion(const graph::PointPair& edge,
       motion_.Generate(step->low.pose, step->low.z, step->high.z - step->low.z, keep_going);
   return step->up ? up : Reversed(up);
 }
-// [motion]
 
-// [bounds]
 ManoeuvreBounds StepUp::Bounds() const {
   ManoeuvreBounds bounds;
   bounds.landings = [distance = motion_.distance()](double rise) -> std::optional<LandingRange> {
@@ -152,13 +141,10 @@ ManoeuvreBounds StepUp::Bounds() const {
   bounds.flight = FlightBounds{};  // a foot bears at all times
   return bounds;
 }
-// [bounds]
 
-// [factory]
 ManoeuvreFactory StepUpFactory() {
   return {"step_up",
           [](const PlanningContext& context) { return std::make_shared<StepUp>(context); }};
 }
-// [factory]
 
 }  // namespace possibility::actions

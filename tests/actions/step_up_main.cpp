@@ -9,7 +9,6 @@
 
 using namespace possibility;
 
-// [program]
 int main(int argc, char** argv) {
   const std::string file = argc > 1 ? argv[1] : POSSIBILITY_SOURCE_DIR "/tests/actions/plinth.yaml";
   const std::filesystem::path folder = argc > 2 ? argv[2] : "out/plinth";
@@ -29,4 +28,3 @@ int main(int argc, char** argv) {
     return 1;
   }
 }
-// [program]
