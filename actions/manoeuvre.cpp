@@ -55,6 +55,7 @@ bool Manoeuvre::CS(const graph::PointPair& edge) const {
 }
 
 bool Manoeuvre::Explorable(const graph::PointPair& edge) const {
+  if (!LaunchStance(edge.from) || !LandingStance(edge.to)) return false;
   const std::optional<Verdict> verdict = VerdictOn(edge);
   return verdict ? verdict->possible : CN(edge);
 }

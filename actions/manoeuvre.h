@@ -64,7 +64,7 @@ class Manoeuvre : public graph::NonholonomicAction {
   bool CN(const graph::PointPair& edge) const override = 0;
   /// Whether it is known to be possible.
   bool CS(const graph::PointPair& edge) const override;
-  /// C_N, unless more is known.
+  /// Only between nominal stances of its gaits; C_N there, unless more is known.
   bool Explorable(const graph::PointPair& edge) const override;
 
   /// A MotionJob if C_N holds (motion_job.h): it generates the motion and looks for collisions.
@@ -82,7 +82,7 @@ class Manoeuvre : public graph::NonholonomicAction {
   /// What the floods may take for granted; nothing unless overridden.
   virtual ManoeuvreBounds Bounds() const { return {}; }
 
-  /// Called before the planner answers "no", once: bounds that were guessed are to be made true.
+  /// Called before the planner answers "no": bounds that were guessed are to be made true.
   /// Whether they changed. @throws Abandoned if `keep_going` (may be empty) says no.
   virtual bool ReplaceGuesses(const std::function<bool()>& keep_going);
 

@@ -262,6 +262,7 @@ class TraversalPlanner {
       flood_ = flood();
       if (!flood_->route_may_exist && ReplaceGuesses(keep_going)) {
         manoeuvres = FloodManoeuvres();
+        if (!manoeuvres) return graph::RouteOracleAnswer::kUnknown;
         flood_ = flood();
       }
       if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;

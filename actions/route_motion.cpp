@@ -55,12 +55,12 @@ void RequireStance(const LocomotionModel& model, int gait, const PlanarPose& pos
                 turn.angularDistance(Eigen::Quaterniond(X_WR.linear())),
                 (knot.q.tail(joints) - stance.q.tail(joints)).lpNorm<Eigen::Infinity>()});
   if (!(off < kContinuity)) {
-    throw MotionError(fmt::format("the motion {} {:.2g} m or rad off the stance of '{}'", where,
+    throw MotionError(fmt::format("the motion {} {:.2g} (m or rad) off the stance of '{}'", where,
                                   off, stance.gait->name));
   }
   if (!(knot.v.lpNorm<Eigen::Infinity>() < kContinuity)) {
-    throw MotionError(
-        fmt::format("the motion {} a stance of '{}' but not at rest", where, stance.gait->name));
+    throw MotionError(fmt::format("the motion {} in the stance of '{}' but not at rest", where,
+                                  stance.gait->name));
   }
 }
 
@@ -80,9 +80,8 @@ void RequireFit(const LocomotionModel& model, const RouteLeg& leg,
     throw MotionError("the motion does not begin at time 0");
   }
   RequireStance(model, StartGait(model, leg), leg.from, leg.z, phases.front().knots.front(),
-                "begins in");
-  RequireStance(model, EndGait(model, leg), leg.to, leg.z_to, phases.back().knots.back(),
-                "ends in");
+                "begins");
+  RequireStance(model, EndGait(model, leg), leg.to, leg.z_to, phases.back().knots.back(), "ends");
 }
 
 std::vector<Phase> ManoeuvrePhases(const LocomotionModel& model, const RouteLeg& leg,
