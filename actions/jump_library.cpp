@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "actions/motion_identity.h"
 #include "dynamics/tree_kinematics.h"
 #include "models/file_contents.h"
 #include "models/input_error.h"
@@ -19,19 +20,6 @@ namespace {
 constexpr const char* kFormat = "possibility-jumps/1";
 constexpr const char* kReachFile = "reach.json";
 constexpr double kSame = 1e-9;  // m
-
-/// Whatever a jump of this robot depends on. A field that is added to the settings belongs here.
-std::string Identity(const models::RobotModel& robot, const JumpSettings& s) {
-  const SagittalLimits& l = s.limits;
-  return models::ContentHash(
-      {robot.content_hash,
-       fmt::format("{} {} {} {} {} {} {} {} {}", l.friction, l.friction_fraction, l.speed_fraction,
-                   l.torque_fraction, l.max_acceleration, l.max_base_speed, l.min_normal_force,
-                   l.max_normal_force, l.joint_margin),
-       fmt::format("{} {} {} {} {} {} {} {} {} {}", s.body_clearance, s.hand_clearance,
-                   s.hand_approach, s.min_stance_pitch, s.max_stance_pitch, s.max_contact_speed,
-                   s.sole_margin, s.max_hand_tilt, s.leg_reach, s.arm_reach)});
-}
 
 /// Nobody jumps farther than a body does that leaves the ground as fast as stretching legs could
 /// at their joints' greatest speeds: up by the legs' length in all, v = sum of speed * length.
@@ -88,8 +76,8 @@ std::optional<std::pair<double, double>> JumpReach::Distances(double height) con
 JumpLibrary::JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
                          const std::filesystem::path& folder)
     : solver_(solver),
-      identity_(Identity(robot, solver.settings())),
-      folder_(folder.empty() ? folder : folder / identity_.substr(0, 16)),
+      identity_(MotionIdentity(robot, solver.settings())),
+      folder_(MotionFolder(folder, identity_)),
       reach_(OptimisticReach(solver.model())) {
   if (!folder_.empty()) ReadReach();
 }

@@ -42,6 +42,20 @@ bool Bears(const models::Gait& gait, const std::string& patch, const models::Rob
   });
 }
 
+Eigen::AlignedBox3d Bounds(const models::Link& link) {
+  Eigen::AlignedBox3d box;
+  for (const models::PosedShape& posed : link.shapes) box.extend(posed.shape.Bounds(posed.X_PS));
+  return box;
+}
+
+/// Of a link's shapes around its joint, at the end of the link that ends there.
+double HousingRadius(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty()) return 0;
+  const double x = std::max(std::abs(box.min().x()), std::abs(box.max().x()));
+  const double z = std::min(std::abs(box.min().z()), std::abs(box.max().z()));
+  return std::hypot(x, z);
+}
+
 }  // namespace
 
 JumpModel::JumpModel(const models::RobotModel& robot, const NominalStance& launch,
@@ -200,28 +214,27 @@ void JumpModel::FindGuards() {
     for (const ContactPoint& hand : hands_) links.insert(hand.link);
     return links;
   }();
-  Eigen::AlignedBox3d trunk;
-  for (const models::PosedShape& shape : tree.links[0].shapes) {
-    trunk.extend(shape.shape.Bounds(shape.X_PS));
-  }
+  const Eigen::AlignedBox3d trunk = Bounds(tree.links[0]);
   if (!trunk.isEmpty()) {
     for (const double x : {trunk.min().x(), trunk.max().x()}) {
-      for (const double z : {trunk.min().z(), trunk.max().z()}) guards_.push_back({0, {x, 0, z}});
+      for (const double z : {trunk.min().z(), trunk.max().z()}) {
+        guards_.push_back({{0, {x, 0, z}}, 0});
+      }
     }
   }
   for (int link = 1; link < tree.num_links(); ++link) {
-    if (!bearing.contains(link)) guards_.push_back({link, Vector3d::Zero()});
+    if (bearing.contains(link)) continue;
+    guards_.push_back({{link, Vector3d::Zero()}, HousingRadius(Bounds(tree.links[link]))});
   }
   // A hand that bears on a peg sticks out on its other side, and the forearm ends at it.
   for (const ContactPoint& hand : hands_) {
-    guards_.push_back({hand.link, Vector3d::Zero()});
-    Eigen::AlignedBox3d box;
-    for (const models::PosedShape& posed : tree.links[hand.link].shapes) {
-      box.extend(posed.shape.Bounds(posed.X_PS));
-    }
+    const Eigen::AlignedBox3d box = Bounds(tree.links[hand.link]);
+    guards_.push_back({{hand.link, Vector3d::Zero()}, 0});
     if (box.isEmpty()) continue;
+    const double thickness = std::max(-box.min().x(), box.max().x());
+    guards_.back().radius = thickness;
     const double far = hand.p_L.z() > 0 ? box.min().z() : box.max().z();
-    guards_.push_back({hand.link, {box.center().x(), 0, far}});
+    guards_.push_back({{hand.link, {box.center().x(), 0, far}}, thickness});
   }
 }
 

@@ -66,8 +66,13 @@ class JumpModel {
   /// the trunk, the other joints as in either stance; within their position limits, rad or m.
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
-  /// Points of the body that have to stay above the ground: joints, and corners of the trunk.
-  const std::vector<dynamics::ContactPoint>& guards() const { return guards_; }
+  /// Points of the body that have to stay above the ground, by the radius of what is around them:
+  /// joints in their housings, and corners of the trunk.
+  struct Guard {
+    dynamics::ContactPoint point;
+    double radius = 0;  ///< m
+  };
+  const std::vector<Guard>& guards() const { return guards_; }
 
   /// x and z of a point of the plane at planar q.
   Eigen::Vector2d Position(const dynamics::ContactPoint& point, const Eigen::VectorXd& q) const;
@@ -92,7 +97,7 @@ class JumpModel {
   std::vector<Ball> peg_ends_;
   Limb leg_;
   std::vector<Limb> arms_;
-  std::vector<dynamics::ContactPoint> guards_;
+  std::vector<Guard> guards_;
   std::vector<Separation> separations_;
   Eigen::VectorXd lower_, upper_;
 };

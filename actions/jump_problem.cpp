@@ -29,9 +29,8 @@ JumpProblem::JumpProblem(const JumpModel& model, const JumpTask& task, const Jum
   Fly(settings);
   Land(settings);
   for (int phase = 0; phase < kNumPhases; ++phase) {
-    const double ground = phase < kDescent ? 0 : task.height;
     const At at = phase == kCrouch ? At::kAfterStart : At::kEverywhere;
-    KeepAbove(phase, "body", model.guards(), ground + settings.body_clearance, at);
+    KeepBodyAbove(phase, at);
     StayWithinRanges(phase, at);
   }
   AddCosts();
@@ -43,7 +42,7 @@ void JumpProblem::AddPhases() {
   AddPhase("toes", {model_.toe()}, {0.03, 0.4});
   AddPhase("rise", {}, {0.03, 0.5});
   AddPhase("descent", {}, {0.03, 0.5});
-  AddPhase("settle", Feet(), {0.03, 0.8});
+  AddPhase("settle", Feet(), {0.03, 1.2});
   AddPhase("landing", FeetAndHands(), {0.3, 1.5});
   for (int phase = 1; phase < kNumPhases; ++phase) {
     ContinueSagittally(&problem_, phases_[phase - 1], phases_[phase], phase != kSettle);
@@ -74,8 +73,8 @@ void JumpProblem::Fly(const JumpSettings& settings) {
                 {kZero});
   KeepAbove(kRise, "feet", Feet(), 0, At::kAfterStart);
   KeepAbove(kRise, "hands", model_.hands(), settings.hand_clearance, At::kEverywhere);
-  KeepAbove(kDescent, "feet", Feet(), height_, At::kInside);
-  KeepHandsAbove(kDescent, height_ + settings.hand_approach, At::kInside);
+  KeepAbove(kDescent, "feet", Feet(), 0, At::kInside);
+  KeepHandsAbove(kDescent, settings.hand_approach, At::kInside);
 }
 
 void JumpProblem::Land(const JumpSettings& settings) {
@@ -88,7 +87,7 @@ void JumpProblem::Land(const JumpSettings& settings) {
   KeepBent(kSettle, "leg", model_.leg(), settings.leg_reach, At::kStart);
   StartHeld(kSettle, HeldSoles());
   HoldSoles(kSettle, At::kEverywhere);
-  KeepHandsAbove(kSettle, height_ + settings.hand_approach, At::kBeforeEnd);
+  KeepHandsAbove(kSettle, settings.hand_approach, At::kBeforeEnd);
   // The feet are where they are; the hands are set down at no speed.
   StartPlaced(kLanding, 2);
   StartHeld(kLanding, HeldSolesAnd(model_.hands().size()));

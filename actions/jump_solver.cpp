@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "actions/jump_verification.h"
+#include "actions/bare_ground.h"
 #include "collocation/optimal_control.h"
 
 namespace possibility::actions {
@@ -28,6 +28,9 @@ std::vector<int> Intervals(double fineness) {
 constexpr int kMostIterations = 100;
 /// A coarse mesh first: where the whole robot does not follow it, the mesh may be to blame.
 constexpr std::array<double, 3> kFineness = {1, 1.5, 1.25};
+
+/// Between grounds of different heights, m.
+constexpr double kLeastGap = 0.01;
 
 class Stopwatch {
  public:
@@ -63,6 +66,13 @@ JumpSolver::JumpSolver(const models::RobotModel& robot, const NominalStance& lau
 JumpAnswer JumpSolver::Solve(const JumpTask& task, collocation::SolveControl* control) const {
   const Stopwatch stopwatch;
   JumpAnswer answer;
+  const collocation::Bounds gap = GapBetween(model_, task.distance);
+  if (task.height != 0 && gap.upper - gap.lower < kLeastGap) {
+    answer.reason = fmt::format(
+        "a jump of {:.3f} m by {:.3f} m would land before the edge of the ground it leaves",
+        task.distance, task.height);
+    return answer;
+  }
   for (const double fineness : kFineness) {
     if (Attempt(task, fineness, control, &answer)) break;
   }
@@ -119,7 +129,8 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
     JumpMotion motion(robot_, model_, launch_, landing_);
     jump->phases = motion.Realise(problem, trajectory, &jump->report);
     if (is_new) {
-      const std::string fault = FaultOnBareGround(robot_, model_, launch_, landing_, *jump);
+      const std::string fault =
+          FaultOnBareGround(robot_, model_, launch_, landing_, jump->task, jump->phases);
       if (!fault.empty()) throw MotionError(fault);
     }
     answer->jump = std::move(jump);

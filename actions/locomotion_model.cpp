@@ -26,7 +26,8 @@ int LocomotionModel::GaitIndex(const std::string& name) const {
 
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
-                                     const std::function<bool()>& keep_going) {
+                                     const std::function<bool()>& keep_going,
+                                     const std::filesystem::path& library) {
   models::CheckActionsOfRobot(actions, robot, robot.file.string());
   LocomotionModel model;
   model.robot = &robot;
@@ -44,8 +45,8 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     entry.to = model.GaitIndex(transition.to);
     if (entry.from < 0 || entry.to < 0) continue;
     entry.motion = std::make_unique<TransitionMotion>(
-        robot, transition, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance);
-    entry.sweep = SweepTransition(robot, *entry.motion, keep_going).Boxes();
+        robot, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance, library, keep_going);
+    entry.sweep = SweepTransition(robot, *entry.motion).Boxes();
     model.transitions.push_back(std::move(entry));
   }
   return model;

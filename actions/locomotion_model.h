@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -39,13 +40,15 @@ struct LocomotionModel {
 
 /// Solves the stances and computes the swept volumes of the gaits among `actions` and the
 /// transitions among them; jumps among them add nothing. `robot` must outlive the result.
+/// `library`: folder of solved transitions, empty for none.
 /// @throws InputError if an action does not exist, a gait's bounds allow a stride that the robot
 /// cannot
 ///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may
 ///   be empty) says no.
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
-                                     const std::function<bool()>& keep_going = {});
+                                     const std::function<bool()>& keep_going = {},
+                                     const std::filesystem::path& library = {});
 
 /// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
 /// do, m.

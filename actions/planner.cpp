@@ -84,7 +84,8 @@ class TraversalPlanner {
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
-        model_(BuildLocomotionModel(robot, GaitNames(), [this] { return Remaining() > 0; })) {
+        model_(BuildLocomotionModel(
+            robot, GaitNames(), [this] { return Remaining() > 0; }, request.library)) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));

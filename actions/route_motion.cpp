@@ -9,6 +9,8 @@
 #include <optional>
 #include <thread>
 
+#include "actions/stance_motion.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -21,12 +23,8 @@ constexpr double kStandingTime = 0.2;
 /// Motions of neighbouring legs meet within this: m, rad, m/s, rad/s.
 constexpr double kContinuity = 1e-6;
 
-std::vector<MotionPhase> LegPhases(const LocomotionModel& model, const RouteLeg& leg,
-                                   double time_scale) {
-  if (leg.transition >= 0) {
-    const TransitionMotion& motion = *model.transitions[leg.transition].motion;
-    return motion.Phases(leg.backwards ? leg.to : leg.from, leg.z, time_scale);
-  }
+std::vector<MotionPhase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
+                                    double time_scale) {
   const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
   const std::vector<PlanarPose> strides =
       PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);
@@ -34,13 +32,17 @@ std::vector<MotionPhase> LegPhases(const LocomotionModel& model, const RouteLeg&
   return gait.motion->Phases(strides, leg.z, time_scale);
 }
 
-/// Configuration at the beginning of LegPhases.
+/// Configuration at the beginning of GaitPhases.
 Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) {
-  const PlanarPose& stance = leg.backwards ? leg.to : leg.from;
-  const int gait = leg.transition >= 0 ? model.transitions[leg.transition].from : leg.gait;
-  Eigen::VectorXd q = model.gaits[gait]->stance.q;
-  q.segment<2>(4) = stance.position();
+  Eigen::VectorXd q = model.gaits[leg.gait]->stance.q;
+  q.segment<2>(4) = leg.from.position();
   return q;
+}
+
+std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg& leg) {
+  const std::vector<Phase> phases = Placed(model.transitions[leg.transition].motion->phases(),
+                                           leg.backwards ? leg.to : leg.from, leg.z);
+  return leg.backwards ? Reversed(phases) : phases;
 }
 
 /// @throws MotionError unless the robot is at rest in the stance at this knot.
@@ -152,12 +154,11 @@ class LegQueue {
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
                                const std::function<bool()>& keep_going) {
   if (leg.manoeuvre != nullptr) return ManoeuvrePhases(model, leg, keep_going);
+  if (leg.transition >= 0) return TransitionPhases(model, leg);
   MotionBuilder builder(*model.robot);
   for (const double scale : kTimeScales) {
     try {
-      const std::vector<Phase> phases =
-          builder.Build(LegPhases(model, leg, scale), InitialGuess(model, leg), keep_going);
-      return leg.backwards ? Reversed(phases) : phases;
+      return builder.Build(GaitPhases(model, leg, scale), InitialGuess(model, leg), keep_going);
     } catch (const MotionError&) {
       if (scale == std::end(kTimeScales)[-1]) throw;
     }

@@ -46,11 +46,36 @@ class LinearFunction : public collocation::Function {
   VectorXd weights_;
 };
 
+/// Ground at least as high as the real one wherever the gap's edges are moved a little towards each
+/// other.
+collocation::SmoothStep StepBetween(const Bounds& gap, double height) {
+  constexpr double kWidest = 0.1;  // m
+  constexpr double kMargin = 0.05;
+  const double third = (gap.upper - gap.lower) / 3;
+  const double width = std::min(third, kWidest);
+  const double margin = std::min(third, kMargin);
+  return height > 0
+             ? collocation::SmoothStep{gap.upper - margin - width, gap.upper - margin, height}
+             : collocation::SmoothStep{gap.lower + margin, gap.lower + margin + width, height};
+}
+
 }  // namespace
+
+Bounds GapBetween(const JumpModel& model, double distance) {
+  constexpr double kEdge = 1e-3;  // m, of ground beyond a contact
+  double landing_begins = model.Position(model.heel(), model.landed()).x();
+  for (const ContactPoint& hand : model.hands()) {
+    landing_begins = std::min(landing_begins, model.Position(hand, model.landed()).x());
+  }
+  return {model.Position(model.toe(), model.ready()).x() + kEdge,
+          distance + landing_begins - kEdge};
+}
 
 SagittalProblem::SagittalProblem(const std::string& name, const JumpModel& model, double distance,
                                  double height, const SagittalSettings& settings)
-    : model_(model), distance_(distance), height_(height), settings_(settings), problem_(name) {}
+    : model_(model), distance_(distance), height_(height), settings_(settings), problem_(name) {
+  if (height != 0) step_ = StepBetween(GapBetween(model, distance), height);
+}
 
 std::vector<ContactPoint> SagittalProblem::Feet() const { return {model_.heel(), model_.toe()}; }
 
@@ -162,23 +187,42 @@ void SagittalProblem::EndAtRest(int phase) {
 }
 
 void SagittalProblem::KeepAbove(int phase, const std::string& name,
-                                const std::vector<ContactPoint>& points, double height, At at) {
+                                const std::vector<ContactPoint>& points, double clearance, At at) {
+  KeepAbove(phase, name, points, std::vector<double>(points.size(), clearance), at);
+}
+
+void SagittalProblem::KeepAbove(int phase, const std::string& name,
+                                const std::vector<ContactPoint>& points,
+                                const std::vector<double>& clearances, At at) {
   std::vector<Bounds> bounds;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    bounds.push_back(kFree);
-    bounds.push_back({height, kInfinity});
+  for (const double clearance : clearances) {
+    if (!step_) bounds.push_back(kFree);  // x
+    bounds.push_back({clearance, kInfinity});
   }
-  phases_[phase].phase->Constrain(name, PointPositions(model_.planar(), points),
+  phases_[phase].phase->Constrain(name,
+                                  step_
+                                      ? collocation::StepClearance(model_.planar(), points, *step_)
+                                      : PointPositions(model_.planar(), points),
                                   phases_[phase].Positions(), bounds, at);
 }
 
-void SagittalProblem::KeepHandsAbove(int phase, double height, At at) {
-  KeepAbove(phase, "hands", model_.hands(), height, at);
+void SagittalProblem::KeepBodyAbove(int phase, At at) {
+  std::vector<ContactPoint> points;
+  std::vector<double> clearances;
+  for (const JumpModel::Guard& guard : model_.guards()) {
+    points.push_back(guard.point);
+    clearances.push_back(guard.radius + settings_.body_clearance);
+  }
+  KeepAbove(phase, "body", points, clearances, at);
+}
+
+void SagittalProblem::KeepHandsAbove(int phase, double clearance, At at) {
+  KeepAbove(phase, "hands", model_.hands(), clearance, at);
   const double leaning = std::cos(settings_.max_hand_tilt);
   for (std::size_t i = 0; i < model_.peg_ends().size(); ++i) {
     const JumpModel::Ball& end = model_.peg_ends()[i];
     if (end.radius == 0) continue;
-    KeepAbove(phase, fmt::format("peg {}", i), {end.centre}, height + leaning * end.radius, at);
+    KeepAbove(phase, fmt::format("peg {}", i), {end.centre}, clearance + leaning * end.radius, at);
   }
 }
 

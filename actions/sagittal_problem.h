@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "actions/jump_model.h"
 #include "actions/sagittal_phase.h"
 #include "collocation/optimal_control_problem.h"
+#include "collocation/step_clearance.h"
 
 namespace possibility::actions {
 
@@ -19,7 +21,7 @@ struct SagittalSettings {
                            .max_base_speed = 8,
                            .min_normal_force = 5,
                            .joint_margin = 0.03};
-  double body_clearance = 0.05;  ///< m, guards above the ground in every phase
+  double body_clearance = 0.02;  ///< m, what is around the guards above the ground in every phase
   double hand_clearance = 0.03;  ///< m, hands above the ground they leave
   double hand_approach = 0.01;   ///< m, hands above the ground they are about to touch
   /// Heel and toe each bear at least this fraction of what the sole bears, while it is flat.
@@ -29,6 +31,11 @@ struct SagittalSettings {
   /// either side.
   double arm_reach = 0.96;
 };
+
+/// From where the launch ground ends to where the landing ground begins, along x in the frame of
+/// the launch stance, m, if both are no longer than the contacts need. Empty (upper < lower) if the
+/// robot lands before where it stood.
+collocation::Bounds GapBetween(const JumpModel& model, double distance);
 
 /// An optimal-control problem of a robot that moves from JumpModel's launch stance to its landing
 /// stance, whose frame is at `distance` and `height` (m) in the frame of the launch. Derived
@@ -68,12 +75,18 @@ class SagittalProblem {
   void StartPlaced(int phase, int first_point);
   /// The phase ends at rest in the landing stance.
   void EndAtRest(int phase);
+  /// Points at least `clearance` above the ground.
   void KeepAbove(int phase, const std::string& name,
-                 const std::vector<dynamics::ContactPoint>& points, double height,
+                 const std::vector<dynamics::ContactPoint>& points, double clearance,
                  collocation::At at);
-  /// Hands and the rounded ends of their pegs above ground of a height; a peg that leans when it
-  /// is set down goes into the ground with its round end by a little.
-  void KeepHandsAbove(int phase, double height, collocation::At at);
+  void KeepAbove(int phase, const std::string& name,
+                 const std::vector<dynamics::ContactPoint>& points,
+                 const std::vector<double>& clearances, collocation::At at);
+  /// The guards, by their radii and settings.body_clearance.
+  void KeepBodyAbove(int phase, collocation::At at);
+  /// Hands and the rounded ends of their pegs; a peg that leans when it is set down goes into the
+  /// ground with its round end by a little.
+  void KeepHandsAbove(int phase, double clearance, collocation::At at);
   /// Joints where the robot does not run into itself, feet away from the trunk.
   void StayWithinRanges(int phase, collocation::At at);
   void KeepUpright(int phase, const dynamics::ContactPoint& hand, collocation::At at,
@@ -87,6 +100,8 @@ class SagittalProblem {
   const JumpModel& model_;
   double distance_;
   double height_;
+  /// The ground, if it is not level.
+  std::optional<collocation::SmoothStep> step_;
   SagittalSettings settings_;
   collocation::OptimalControlProblem problem_;
   std::vector<SagittalPhase> phases_;

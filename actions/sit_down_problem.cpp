@@ -23,7 +23,7 @@ SitDownProblem::SitDownProblem(const JumpModel& model, const SitDownSettings& se
   EndAtRest(kBear);
   for (int phase = 0; phase < kNumPhases; ++phase) {
     const At at = phase == kSit ? At::kAfterStart : At::kEverywhere;
-    KeepAbove(phase, "body", model.guards(), settings.body_clearance, at);
+    KeepBodyAbove(phase, at);
     StayWithinRanges(phase, at);
   }
   AddCosts();

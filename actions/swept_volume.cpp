@@ -125,17 +125,14 @@ SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stan
   return volume;
 }
 
-SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition,
-                            const std::function<bool()>& keep_going) {
+SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition) {
   SweptVolume volume;
-  try {
-    SampleMotion(
-        robot, transition.Phases(PlanarPose(), 0, 1), transition.from().q, keep_going,
-        [&](const std::vector<Eigen::Isometry3d>& X_WL) { volume.Add(robot, X_WL, PlanarPose()); });
-  } catch (const MotionError& error) {
-    throw InputError(fmt::format("{}: transitions: {} to {} is not possible: {}",
-                                 robot.file.string(), transition.from().gait->name,
-                                 transition.to().gait->name, error.what()));
+  dynamics::TreeKinematics kinematics(robot);
+  for (const Phase& phase : transition.phases()) {
+    for (const Knot& knot : phase.knots) {
+      kinematics.SetPosition(knot.q);
+      volume.Add(robot, kinematics.X_WL(), PlanarPose());
+    }
   }
   return volume;
 }

@@ -41,8 +41,6 @@ SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stan
                       const std::function<bool()>& keep_going = {});
 
 /// Volume swept by a transition, in the first gait's stance frame.
-/// @throws InputError as SweepGait.
-SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition,
-                            const std::function<bool()>& keep_going = {});
+SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition);
 
 }  // namespace possibility::actions

@@ -1,23 +1,26 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <vector>
 
-#include "actions/motion_builder.h"
 #include "actions/nominal_stance.h"
 #include "actions/planar_pose.h"
+#include "actions/transition_solver.h"
 #include "models/robot_model.h"
 
 namespace possibility::actions {
 
-/// A scripted quasi-static transition from one gait's nominal stance to another's. The patches
-/// that both gaits use stay where they are; the others touch down where the second gait wants
-/// them.
+/// The transition from one gait's nominal stance to another's. The patches that both gaits use
+/// stay where they are; the others touch down, at no speed, where the second gait wants them.
 class TransitionMotion {
  public:
-  /// @throws InputError if the two stances do not agree about the shared patches, or a keyframe
-  ///   cannot be reached.
-  TransitionMotion(const models::RobotModel& robot, const models::Transition& transition,
-                   const NominalStance& from, const NominalStance& to);
+  /// `library`: folder of solved motions; empty: none. What it does not hold is solved.
+  /// @throws InputError if the two stances do not agree about the shared patches, or the robot
+  ///   cannot do it; Abandoned if `keep_going` (may be empty) says no.
+  TransitionMotion(const models::RobotModel& robot, const NominalStance& from,
+                   const NominalStance& to, const std::filesystem::path& library,
+                   const std::function<bool()>& keep_going);
 
   const NominalStance& from() const { return *from_; }
   const NominalStance& to() const { return *to_; }
@@ -25,31 +28,24 @@ class TransitionMotion {
   /// Stance frame of the second gait in the frame of the first.
   const PlanarPose& displacement() const { return displacement_; }
 
-  /// Forward motion from rest at `stance`; the backward one is its Reversed().
-  std::vector<MotionPhase> Phases(const PlanarPose& stance, double z, double time_scale) const;
+  /// In the first gait's stance frame, from rest to rest; the backward motion is its Reversed().
+  const std::vector<Phase>& phases() const { return solved_.phases; }
+  double ExpectedDuration() const { return phases().back().knots.back().t; }  ///< s
 
-  double ExpectedDuration() const;  ///< s
+  bool was_known() const { return was_known_; }  ///< from the library
+  /// Into the library. @throws InputError if that fails.
+  void Save() const;
 
  private:
-  /// The robot at rest at one keyframe, in the first gait's stance frame.
-  struct Stop {
-    double duration = 0;
-    std::vector<int> contacts;  ///< that bear during the motion that ends here
-    double root_height = 0;
-    double root_pitch = 0;
-    Eigen::Vector2d centre_of_mass = Eigen::Vector2d::Zero();
-    Eigen::VectorXd joints;
-  };
+  void AlignStances(const models::RobotModel& robot);
+  bool FindInLibrary(const TransitionSolver& solver);
 
-  void AlignStances();
-  void SolveStops(const models::Transition& transition);
-  LimbTask BearingLimb(int contact, const PlanarPose& stance, double z) const;
-
-  const models::RobotModel* robot_;
   const NominalStance* from_;
   const NominalStance* to_;
   PlanarPose displacement_;
-  std::vector<Stop> stops_;  ///< the first is the nominal stance of `from`
+  std::filesystem::path file_;  ///< of the solution; empty: nowhere
+  SolvedTransition solved_;
+  bool was_known_ = false;
 };
 
 }  // namespace possibility::actions

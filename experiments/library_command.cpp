@@ -11,6 +11,7 @@
 #include <string>
 
 #include "actions/jump_sweep.h"
+#include "actions/transition_motion.h"
 #include "experiments/commands.h"
 #include "experiments/hardware_threads.h"
 #include "experiments/jump_reach_plot.h"
@@ -104,6 +105,14 @@ void PrintJson(const std::vector<actions::JumpSweepEntry>& entries,
   fmt::print("{}\n", nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}.dump());
 }
 
+void SaveTransitions(const models::RobotModel& robot, const std::string& folder) {
+  for (const models::Transition& transition : robot.transitions) {
+    const auto from = actions::SolveNominalStance(robot, robot.GaitNamed(transition.from));
+    const auto to = actions::SolveNominalStance(robot, robot.GaitNamed(transition.to));
+    actions::TransitionMotion(robot, from, to, folder, {}).Save();
+  }
+}
+
 ExitCode RunLibrary(const LibraryOptions& options) {
   const models::RobotModel robot = models::LoadRobotModel(options.robot);
   const models::Jump& jump = OnlyJump(robot);
@@ -125,6 +134,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
   const std::vector<actions::JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
   const actions::JumpReach reach = actions::ReachOf(entries);
   library.SaveReach(reach);
+  SaveTransitions(robot, options.out);
   WriteOutput(library.folder() / "reach.svg", JumpReachPicture(entries));
   if (options.json) {
     PrintJson(entries, reach);
@@ -137,7 +147,8 @@ ExitCode RunLibrary(const LibraryOptions& options) {
 }  // namespace
 
 Command AddLibraryCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("library", "Solves a robot's jumps for later plans.");
+  CLI::App* app =
+      program.add_subcommand("library", "Solves a robot's jumps and transitions for later plans.");
   auto options = std::make_shared<LibraryOptions>();
   app->add_option("ROBOT", options->robot, "Robot YAML")->required();
   app->add_option("--out", options->out, "Folder of the library")->required();

@@ -4,25 +4,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "actions/contact_name.h"
-#include "experiments/base64.h"
+#include "dynamics/tree_kinematics.h"
 #include "experiments/plan_summary.h"
+#include "experiments/viewer_motion.h"
+#include "experiments/viewer_packing.h"
 
 namespace possibility::experiments {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-static_assert(std::endian::native == std::endian::little);
-
-/// Linear interpolation over this time, s, cannot be told from the motion itself by eye.
-constexpr double kFrame = 0.04;
 
 double Rounded(double value) { return std::round(1e5 * value) / 1e5; }
 
@@ -37,16 +32,6 @@ Json PoseJson(const Eigen::Isometry3d& X) {
   Json json = {r.w(), r.x(), r.y(), r.z()};
   for (const double p : X.translation()) json.push_back(Rounded(p));
   return json;
-}
-
-template <typename Number>
-std::string Packed(const std::vector<Number>& numbers) {
-  static_assert(sizeof(Number) == 4);
-  return Base64({reinterpret_cast<const char*>(numbers.data()), 4 * numbers.size()});
-}
-
-void Append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>* numbers) {
-  for (const double value : values) numbers->push_back(static_cast<float>(value));
 }
 
 Json ShapeJson(const models::Shape& shape) {
@@ -80,6 +65,16 @@ Json LinksJson(const models::RobotModel& robot) {
   return links;
 }
 
+/// A limit that is none, or cannot be divided by, is null.
+Json LimitJson(double limit) {
+  return std::isfinite(limit) && limit > 0 ? Json(Rounded(limit)) : Json();
+}
+
+Json RangeJson(const models::Joint& joint) {
+  if (!std::isfinite(joint.lower) || !std::isfinite(joint.upper)) return {};
+  return joint.lower < joint.upper ? Json{Rounded(joint.lower), Rounded(joint.upper)} : Json();
+}
+
 Json JointsJson(const models::RobotModel& robot) {
   Json joints = Json::array();
   for (const models::Joint& joint : robot.joints) {
@@ -87,7 +82,10 @@ Json JointsJson(const models::RobotModel& robot) {
                       {"prismatic", joint.type == models::JointType::kPrismatic},
                       {"parent", joint.parent},
                       {"pose", PoseJson(joint.X_PJ)},
-                      {"axis", {joint.axis.x(), joint.axis.y(), joint.axis.z()}}});
+                      {"axis", {joint.axis.x(), joint.axis.y(), joint.axis.z()}},
+                      {"range", RangeJson(joint)},
+                      {"speed", LimitJson(joint.velocity)},
+                      {"effort", LimitJson(joint.effort)}});
   }
   return joints;
 }
@@ -117,51 +115,6 @@ Json StanceJson(const models::Stance& stance) {
   return {{"x", stance.x}, {"y", stance.y}, {"z", stance.z}, {"yaw", stance.yaw}};
 }
 
-/// Knots of all phases behind one another, thinned out to the pace of a video.
-class MotionPacker {
- public:
-  explicit MotionPacker(const models::RobotModel& robot) : robot_(robot) {}
-
-  Json Add(const actions::Phase& phase) {
-    Json contacts = Json::array();
-    Json points = Json::array();
-    for (const actions::BearingPatch& bearing : actions::BearingPatches(robot_, phase)) {
-      contacts.push_back(bearing.patch);
-      points.push_back(bearing.points);
-    }
-    const int first = count_;
-    const std::size_t first_force = forces_.size();
-    const actions::Knot* kept = nullptr;
-    for (const actions::Knot& knot : phase.knots) {
-      const bool at_end = &knot == &phase.knots.back();
-      if (kept != nullptr && !at_end && knot.t - kept->t < kFrame) continue;
-      kept = &knot;
-      AddKnot(knot);
-    }
-    return {{"contacts", contacts},
-            {"points", points},
-            {"first", first},
-            {"count", count_ - first},
-            {"forces", first_force}};
-  }
-
-  std::string knots() const { return Packed(knots_); }
-  std::string forces() const { return Packed(forces_); }
-
- private:
-  void AddKnot(const actions::Knot& knot) {
-    knots_.push_back(static_cast<float>(knot.t));
-    Append(knot.q, &knots_);
-    Append(knot.forces.reshaped(), &forces_);
-    ++count_;
-  }
-
-  const models::RobotModel& robot_;
-  int count_ = 0;
-  std::vector<float> knots_;
-  std::vector<float> forces_;
-};
-
 Json ExploredJson(const actions::ExploredGraph& explored) {
   std::vector<float> vertices;
   for (const auto& vertex : explored.vertices) Append(vertex.position, &vertices);
@@ -174,27 +127,6 @@ Json ExploredJson(const actions::ExploredGraph& explored) {
     edges.insert(edges.end(), {edge.from, edge.to, index});
   }
   return {{"vertices", Packed(vertices)}, {"edges", Packed(edges)}, {"actions", names}};
-}
-
-/// Pairs of words, in the order in which they are shown.
-Json FactsJson(const actions::Plan& plan, const models::RobotModel& robot,
-               const models::Scenario& scenario) {
-  Json facts = Json::array();
-  const auto add = [&facts](const char* name, const std::string& value) {
-    facts.push_back(Json::array({name, value}));
-  };
-  add("Scenario", scenario.name);
-  add("Robot", robot.name);
-  if (plan.segments.empty()) return facts;
-  add("Duration", fmt::format("{:.1f} s", plan.duration()));
-  add("Planned in", fmt::format("{:.2f} s", PlanningSeconds(plan)));
-  if (const auto ratio = RealTimeRatio(plan)) {
-    add("Real-time ratio", fmt::format("{:.1f}", *ratio));
-  }
-  add("Explored", fmt::format("{} vertices, {} edges", plan.explored.vertices.size(),
-                              plan.explored.edges.size()));
-  add("Seed", fmt::format("{}", plan.seed));
-  return facts;
 }
 
 /// No '<' or '&', so that nothing inside can end the element; text that is not UTF-8 is replaced.
@@ -212,35 +144,52 @@ std::string ScriptSafe(const Json& json) {
 
 }  // namespace
 
-std::string ViewerTitle(const models::Scenario& scenario) {
-  return scenario.name + " – possibility";
+PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot,
+                      const models::Scenario& scenario) {
+  PageHeading heading;
+  heading.title = scenario.name + " – possibility";
+  const auto add = [&heading](const char* name, const std::string& value) {
+    heading.facts.emplace_back(name, value);
+  };
+  add("Scenario", scenario.name);
+  add("Robot", robot.name);
+  if (plan.segments.empty()) return heading;
+  add("Duration", fmt::format("{:.1f} s", plan.duration()));
+  add("Planned in", fmt::format("{:.2f} s", PlanningSeconds(plan)));
+  if (const auto ratio = RealTimeRatio(plan)) {
+    add("Real-time ratio", fmt::format("{:.1f}", *ratio));
+  }
+  add("Explored", fmt::format("{} vertices, {} edges", plan.explored.vertices.size(),
+                              plan.explored.edges.size()));
+  add("Seed", fmt::format("{}", plan.seed));
+  return heading;
 }
 
 std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& robot,
-                           const models::Scenario& scenario) {
+                           const models::Scenario& scenario, const PageHeading& heading) {
   MotionPacker motion(robot);
   Json segments = Json::array();
-  for (const actions::Segment& segment : plan.segments) {
-    Json phases = Json::array();
-    for (const actions::Phase& phase : segment.phases) phases.push_back(motion.Add(phase));
-    segments.push_back({{"action", segment.action}, {"phases", phases}});
-  }
+  for (const actions::Segment& segment : plan.segments) segments.push_back(motion.Add(segment));
   Json goals = Json::array();
   for (const models::Stance& goal : scenario.goals) goals.push_back(StanceJson(goal));
   const Eigen::AlignedBox2d& bounds = scenario.environment.bounds;
   Json json;
-  json["title"] = ViewerTitle(scenario);
-  json["facts"] = FactsJson(plan, robot, scenario);
+  json["title"] = heading.title;
+  json["facts"] = heading.facts;
+  json["plots_first"] = heading.plots_first;
+  json["gravity"] = dynamics::kGravity;
+  json["weight"] = dynamics::kGravity * robot.TotalMass();
+  json["friction"] = robot.friction;
   json["links"] = LinksJson(robot);
   json["joints"] = JointsJson(robot);
+  json["pairs"] = robot.sagittal_pairs;
   json["contacts"] = ContactsJson(robot);
   json["obstacles"] = ObstaclesJson(scenario.environment);
   json["bounds"] = {bounds.min().x(), bounds.min().y(), bounds.max().x(), bounds.max().y()};
   json["start"] = StanceJson(scenario.start);
   json["goals"] = goals;
   json["segments"] = segments;
-  json["knots"] = motion.knots();
-  json["forces"] = motion.forces();
+  motion.WriteTo(&json);
   json["explored"] = ExploredJson(plan.explored);
   return ScriptSafe(json);
 }

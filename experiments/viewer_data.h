@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "actions/plan.h"
 #include "models/robot_model.h"
@@ -8,14 +10,23 @@
 
 namespace possibility::experiments {
 
-/// What the page is called.
-std::string ViewerTitle(const models::Scenario& scenario);
+/// What a page says of itself.
+struct PageHeading {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  ///< in the order in which they are shown
+  bool plots_first = false;  ///< whether the page opens with its plots
+};
 
-/// What experiments/viewer/*.js draw, as JSON that may stand inside a <script> element: joint tree,
-/// shapes, knots no closer than a video's frames, forces, explored graph. Long lists of numbers
-/// are base64 of little-endian 32-bit floats or integers.
+/// The heading of a plan's page.
+PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot,
+                      const models::Scenario& scenario);
+
+/// What experiments/viewer/*.js draw, as JSON that may stand inside a <script> element: joint tree
+/// with limits, shapes, phases with names, knots no closer than a video's frames (5 ms in jumps),
+/// forces, impulses, centre of mass, momenta, joint rates and torques, explored graph. Long lists
+/// of numbers are base64 (viewer_packing.h).
 /// @throws InputError if the plan names a contact that the robot does not have.
 std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& robot,
-                           const models::Scenario& scenario);
+                           const models::Scenario& scenario, const PageHeading& heading);
 
 }  // namespace possibility::experiments

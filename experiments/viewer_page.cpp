@@ -5,7 +5,6 @@
 #include <map>
 #include <string_view>
 
-#include "experiments/viewer_data.h"
 #include "experiments/viewer_resources.h"
 
 namespace possibility::experiments {
@@ -49,8 +48,13 @@ std::string FillIn(std::string_view text,
 
 std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
                        const models::Scenario& scenario) {
-  const std::string title = EscapeHtml(ViewerTitle(scenario));
-  const std::string data = ViewerDataJson(plan, robot, scenario);
+  return ViewerPage(plan, robot, scenario, HeadingOf(plan, robot, scenario));
+}
+
+std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
+                       const models::Scenario& scenario, const PageHeading& heading) {
+  const std::string title = EscapeHtml(heading.title);
+  const std::string data = ViewerDataJson(plan, robot, scenario, heading);
   return FillIn(viewer_resources::page, {{"title", title},
                                          {"data", data},
                                          {"style", viewer_resources::style},
@@ -60,6 +64,10 @@ std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robo
                                          {"orbit_controls", viewer_resources::orbit_controls},
                                          {"kinematics", viewer_resources::kinematics},
                                          {"drawing", viewer_resources::drawing},
+                                         {"jumps", viewer_resources::jumps},
+                                         {"timeline", viewer_resources::timeline},
+                                         {"curves", viewer_resources::curves},
+                                         {"plots", viewer_resources::plots},
                                          {"player", viewer_resources::player}});
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "actions/plan.h"
+#include "experiments/viewer_data.h"
 #include "models/robot_model.h"
 #include "models/scenario.h"
 
@@ -14,5 +15,8 @@ namespace possibility::experiments {
 /// @throws InputError if the plan names a contact that the robot does not have.
 std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
                        const models::Scenario& scenario);
+/// The same under a heading of its own.
+std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
+                       const models::Scenario& scenario, const PageHeading& heading);
 
 }  // namespace possibility::experiments

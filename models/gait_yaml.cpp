@@ -85,7 +85,7 @@ Posture ReadPosture(const YamlNode& node, const RobotModel& robot) {
   return posture;
 }
 
-/// Gaits and transitions move joints one by one, which coupled joints do not allow.
+/// Gaits move joints one by one, which coupled joints do not allow.
 void CheckUncoupled(const YamlNode& node, int joint, const RobotModel& robot) {
   if (!robot.IsCoupled(joint)) return;
   const auto& mimic = robot.joints[joint].mimic;
@@ -200,92 +200,12 @@ Gait ReadGait(const YamlNode& node, const RobotModel& robot) {
   return gait;
 }
 
-/// Joints that bearing contacts move, in either gait of a transition.
-std::set<int> BoundJoints(const std::vector<int>& contacts, const Gait& from, const Gait& to) {
-  std::set<int> bound;
-  for (const Gait* gait : {&from, &to}) {
-    for (const GaitLimb& limb : gait->limbs) {
-      if (std::find(contacts.begin(), contacts.end(), limb.contact) == contacts.end()) continue;
-      bound.insert(limb.joints.begin(), limb.joints.end());
-    }
-  }
-  return bound;
-}
-
-bool Uses(const Gait& gait, int contact) {
-  return std::any_of(gait.limbs.begin(), gait.limbs.end(),
-                     [&](const GaitLimb& limb) { return limb.contact == contact; });
-}
-
-/// The keyframe apart from its posture.
-TransitionKeyframe ReadBareKeyframe(const YamlNode& node, const Gait& from, const Gait& to,
-                                    const RobotModel& robot) {
-  TransitionKeyframe keyframe;
-  keyframe.duration = node.At("duration").Positive();
-  const YamlNode contacts = node.At("contacts");
-  keyframe.contacts = IndicesOfNamed(contacts, robot.contacts, "contact");
-  if (keyframe.contacts.empty()) contacts.FailExpected("at least one contact");
-  for (const YamlNode& contact : contacts.Items()) {
-    const int index = robot.ContactIndex(contact.String());
-    if (Uses(from, index) || Uses(to, index)) continue;
-    contact.Fail(fmt::format("neither '{}' nor '{}' uses this contact", from.name, to.name));
-  }
-  return keyframe;
-}
-
-TransitionKeyframe ReadKeyframe(const YamlNode& node, const Gait& from, const Gait& to,
-                                const RobotModel& robot) {
-  node.MapOf({"duration", "contacts", "root_height", "root_pitch_deg", "com_x", "joints_deg"});
-  TransitionKeyframe keyframe = ReadBareKeyframe(node, from, to, robot);
-  keyframe.root_height = node.At("root_height").Positive();
-  keyframe.root_pitch = node.At("root_pitch_deg").Degrees();
-  if (const auto com_x = node.Find("com_x")) keyframe.com_x = com_x->Number();
-  const YamlNode joints = node.At("joints_deg");
-  keyframe.joints = ReadJointValues(joints, robot);
-  for (const auto& [joint, value] : keyframe.joints) {
-    CheckUncoupled(joints.At(robot.joints[joint].name), joint, robot);
-  }
-  for (const int bound : BoundJoints(keyframe.contacts, from, to)) {
-    if (!keyframe.joints.contains(bound)) continue;
-    joints.At(robot.joints[bound].name).Fail("a bearing contact already determines this joint");
-  }
-  return keyframe;
-}
-
-/// The last keyframe is the nominal posture of `to`, which the file does not repeat.
-TransitionKeyframe ReadLastKeyframe(const YamlNode& node, const Gait& from, const Gait& to,
-                                    const RobotModel& robot) {
-  for (const auto& [key, value] : node.Entries()) {
-    if (key == "duration" || key == "contacts") continue;
-    value.Fail(
-        fmt::format("the last keyframe is the nominal posture of '{}', expected only "
-                    "duration and contacts",
-                    to.name));
-  }
-  TransitionKeyframe keyframe = ReadBareKeyframe(node, from, to, robot);
-  keyframe.root_height = to.posture.root_height;
-  keyframe.root_pitch = to.posture.root_pitch;
-  const std::set<int> bound = BoundJoints(keyframe.contacts, from, to);
-  for (int i = 0; i < robot.num_joints(); ++i) {
-    if (!bound.contains(i)) keyframe.joints[i] = to.posture.joints[i];
-  }
-  return keyframe;
-}
-
 Transition ReadTransition(const YamlNode& node, const RobotModel& robot) {
-  node.MapOf({"from", "to", "keyframes"});
+  node.MapOf({"from", "to"});
   const Gait& from = robot.gaits[IndexOfNamed(node.At("from"), robot.gaits, "gait")];
   const Gait& to = robot.gaits[IndexOfNamed(node.At("to"), robot.gaits, "gait")];
   if (&from == &to) node.At("to").FailExpected("another gait than 'from'");
-  Transition transition{from.name, to.name, {}};
-  const std::vector<YamlNode> keyframes = node.At("keyframes").Items();
-  if (keyframes.empty()) node.At("keyframes").FailExpected("at least one keyframe");
-  for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    const bool is_last = i + 1 == keyframes.size();
-    transition.keyframes.push_back(is_last ? ReadLastKeyframe(keyframes[i], from, to, robot)
-                                           : ReadKeyframe(keyframes[i], from, to, robot));
-  }
-  return transition;
+  return {from.name, to.name};
 }
 
 Jump ReadJump(const YamlNode& node, const RobotModel& robot) {

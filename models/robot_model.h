@@ -95,23 +95,11 @@ struct Gait {
   GaitParameters parameters;
 };
 
-/// One stop of a scripted transition; the robot is at rest there. Positions are relative to the
-/// first gait's footprint frame (root x, y, yaw of its nominal posture, on the ground).
-struct TransitionKeyframe {
-  double duration = 0;           ///< s, of the motion that ends here
-  double root_height = 0;        ///< m
-  double root_pitch = 0;         ///< rad
-  std::optional<double> com_x;   ///< m; absent: the com follows the target gait's nominal stance
-  std::map<int, double> joints;  ///< targets of joints that no active contact moves
-  std::vector<int> contacts;     ///< patches bearing during the motion that ends here
-};
-
-/// A scripted quasi-static transition between the nominal stances of two gaits. Patches that both
-/// gaits use do not move. The reverse transition is the same motion backwards in time.
+/// Between the nominal stances of two gaits: patches that both use do not move, and `to` bears on
+/// all that `from` bears on. The reverse transition is the same motion backwards in time.
 struct Transition {
   std::string from;
   std::string to;
-  std::vector<TransitionKeyframe> keyframes;  ///< the last one is the nominal posture of `to`
 };
 
 /// A standing long jump from the nominal stance of one gait to that of another, straight ahead.

@@ -10,12 +10,23 @@ const kForceScale = 1 / 800;  // m per N
 const kFieldOfView = 35;      // degrees
 const kLift = 0.004;          // m, keeps flat marks out of the ground's face
 
+/* Phases by the first word of their name; a swing has its limb's colour. */
+const kPhaseColours = {
+  preparation: '#aab3bf', crouch: '#5b8def', toes: '#f2b134', flight: '#e0219f',
+  settle: '#8e6bd1', landing: '#20a39e', stance: '#ccd2da', on: '#98a2b0', swing: '#98a2b0'};
+
 function actionColour(action) {
   if (action.includes('->')) return kTransitionColour;
   const name = Object.keys(kActionColours).find((known) => action.includes(known));
   return name ? kActionColours[name] : kOtherActionColour;
 }
 const limbColour = (contact) => kLimbColours[contact % kLimbColours.length];
+
+function phaseColour(phase, contacts) {
+  const [kind, ...rest] = phase.name.split(' ');
+  const limb = contacts.findIndex((contact) => contact.name === rest.join(' '));
+  return kind === 'swing' && limb >= 0 ? limbColour(limb) : kPhaseColours[kind];
+}
 
 /* Geometries of a collision shape in its own frame. */
 function shapeGeometries(shape) {
@@ -110,7 +121,7 @@ function linkGroup(link) {
   return group;
 }
 
-function label(text, colour) {
+function label(text, colour, size = 1) {
   const canvas = document.createElement('canvas');
   canvas.width = 256;
   canvas.height = 64;
@@ -121,20 +132,20 @@ function label(text, colour) {
   context.fillText(text, 128, 44);
   const map = new THREE.CanvasTexture(canvas);
   const sprite = new THREE.Sprite(new THREE.SpriteMaterial({map, depthTest: false}));
-  sprite.scale.set(0.8, 0.2, 1);
+  sprite.scale.set(0.8 * size, 0.2 * size, 1);
   return sprite;
 }
 
 /* A ring on the ground with an arrow along the heading. */
-function stanceMarker(stance, text, colour) {
+function stanceMarker(stance, text, colour, size) {
   const group = new THREE.Group();
   const material = new THREE.MeshBasicMaterial({color: colour, side: THREE.DoubleSide});
   group.add(new THREE.Mesh(new THREE.RingBufferGeometry(0.30, 0.34, 48), material));
   const tip = new THREE.Mesh(new THREE.CircleBufferGeometry(0.1, 3), material);
   tip.position.x = 0.42;
   group.add(tip);
-  const name = label(text, colour);
-  name.position.set(0, -0.45, 0.05);
+  const name = label(text, colour, size);
+  name.position.set(0, -0.42 - 0.09 * size, 0.05);
   group.add(name);
   group.position.set(stance.x, stance.y, stance.z + kLift);
   group.rotation.z = stance.yaw;
@@ -213,16 +224,21 @@ class Drawing {
     const world = new THREE.Group();
     data.obstacles.forEach((obstacle) => world.add(obstacleMesh(obstacle)));
     this.scene.add(world);
-    this.scene.add(stanceMarker(data.start, 'start', '#1d2530'));
-    data.goals.forEach((goal) => this.scene.add(stanceMarker(goal, 'goal', '#c2182b')));
+    const [x0, y0, x1, y1] = data.bounds;
+    const size = Math.min(1, Math.max(0.55, Math.hypot(x1 - x0, y1 - y0) / 8));  // of words
+    this.scene.add(stanceMarker(data.start, 'start', '#1d2530', size));
+    data.goals.forEach((goal) => this.scene.add(stanceMarker(goal, 'goal', '#c2182b', size)));
     this.graph = exploredGraph(data.explored);
-    this.scene.add(this.graph, routeTubes(this.motion));
+    this.route = routeTubes(this.motion);
+    this.scene.add(this.graph, this.route, flightArcs(this.motion));
+    this.centre = new CentreOfMass(this.motion);
+    this.com = this.centre.group;
+    this.scene.add(this.com);
     this.footprints = new THREE.Group();
     this.motion.touchdowns().forEach(({contact, points}) => {
       this.footprints.add(footprint(points, limbColour(contact)));
     });
     this.scene.add(this.footprints);
-    const [x0, y0, x1, y1] = data.bounds;
     this.bounds = new THREE.Box3(new THREE.Vector3(x0, y0, 0), new THREE.Vector3(x1, y1, 1.2));
   }
 
@@ -244,7 +260,8 @@ class Drawing {
     });
     this.forces = new THREE.Group();
     this.forces.visible = false;
-    this.scene.add(this.forces);
+    this.impulses = new THREE.Group();
+    this.scene.add(this.forces, this.impulses);
     if (!this.motion.phases.length) this.links.forEach((link) => { link.visible = false; });
   }
 
@@ -259,6 +276,8 @@ class Drawing {
     });
     this.patches.forEach((patch, i) => { patch.visible = phase.contacts.includes(i); });
     this.updateForces(t, phase);
+    this.updateImpulses(t, phase);
+    this.centre.update(t, phase);
     const root = new THREE.Vector3().setFromMatrixPosition(this.motion.linkPoses[0]);
     this.sun.position.copy(root).add(new THREE.Vector3(1.5, -2, 5));
     this.sun.target.position.copy(root);
@@ -279,6 +298,18 @@ class Drawing {
         part.renderOrder = 2;
       });
       this.forces.add(arrow);
+    });
+  }
+
+  /* An impact is over at once; it is shown for a moment, and fades. */
+  updateImpulses(t, phase) {
+    this.impulses.remove(...this.impulses.children);
+    const age = (t - phase.begin) / kImpactShown;
+    if (!this.forces.visible || age > 1) return;
+    const points = this.motion.bearingPoints(phase);
+    phase.impulses.forEach((impulse, i) => {
+      if (impulse.length() * kImpulseScale < 1e-3) return;
+      this.impulses.add(thickArrow(points[i], impulse, 1 - 0.8 * age));
     });
   }
 

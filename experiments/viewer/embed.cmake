@@ -6,6 +6,10 @@ set(resources
     style ${CMAKE_CURRENT_LIST_DIR}/style.css
     kinematics ${CMAKE_CURRENT_LIST_DIR}/kinematics.js
     drawing ${CMAKE_CURRENT_LIST_DIR}/drawing.js
+    jumps ${CMAKE_CURRENT_LIST_DIR}/jumps.js
+    timeline ${CMAKE_CURRENT_LIST_DIR}/timeline.js
+    curves ${CMAKE_CURRENT_LIST_DIR}/curves.js
+    plots ${CMAKE_CURRENT_LIST_DIR}/plots.js
     player ${CMAKE_CURRENT_LIST_DIR}/player.js
     three ${THREE_DIR}/build/three.min.js
     convex_hull ${THREE_DIR}/examples/js/math/ConvexHull.js

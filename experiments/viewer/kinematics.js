@@ -11,6 +11,17 @@ function decodeBase64(text) {
 const decodeFloats = (text) => new Float32Array(decodeBase64(text));
 const decodeIntegers = (text) => new Int32Array(decodeBase64(text));
 
+/* A table of 16-bit integers, each a multiple of its column's step. */
+class Table {
+  constructor({steps, data}) {
+    this.steps = steps;
+    this.integers = new Int16Array(decodeBase64(data));
+  }
+  at(row, column) {
+    return this.integers[row * this.steps.length + column] * this.steps[column];
+  }
+}
+
 /* Pose as stored: quaternion w, x, y, z, then position. */
 function poseMatrix(pose) {
   return new THREE.Matrix4().compose(
@@ -30,10 +41,19 @@ class Motion {
     this.stride = 8 + this.joints.length;
     this.knots = decodeFloats(data.knots);
     this.forces = decodeFloats(data.forces);
+    this.centres = decodeFloats(data.centres);
+    this.momenta = new Table(data.momenta);
+    this.rates = new Table(data.rates);
+    this.torques = new Table(data.torques);
+    this.gravity = data.gravity;
     this.phases = [];
+    this.segments = [];
     data.segments.forEach((segment, index) => {
-      for (const phase of segment.phases) this.phases.push(this.addPhase(phase, segment, index));
+      const phases = segment.phases.map((phase) => this.addPhase(phase, segment, index));
+      this.phases.push(...phases);
+      if (phases.length) this.segments.push(this.addSegment(segment, phases));
     });
+    this.legs = this.joinSegments();
     this.linkPoses = data.links.map(() => new THREE.Matrix4());
     this.begin = this.phases.length ? this.phases[0].begin : 0;
     this.end = this.phases.length ? this.phases[this.phases.length - 1].end : 0;
@@ -45,6 +65,8 @@ class Motion {
     return {
       segment: index,
       action: segment.action,
+      name: phase.name,
+      impulses: this.vectors(phase.impulses || []),
       contacts: phase.contacts,
       first: phase.first,
       count: phase.count,
@@ -56,15 +78,46 @@ class Motion {
     };
   }
 
-  /* The last phase that has begun at time t. */
-  phaseAt(t) {
-    let low = 0, high = this.phases.length - 1;
+  addSegment(segment, phases) {
+    return {
+      action: segment.action,
+      phases,
+      begin: phases[0].begin,
+      end: phases[phases.length - 1].end,
+      flies: phases.some((phase) => !phase.contacts.length),
+    };
+  }
+
+  /* Segments of one action in a row, as one. */
+  joinSegments() {
+    const legs = [];
+    for (const segment of this.segments) {
+      const last = legs[legs.length - 1];
+      if (last && last.action === segment.action && !segment.flies) last.end = segment.end;
+      else legs.push({action: segment.action, begin: segment.begin, end: segment.end});
+    }
+    return legs;
+  }
+
+  vectors(numbers) {
+    const result = [];
+    for (let i = 0; i < numbers.length; i += 3) {
+      result.push(new THREE.Vector3(numbers[i], numbers[i + 1], numbers[i + 2]));
+    }
+    return result;
+  }
+
+  /* Of things in a row, each with a begin, the last that has begun at time t. */
+  static lastBegun(things, t) {
+    let low = 0, high = things.length - 1;
     while (low < high) {
       const middle = Math.ceil((low + high) / 2);
-      if (this.phases[middle].begin <= t) low = middle; else high = middle - 1;
+      if (things[middle].begin <= t) low = middle; else high = middle - 1;
     }
-    return this.phases[low];
+    return things[low];
   }
+  phaseAt(t) { return Motion.lastBegun(this.phases, t); }
+  segmentAt(t) { return Motion.lastBegun(this.segments, t); }
 
   /* The knot of the phase before t, and how far t lies towards the next one (0 to 1). */
   locate(phase, t) {
@@ -125,6 +178,26 @@ class Motion {
       forces.push(new THREE.Vector3(at(i), at(i + 1), at(i + 2)));
     }
     return forces;
+  }
+
+  centreOfKnot(knot) {
+    return new THREE.Vector3(...this.centres.subarray(3 * knot, 3 * knot + 3));
+  }
+
+  /* The centre of mass. */
+  centreAt(t, phase) {
+    const {knot, fraction} = this.locate(phase, t);
+    return this.centreOfKnot(knot).lerp(this.centreOfKnot(knot + 1), fraction);
+  }
+
+  /* Phases without contact, with the centre of mass at launch and landing. */
+  flights() {
+    return this.phases.filter((phase) => !phase.contacts.length).map((phase) => ({
+      phase,
+      duration: phase.end - phase.begin,
+      launch: this.centreOfKnot(phase.first),
+      landing: this.centreOfKnot(phase.first + phase.count - 1),
+    }));
   }
 
   /* Where and when each contact touched down. */

@@ -2,7 +2,8 @@
 
 /* The page: what it says of the plan, its timeline, buttons and keys. */
 
-const kSpeeds = [0.5, 1, 2, 5, 10, 20, 50];
+const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
+const kRoomForBoth = 660, kRoomForOne = 420, kRoomBelow = 460;  // px
 const element = (id) => document.getElementById(id);
 
 function addText(parent, tag, text) {
@@ -18,6 +19,8 @@ function addKey(text, colour, kind) {
   key.style.setProperty('--colour', colour);
 }
 
+const kParts = ['graph', 'route', 'footprints', 'com', 'forces'];  // that can be switched
+
 class Player {
   constructor(data, motion, drawing) {
     this.data = data;
@@ -25,14 +28,21 @@ class Player {
     this.drawing = drawing;
     this.time = motion.begin;
     this.playing = false;
+    const seek = (t) => this.setTime(t);
+    this.timeline = new Timeline(data, motion, seek, () => this.showPlots());
+    this.plots = new PlotsPanel(element('plots-grid'), data, motion, seek);
     this.describePlan();
-    this.fillTimeline();
     this.connectButtons();
     this.connectTimeline();
     window.addEventListener('resize', () => this.resize());
     window.addEventListener('hashchange', () => this.applyAddress());
     window.addEventListener('keydown', (event) => this.onKey(event));
+    if (data.plots_first) {
+      this.openPlots(true);
+      this.switchPart('route', false);
+    }
     this.resize();
+    this.foldWhatHasNoRoom();
     this.applyAddress();
     let last = performance.now();
     const frame = (now) => {
@@ -53,25 +63,25 @@ class Player {
         this.data.segments.map((s) => s.action).concat(this.data.explored.actions));
     for (const action of actions) addKey(action, actionColour(action), 'action');
     this.data.contacts.forEach((contact, i) => addKey(contact.name, limbColour(i), 'limb'));
+    if (this.motion.phases.length) addKey('centre of mass', kCentreColour, 'line');
+    if (this.motion.flights().length) {
+      addKey('its flight', kArcColour, 'line');
+      const known = ['preparation', 'crouch', 'toes', 'flight', 'settle', 'landing'];
+      const names = new Set(this.motion.phases.map((phase) => phase.name));
+      for (const name of known.filter((word) => names.has(word))) {
+        addKey(name, kPhaseColours[name], 'phase');
+      }
+    }
+    if (this.motion.phases.some((phase) => phase.impulses.length)) {
+      addKey('impact', kImpulseColour, 'line');
+    }
+    element('graph').parentElement.hidden = !this.data.explored.actions.length;
+    element('legs').hidden = this.motion.legs.length < 2;
     for (const speed of kSpeeds) {
       const option = addText(element('speed'), 'option', speed + '×');
       option.value = speed;
       option.selected = speed === 1;
     }
-  }
-
-  fillTimeline() {
-    const length = this.motion.end - this.motion.begin;
-    this.data.segments.forEach((segment, index) => {
-      const phases = this.motion.phases.filter((phase) => phase.segment === index);
-      if (!phases.length) return;
-      const begin = phases[0].begin, end = phases[phases.length - 1].end;
-      const bar = addText(element('bars'), 'div', '');
-      bar.style.left = 100 * (begin - this.motion.begin) / length + '%';
-      bar.style.width = 100 * (end - begin) / length + '%';
-      bar.style.background = actionColour(segment.action);
-      bar.title = segment.action;
-    });
   }
 
   connectButtons() {
@@ -84,34 +94,54 @@ class Player {
       this.drawing.update(this.time);
     });
     connect('follow', (on) => { this.drawing.follow = on; });
-    for (const part of ['graph', 'footprints', 'forces']) {
+    for (const part of kParts) {
       connect(part, (on) => { this.drawing[part].visible = on; });
     }
+    element('plots-open').addEventListener('click', () => this.openPlots(element('plots').hidden));
+    element('plots-close').addEventListener('click', () => this.openPlots(false));
   }
 
   connectTimeline() {
-    const timeline = element('timeline');
-    const seek = (event) => {
-      const box = timeline.getBoundingClientRect();
-      const fraction = (event.clientX - box.left) / box.width;
-      this.setTime(this.motion.begin + fraction * (this.motion.end - this.motion.begin));
-    };
-    timeline.addEventListener('pointerdown', (event) => {
-      timeline.setPointerCapture(event.pointerId);
-      seek(event);
-    });
-    timeline.addEventListener('pointermove', (event) => {
-      if (event.buttons) seek(event);
-    });
+    const {timeline} = this;
+    const onClick = (id, act) => element(id).addEventListener('click', act);
+    onClick('zoom-in', () => timeline.zoomBy(0.5));
+    onClick('zoom-out', () => timeline.zoomBy(2));
+    onClick('zoom-all', () => timeline.showAll());
+    onClick('zoom-segment', () => this.zoomToSegment());
+    onClick('previous', () => this.toLeg(-1));
+    onClick('next', () => this.toLeg(1));
+  }
+
+  zoomToSegment() {
+    if (this.motion.segments.length) this.timeline.zoomTo(this.motion.segmentAt(this.time));
+  }
+
+  /* To the beginning of the action after this one, or before it. */
+  toLeg(step) {
+    const {legs} = this.motion;
+    if (!legs.length) return;
+    const index = legs.indexOf(Motion.lastBegun(legs, this.time)) + step;
+    this.setTime(legs[Math.min(legs.length - 1, Math.max(0, index))].begin);
   }
 
   onKey(event) {
     if (event.target.tagName === 'SELECT') return;
     const views = {1: 'iso', 2: 'top', 3: 'side'};
     const steps = {ArrowLeft: -0.1, ArrowRight: 0.1};
-    if (event.key === ' ') this.setPlaying(!this.playing);
-    else if (event.key in views) this.drawing.look(views[event.key]);
+    const acts = {
+      ' ': () => this.setPlaying(!this.playing),
+      p: () => this.openPlots(element('plots').hidden),
+      s: () => this.zoomToSegment(),
+      0: () => this.timeline.showAll(),
+      '+': () => this.timeline.zoomBy(0.5),
+      '-': () => this.timeline.zoomBy(2),
+      PageUp: () => this.toLeg(-1),
+      PageDown: () => this.toLeg(1),
+    };
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.key in views) this.drawing.look(views[event.key]);
     else if (event.key in steps) this.setTime(this.time + steps[event.key]);
+    else if (event.key in acts) acts[event.key]();
     else return;
     event.preventDefault();
   }
@@ -120,18 +150,29 @@ class Player {
   applyAddress() {
     const asked = new URLSearchParams(location.search);
     new URLSearchParams(location.hash.slice(1)).forEach((value, name) => asked.set(name, value));
-    for (const box of ['follow', 'graph', 'footprints', 'forces']) {
+    for (const box of ['follow', ...kParts]) {
       if (!asked.has(box)) continue;
-      element(box).checked = asked.get(box) !== '0';
-      element(box).dispatchEvent(new Event('change'));
+      this.switchPart(box, asked.get(box) !== '0');
     }
+    if (asked.has('plots')) this.openPlots(asked.get('plots') !== '0');
     const speed = kSpeeds.find((known) => known === Number(asked.get('speed')));
     if (speed) element('speed').value = speed;
     const t = Number(asked.get('t'));
     this.setTime(asked.has('t') && isFinite(t) ? t : this.time);
+    const zoom = Number(asked.get('zoom'));
+    if (zoom > 0 && isFinite(zoom)) {
+      this.timeline.setWindow(this.time - zoom / 2, this.time + zoom / 2);
+    } else if (asked.get('zoom') === 'segment') {
+      this.zoomToSegment();
+    }
     const view = asked.get('view');
     this.drawing.look(['iso', 'top', 'side'].includes(view) ? view : 'iso');
     this.setPlaying(asked.get('play') === '1');
+  }
+
+  switchPart(box, on) {
+    element(box).checked = on;
+    element(box).dispatchEvent(new Event('change'));
   }
 
   setPlaying(playing) {
@@ -145,13 +186,39 @@ class Player {
     this.drawing.update(this.time);
     element('clock').textContent = `${this.time.toFixed(2)} / ${this.motion.end.toFixed(2)} s`;
     if (!this.motion.phases.length) return;
+    this.timeline.setTime(this.time);
     const phase = this.motion.phaseAt(this.time);
     element('action').textContent = phase.action;
     element('action').style.setProperty('--colour', actionColour(phase.action));
-    const names = phase.contacts.map((contact) => this.data.contacts[contact].name);
-    element('contacts').textContent = names.length ? names.join(', ') : 'no contact';
-    const length = this.motion.end - this.motion.begin;
-    element('cursor').style.left = 100 * (this.time - this.motion.begin) / length + '%';
+    element('phase').textContent = phase.name;
+    element('phase').style.setProperty('--colour', phaseColour(phase, this.data.contacts));
+    const hit = phase.impulses.length > 0 && this.time - phase.begin <= kImpactShown;
+    element('contacts').textContent = element('contacts').title =
+        hit ? 'impact of ' + impulseText(phase) : bearingText(phase, this.data.contacts);
+    element('contacts').classList.toggle('impact', hit);
+    if (element('plots').hidden) return;
+    if (this.plots.segment !== this.motion.segmentAt(this.time)) this.showPlots();
+    this.plots.setTime(this.time);
+  }
+
+  openPlots(open) {
+    element('plots').hidden = !open || !this.motion.segments.length;
+    document.body.classList.toggle('with-plots', !element('plots').hidden);
+    this.resize();
+    this.foldWhatHasNoRoom();
+  }
+
+  /* Plots what of the segment the timeline shows. */
+  showPlots() {
+    if (element('plots').hidden) return;
+    const segment = this.motion.segmentAt(this.time);
+    this.plots.show(segment, this.timeline.begin, this.timeline.end);
+    this.plots.setTime(this.time);
+    const {begin, end} = this.plots, index = this.motion.segments.indexOf(segment) + 1;
+    const place = this.motion.segments.length > 1
+        ? `, segment ${index} of ${this.motion.segments.length}` : '';
+    element('plots-title').textContent =
+        `${segment.action}${place}: ${begin.toFixed(2)} to ${end.toFixed(2)} s`;
   }
 
   advance(seconds) {
@@ -165,6 +232,14 @@ class Player {
   resize() {
     const stage = element('stage');
     this.drawing.resize(stage.clientWidth, stage.clientHeight);
+    this.timeline.draw();
+    this.showPlots();
+  }
+
+  foldWhatHasNoRoom() {
+    const {clientWidth, clientHeight} = element('stage');
+    if (clientWidth < kRoomForBoth || clientHeight < kRoomBelow) element('options').open = false;
+    if (clientWidth < kRoomForOne) element('summary').open = false;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/forward_dynamics.h"
+#include "tests/collocation/exact_derivatives.h"
 #include "tests/dynamics/random_robot.h"
 #include "tests/dynamics/richardson.h"
 
@@ -16,42 +17,12 @@ namespace {
 
 using dynamics::ContactPoint;
 using dynamics::RelativeError;
-using dynamics::RichardsonJacobian;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kTolerance = 1e-7;
 
 std::vector<ContactPoint> TwoPoints(std::mt19937* random, const PlanarModel& model) {
   const int links = model->tree().num_links();
   return {{links - 1, dynamics::RandomVector(random, 3, 0.3)},
           {static_cast<int>((*random)() % links), dynamics::RandomVector(random, 3, 0.3)}};
-}
-
-void ExpectExactDerivatives(Function* f, const VectorXd& z, const VectorXd& multipliers) {
-  const auto value = [&](const VectorXd& d) {
-    VectorXd y(f->num_outputs());
-    f->Evaluate(z + d, &y);
-    return y;
-  };
-  MatrixXd J(f->num_outputs(), f->num_inputs());
-  f->Jacobian(z, &J);
-  EXPECT_LT(RelativeError(J, RichardsonJacobian(value, f->num_inputs())), kTolerance);
-  const Mask jacobian_mask = f->JacobianMask();
-  EXPECT_EQ(J, MatrixXd(jacobian_mask.select(J.array(), 0.0)));
-
-  const auto gradient = [&](const VectorXd& d) {
-    MatrixXd at(f->num_outputs(), f->num_inputs());
-    f->Jacobian(z + d, &at);
-    return VectorXd(at.transpose() * multipliers);
-  };
-  MatrixXd H(f->num_inputs(), f->num_inputs());
-  f->Hessian(z, multipliers, &H);
-  EXPECT_LT(RelativeError(H, RichardsonJacobian(gradient, f->num_inputs())), kTolerance);
-  EXPECT_LT(RelativeError(H, H.transpose()), 1e-13);
-  const Mask hessian_mask = f->HessianMask();
-  const MatrixXd masked = hessian_mask.select(H.array(), 0.0);
-  EXPECT_LE((H - masked).cwiseAbs().maxCoeff(), 1e-12 * H.cwiseAbs().maxCoeff());
 }
 
 TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {

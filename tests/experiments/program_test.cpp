@@ -192,6 +192,47 @@ TEST_F(Program, ViewWritesThePageBesideThePlanOrWhereTold) {
   EXPECT_EQ(Run("view plan.json --out no_such_folder/page.html").code, 1);
 }
 
+TEST_F(Program, ViewRefusesWhatIsNeitherPlanNorJump) {
+  WriteStandingPlan();
+  const std::string robot = POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml";
+  std::ofstream(folder_ / "text.json") << "no JSON";
+  std::ofstream(folder_ / "list.json") << "[]";
+  std::ofstream(folder_ / "other.json") << R"({"format": "possibility-jumps/1", "reach": []})";
+  std::ofstream(folder_ / "jump.json") << R"({"format": "possibility-solution/1"})";
+  const std::pair<std::string, std::string> cases[] = {
+      {"none.json", "no such file"},
+      {"text.json", "neither a plan nor a jump"},
+      {"list.json", "neither a plan nor a jump"},
+      {"other.json", "neither a plan nor a jump"},
+      {"jump.json", "jump.json"},
+      {"plan.json --robot '" + robot + "'", "--robot"},
+      {". --robot '" + robot + "'", "--robot"},
+  };
+  for (const auto& [arguments, words] : cases) {
+    const Outcome outcome = Run("view " + arguments + " --out page.html");
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder_ / "page.html")) << arguments;
+  }
+}
+
+TEST_F(Program, ViewNeedsToKnowTheRobotOfAJump) {
+  fs::path jump;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(POSSIBILITY_SOURCE_DIR) /
+                                                            "models/drchubo1/jumps")) {
+    if (entry.path().filename().string().starts_with("jump_")) jump = entry.path();
+  }
+  ASSERT_FALSE(jump.empty());
+  fs::copy_file(jump, folder_ / "jump.json");
+  for (const char* arguments : {"view jump.json", "view jump.json --robot none.yaml"}) {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+  EXPECT_NE(Run("view jump.json").err.find("expected --robot ROBOT.yaml"), std::string::npos);
+}
+
 TEST_F(Program, ExportWritesBothTables) {
   WriteStandingPlan();
   EXPECT_EQ(Run("export . --csv tables/deep").code, 0);

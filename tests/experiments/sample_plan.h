@@ -14,8 +14,8 @@ inline models::RobotModel SampleRobot() {
   models::RobotModel robot;
   robot.name = "hopper";
   robot.links.resize(2);
-  robot.links[0] = {"trunk", {1, {}, Eigen::Matrix3d::Identity()}, {}};
-  robot.links[1] = {"leg", {1, {}, Eigen::Matrix3d::Identity()}, {}};
+  robot.links[0] = {"trunk", {1, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}, {}};
+  robot.links[1] = {"leg", {1, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}, {}};
   robot.links[0].shapes = {{models::Shape::Box({0.3, 0.2, 0.4}), Eigen::Isometry3d::Identity()}};
   robot.links[1].shapes = {{models::Shape::Capsule(0.05, 0.5), Eigen::Isometry3d::Identity()}};
   models::Joint hip;

@@ -2,14 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <string>
 
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/hop_plan.h"
+#include "tests/experiments/page_data.h"
 #include "tests/experiments/sample_plan.h"
 
 namespace possibility::experiments {
 namespace {
+
+using testing::EmbeddedData;
+using testing::Unpacked;
+using testing::UnpackedTable;
 
 constexpr const char* kNasty = "</script><img src=x onerror=alert(1)>&\"'{{data}}\u2028";
 
@@ -19,12 +28,6 @@ std::size_t Count(const std::string& text, const std::string& part) {
     ++count;
   }
   return count;
-}
-
-nlohmann::json EmbeddedData(const std::string& page) {
-  const std::string opening = "<script type=\"application/json\" id=\"plan-data\">";
-  const std::size_t begin = page.find(opening) + opening.size();
-  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
 class ViewerPageTest : public ::testing::Test {
@@ -111,6 +114,139 @@ TEST_F(ViewerPageTest, KeepsTheEndsOfEveryPhaseWhenItThinsOutKnots) {
   const std::size_t num_knots = first["count"].get<int>() + second["count"].get<int>();
   const std::size_t bytes = 4 * num_knots * (1 + robot_.nq());
   EXPECT_EQ(data["knots"].get<std::string>().size(), (bytes + 2) / 3 * 4);
+}
+
+TEST_F(ViewerPageTest, EveryElementThatScriptsAskForIsThere) {
+  const std::string page = Page();
+  const std::regex asked("element\\('([a-z-]+)'\\)");
+  std::set<std::string> names;
+  for (std::sregex_iterator it(page.begin(), page.end(), asked), end; it != end; ++it) {
+    names.insert((*it)[1]);
+  }
+  EXPECT_GT(names.size(), 15u);
+  for (const std::string& name : names) {
+    EXPECT_EQ(Count(page, "id=\"" + name + "\""), 1u) << name;
+  }
+}
+
+TEST_F(ViewerPageTest, LimitsThatAreNoneAreNull) {
+  robot_.joints[0].lower = -1.5;
+  robot_.joints[0].upper = 2;
+  robot_.joints[0].velocity = 3;
+  robot_.joints[0].effort = INFINITY;
+  const nlohmann::json joint = EmbeddedData(Page())["joints"][0];
+  EXPECT_EQ(joint["range"], (std::vector<double>{-1.5, 2}));
+  EXPECT_EQ(joint["speed"], 3);
+  EXPECT_TRUE(joint["effort"].is_null());
+  robot_.joints[0].upper = INFINITY;
+  EXPECT_TRUE(EmbeddedData(Page())["joints"][0]["range"].is_null());
+}
+
+TEST_F(ViewerPageTest, TablesHoldRatesAndTorquesOfTheKnots) {
+  const nlohmann::json data = EmbeddedData(Page());
+  const std::vector<double> rates = UnpackedTable(data["rates"]);
+  const std::vector<double> torques = UnpackedTable(data["torques"]);
+  ASSERT_EQ(rates.size(), 18u);  // one joint, two phases of nine knots
+  ASSERT_EQ(torques.size(), 18u);
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const actions::Knot& knot = plan_.segments[i / 9].phases[0].knots[i % 9];
+    EXPECT_NEAR(rates[i], knot.v[6], 0.3 / 32767) << i;
+    EXPECT_NEAR(torques[i], knot.tau[0], 10.0 / 32767) << i;
+  }
+}
+
+/// A hop of the shipped robot: real flight, real impact.
+class ViewerHopTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const models::RobotModel& robot = actions::DrcHubo1();
+    plan_.segments = {actions::testing::Hop(robot).Build()};
+    data_ = EmbeddedData(ViewerPage(plan_, robot, testing::SampleScenario()));
+    stride_ = 1 + robot.nq();
+    knots_ = Unpacked<float>(data_["knots"]);
+    centres_ = Unpacked<float>(data_["centres"]);
+  }
+
+  static const nlohmann::json& Phases() { return data_["segments"][0]["phases"]; }
+  static int First(const nlohmann::json& phase) { return phase["first"]; }
+  static int Last(const nlohmann::json& phase) {
+    return First(phase) + phase["count"].get<int>() - 1;
+  }
+  static double Time(int knot) { return knots_[stride_ * knot]; }
+  static Eigen::Vector3d Centre(int knot) {
+    return Eigen::Vector3f(&centres_[3 * knot]).cast<double>();
+  }
+
+  static actions::Plan plan_;
+  static nlohmann::json data_;
+  static int stride_;
+  static std::vector<float> knots_;
+  static std::vector<float> centres_;
+};
+
+actions::Plan ViewerHopTest::plan_;
+nlohmann::json ViewerHopTest::data_;
+int ViewerHopTest::stride_ = 0;
+std::vector<float> ViewerHopTest::knots_;
+std::vector<float> ViewerHopTest::centres_;
+
+TEST_F(ViewerHopTest, TheFlightOfTheCentreOfMassIsTheParabolaBetweenItsEnds) {
+  const nlohmann::json& flight = Phases()[1];
+  ASSERT_EQ(flight["name"], "flight");
+  ASSERT_GT(flight["count"], 5);
+  const int first = First(flight);
+  const int last = Last(flight);
+  const double duration = Time(last) - Time(first);
+  const double g = data_["gravity"];
+  EXPECT_NEAR(g, 9.80665, 1e-12);
+  for (int knot = first; knot <= last; ++knot) {
+    const double s = (Time(knot) - Time(first)) / duration;
+    Eigen::Vector3d expected = (1 - s) * Centre(first) + s * Centre(last);
+    expected.z() += g / 2 * duration * duration * s * (1 - s);
+    EXPECT_LT((Centre(knot) - expected).norm(), 1e-6) << knot;
+  }
+}
+
+TEST_F(ViewerHopTest, PhasesCoverTheSegmentWithoutGaps) {
+  ASSERT_EQ(Phases().size(), plan_.segments[0].phases.size());
+  EXPECT_EQ(First(Phases()[0]), 0);
+  EXPECT_EQ(Time(0), 0);
+  for (std::size_t i = 1; i < Phases().size(); ++i) {
+    EXPECT_EQ(First(Phases()[i]), Last(Phases()[i - 1]) + 1);
+    EXPECT_EQ(Time(First(Phases()[i])), Time(Last(Phases()[i - 1])));
+  }
+  const int last = Last(Phases().back());
+  EXPECT_EQ(stride_ * (last + 1), static_cast<int>(knots_.size()));
+  EXPECT_NEAR(Time(last), plan_.segments[0].phases.back().knots.back().t, 1e-6);
+  for (const nlohmann::json& phase : Phases())
+    EXPECT_FALSE(phase["name"].get<std::string>().empty());
+}
+
+TEST_F(ViewerHopTest, ListsImpulsesWhereThePlanHasThem) {
+  for (std::size_t i = 0; i < Phases().size(); ++i) {
+    const Eigen::Matrix3Xd& impulses = plan_.segments[0].phases[i].impulses;
+    ASSERT_EQ(Phases()[i].contains("impulses"), impulses.cols() > 0) << i;
+    if (impulses.cols() == 0) continue;
+    const std::vector<double> listed = Phases()[i]["impulses"];
+    ASSERT_EQ(listed.size(), static_cast<std::size_t>(impulses.size()));
+    for (std::size_t k = 0; k < listed.size(); ++k) {
+      EXPECT_NEAR(listed[k], impulses.reshaped()[k], 1e-5);
+    }
+  }
+  EXPECT_TRUE(Phases()[2].contains("impulses"));
+}
+
+TEST_F(ViewerHopTest, InTheAirOnlyWeightChangesMomentum) {
+  const std::vector<double> momenta = UnpackedTable(data_["momenta"]);
+  const std::vector<double> steps = data_["momenta"]["steps"];
+  const int first = First(Phases()[1]);
+  for (int knot = first; knot <= Last(Phases()[1]); ++knot) {
+    const double lost = data_["weight"].get<double>() * (Time(knot) - Time(first));
+    for (int i = 0; i < 6; ++i) {
+      const double expected = momenta[6 * first + i] - (i == 2 ? lost : 0);
+      EXPECT_NEAR(momenta[6 * knot + i], expected, 1.01 * steps[i] + 1e-4) << knot << " " << i;
+    }
+  }
 }
 
 TEST_F(ViewerPageTest, DrawsAPlanWithoutSegments) {

@@ -138,15 +138,6 @@ TEST(MimicJoints, NeedNoEffortLimit) {
   EXPECT_EQ(MessageOf(ArmedYaml(), urdf), "no error");
 }
 
-TEST(MimicJoints, TransitionsMoveNone) {
-  const std::string yaml =
-      Replaced(ArmedYaml(), "joints_deg: {r_slide: 0.2}", "joints_deg: {a_3: 10}");
-  EXPECT_EQ(MessageOf(yaml, ArmedUrdf({})), "no error");
-  EXPECT_EQ(MessageOf(yaml, ArmedUrdf({{"a_3", Element("b_1", 1, 0)}})),
-            "robot.yaml:37: transitions[0].keyframes[0].joints_deg.a_3: joint 'a_3' mimics 'b_1', "
-            "expected an uncoupled joint");
-}
-
 struct BadCoupling {
   std::string what;
   std::map<std::string, std::string> mimics;

@@ -79,7 +79,7 @@ const std::string kInertia =
     "<inertia ixx=\"0.02\" ixy=\"0.001\" ixz=\"0\" iyy=\"0.03\" iyz=\"0\" izz=\"0.04\"/>";
 const std::string kInertial =
     "<inertial><origin xyz=\"0.01 0.02 -0.03\"/><mass value=\"2\"/>" + kInertia + "</inertial>";
-const std::string kLastKeyframe = "{duration: 2, contacts: [left, right]}";
+const std::string kTransition = "to: squat";
 
 const std::string kYawRest =
     "<parent link=\"base\"/><child link=\"l_hip\"/><origin xyz=\"0 0.1 0\"/>" + kYawAxis;
@@ -220,47 +220,27 @@ const BadRobot kBadYaml[] = {
      "robot.yaml:32: transitions[0].from: unknown gait 'stan' (did you mean 'stand'?)"},
     {"TransitionToItself", false, "to: squat", "to: stand",
      "robot.yaml:33: transitions[0].to: expected another gait than 'from', got stand"},
-    {"KeyframeDuration", false, "{duration: 1,", "{duration: 0,",
-     "robot.yaml:35: transitions[0].keyframes[0].duration: expected a positive number, got 0"},
-    {"KeyframeUnknownContact", false, "contacts: [left], root", "contacts: [let], root",
-     "robot.yaml:35: transitions[0].keyframes[0].contacts[0]: unknown contact 'let' (did you mean "
-     "'left'?)"},
-    {"KeyframeWithoutContact", false, "contacts: [left], root", "contacts: [], root",
-     "robot.yaml:35: transitions[0].keyframes[0].contacts: expected at least one contact, got an "
-     "empty list"},
-    {"KeyframeBoundJoint", false, "{r_slide: 0.2}", "{l_slide: 0.2}",
-     "robot.yaml:36: transitions[0].keyframes[0].joints_deg.l_slide: a bearing contact already "
-     "determines this joint"},
-    {"KeyframeJointLimits", false, "{r_slide: 0.2}", "{r_slide: 2}",
-     "robot.yaml:36: transitions[0].keyframes[0].joints_deg.r_slide: expected a value within the "
-     "limits -1 to 1 of joint 'r_slide', got 2"},
-    {"LastKeyframePosture", false, kLastKeyframe,
-     "{duration: 2, contacts: [left, right], root_height: 0.7}",
-     "robot.yaml:37: transitions[0].keyframes[1].root_height: the last keyframe is the nominal "
-     "posture of 'squat', expected only duration and contacts"},
-    {"TransitionTwice", false, kLastKeyframe,
-     kLastKeyframe + "\n  - {from: squat, to: stand, keyframes: [" + kLastKeyframe + "]}",
-     "robot.yaml:38: transitions[1]: these two gaits already have a transition (it is used in both "
+    {"TransitionIsNotScripted", false, kTransition, kTransition + "\n    keyframes: []",
+     "robot.yaml:34: transitions[0]: unknown key 'keyframes'"},
+    {"TransitionTwice", false, kTransition, kTransition + "\n  - {from: squat, to: stand}",
+     "robot.yaml:34: transitions[1]: these two gaits already have a transition (it is used in both "
      "directions)"},
-    {"TransitionWithoutKeyframes", false, kLastKeyframe,
-     kLastKeyframe + "\n  - {from: squat, to: stand, keyframes: []}",
-     "robot.yaml:38: transitions[1].keyframes: expected at least one keyframe, got an empty list"},
-    {"JumpUnknownGait", false, kLastKeyframe,
-     kLastKeyframe + "\njumps:\n  - {name: leap, from: stan, to: squat}",
-     "robot.yaml:39: jumps[0].from: unknown gait 'stan' (did you mean 'stand'?)"},
-    {"JumpToItself", false, kLastKeyframe,
-     kLastKeyframe + "\njumps:\n  - {name: leap, from: stand, to: stand}",
-     "robot.yaml:39: jumps[0].to: expected another gait than 'from', got stand"},
-    {"JumpNamedLikeAGait", false, kLastKeyframe,
-     kLastKeyframe + "\njumps:\n  - {name: squat, from: stand, to: squat}",
-     "robot.yaml:39: jumps[0].name: this name is already that of a gait"},
-    {"JumpNameTaken", false, kLastKeyframe,
-     kLastKeyframe + "\njumps:\n  - {name: leap, from: stand, to: squat}\n"
-                     "  - {name: leap, from: squat, to: stand}",
-     "robot.yaml:40: jumps[1].name: this name is already taken"},
-    {"JumpUnknownKey", false, kLastKeyframe,
-     kLastKeyframe + "\njumps:\n  - {name: leap, from: stand, too: squat}",
-     "robot.yaml:39: jumps[0]: unknown key 'too' (did you mean 'to'?)"},
+    {"JumpUnknownGait", false, kTransition,
+     kTransition + "\njumps:\n  - {name: leap, from: stan, to: squat}",
+     "robot.yaml:35: jumps[0].from: unknown gait 'stan' (did you mean 'stand'?)"},
+    {"JumpToItself", false, kTransition,
+     kTransition + "\njumps:\n  - {name: leap, from: stand, to: stand}",
+     "robot.yaml:35: jumps[0].to: expected another gait than 'from', got stand"},
+    {"JumpNamedLikeAGait", false, kTransition,
+     kTransition + "\njumps:\n  - {name: squat, from: stand, to: squat}",
+     "robot.yaml:35: jumps[0].name: this name is already that of a gait"},
+    {"JumpNameTaken", false, kTransition,
+     kTransition + "\njumps:\n  - {name: leap, from: stand, to: squat}\n"
+                   "  - {name: leap, from: squat, to: stand}",
+     "robot.yaml:36: jumps[1].name: this name is already taken"},
+    {"JumpUnknownKey", false, kTransition,
+     kTransition + "\njumps:\n  - {name: leap, from: stand, too: squat}",
+     "robot.yaml:35: jumps[0]: unknown key 'too' (did you mean 'to'?)"},
 };
 
 const BadRobot kBadUrdf[] = {

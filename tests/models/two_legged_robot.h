@@ -72,10 +72,6 @@ gaits:
 transitions:
   - from: stand
     to: squat
-    keyframes:
-      - {duration: 1, contacts: [left], root_height: 0.9, root_pitch_deg: 5, com_x: 0.01,
-         joints_deg: {r_slide: 0.2}}
-      - {duration: 2, contacts: [left, right]}
 )";
 }
 

@@ -1,0 +1,65 @@
+#include "actions/bare_ground.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "actions/verifier.h"
+#include "models/scenario.h"
+
+namespace possibility::actions {
+namespace {
+
+constexpr double kVast = 20;  // m
+
+models::Obstacle Floor(const std::string& name, double x, double height) {
+  models::Obstacle floor;
+  floor.name = name;
+  floor.shape = models::Shape::Box({kVast, kVast, 1});
+  floor.X_WO.translation() << x, 0, height - 0.5;
+  floor.is_ground = true;
+  return floor;
+}
+
+/// Floors as far as the contacts of the stances reach, and no farther: where they overlapped, one
+/// would be on top of the other.
+models::Scenario BareGround(const JumpModel& model, const NominalStance& launch,
+                            const NominalStance& landing, const JumpTask& task) {
+  const collocation::Bounds gap = GapBetween(model, task.distance);
+  const double landing_begin = std::max(gap.lower, gap.upper);
+  models::Scenario scenario;
+  scenario.environment.obstacles = {
+      Floor("launch ground", gap.lower - kVast / 2, 0),
+      Floor("landing ground", landing_begin + kVast / 2, task.height)};
+  scenario.environment.bounds = {Eigen::Vector2d(-kVast, -kVast), Eigen::Vector2d(kVast, kVast)};
+  scenario.start.action = launch.gait->name;
+  models::Stance goal;
+  goal.action = landing.gait->name;
+  goal.x = task.distance;
+  goal.z = task.height;
+  scenario.goals = {goal};
+  scenario.actions = {launch.gait->name, landing.gait->name};
+  return scenario;
+}
+
+}  // namespace
+
+std::string FaultOnBareGround(const models::RobotModel& robot, const JumpModel& model,
+                              const NominalStance& launch, const NominalStance& landing,
+                              const JumpTask& task, const std::vector<Phase>& phases) {
+  const models::Scenario scenario = BareGround(model, launch, landing, task);
+  Plan plan;
+  plan.robot_hash = robot.content_hash;
+  plan.scenario_hash = scenario.content_hash;
+  for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
+  plan.segments = {{"motion", phases}};
+  VerifierSettings settings;
+  settings.simulates = false;
+  const VerificationReport report = Verify(plan, robot, scenario, settings);
+  if (report.accepted()) return {};
+  const Violation& worst = report.violations.front();
+  return fmt::format("{}: {}, {:.4g} {} (limit {:.4g}) at {:.2f} s", ToString(worst.kind),
+                     worst.quantity, worst.value, worst.unit, worst.limit, worst.time);
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,230 @@
+'use strict';
+
+/* The panel of plots: what the joints, the ground and the robot as a whole do in one segment. */
+
+const kCurveColours = ['#2667c9', '#d1495b', '#1b998b', '#e6a117', '#6a4c93'];
+const kFaint = 'rgba(110, 122, 138, 0.45)';
+const kLeastNormal = 1;  // N: friction of what bears less means nothing
+const kMostGroups = 4;   // joints, or pairs of them, that are named
+
+/* "L/RKP" for LKP and RKP. */
+function pairName(a, b) {
+  let i = 0;
+  while (i < a.length && a[i] === b[i]) ++i;
+  let j = 0;
+  while (j < a.length - i && j < b.length - i && a[a.length - 1 - j] === b[b.length - 1 - j]) ++j;
+  const differ = [a.slice(i, a.length - j), b.slice(i, b.length - j)];
+  return i + j > 0 && differ[0] && differ[1]
+      ? a.slice(0, i) + differ.join('/') + a.slice(a.length - j) : a + ', ' + b;
+}
+
+class PlotsPanel {
+  constructor(parent, data, motion, seek) {
+    this.data = data;
+    this.motion = motion;
+    this.parent = parent;
+    const plot = (title, unit) => {
+      const made = new CurvePlot(parent, title, unit, seek);
+      made.time = (knot) => motion.knots[knot * motion.stride];
+      return made;
+    };
+    this.plots = {
+      positions: plot('Joint positions', '% of range'),
+      speeds: plot('Joint speeds', '% of limit (rad/s)'),
+      torques: plot('Joint torques', '% of limit (N m)'),
+      forces: plot('Normal forces', 'N'),
+      friction: plot('Friction used', '% of cone'),
+      height: plot('Centre of mass, height', 'm'),
+      forward: plot('Centre of mass, forward', 'm'),
+      linear: plot('Linear momentum', 'N s'),
+      angular: plot('Angular momentum about c.o.m.', 'N m s'),
+    };
+    this.key = addText(parent, 'div', '');
+    this.key.id = 'phase-key';
+    this.groups = this.jointGroups();
+  }
+
+  /* Joints, left and right ones together. */
+  jointGroups() {
+    const names = this.data.joints.map((joint) => joint.name);
+    const paired = new Set([].concat(...this.data.pairs));
+    const pairs = this.data.pairs.map(
+        ([left, right]) => ({name: pairName(names[left], names[right]), joints: [left, right]}));
+    const singles = names.map((name, i) => ({name, joints: [i]}));
+    return pairs.concat(singles.filter((group) => !paired.has(group.joints[0])));
+  }
+
+  /* Plots what of a segment lies within [begin, end]. */
+  show(segment, begin, end) {
+    this.begin = Math.max(begin, segment.begin);
+    this.end = Math.min(end, segment.end);
+    if (!(this.end > this.begin)) [this.begin, this.end] = [segment.begin, segment.end];
+    this.segment = segment;
+    this.phases =
+        segment.phases.filter((phase) => phase.end > this.begin && phase.begin < this.end);
+    this.frame = this.headingFrame(segment);
+    this.showJoints();
+    this.showContacts();
+    this.showWhole();
+    this.showPhaseKey();
+  }
+
+  put(name, content) {
+    const bandColour = (phase) => phaseColour(phase, this.data.contacts);
+    const nothing = {limits: [], marks: [], include: [], range: null};
+    this.plots[name].show(
+        {...nothing, ...content, phases: this.phases, bandColour}, this.begin, this.end);
+  }
+
+  /* Unit vectors forward and to the left, as the robot is headed when the segment begins. */
+  headingFrame(segment) {
+    const at = segment.phases[0].first * this.motion.stride + 1, q = this.motion.knots;
+    const x = new THREE.Vector3(1, 0, 0).applyQuaternion(
+        new THREE.Quaternion(q[at + 1], q[at + 2], q[at + 3], q[at])).setZ(0).normalize();
+    return {forward: x, left: new THREE.Vector3(-x.y, x.x, 0)};
+  }
+
+  showJoints() {
+    const {joints} = this.data, {knots, stride, rates, torques} = this.motion;
+    const degrees = (joint, value) => joint.prismatic
+        ? fixed(value, 3) + ' m' : fixed(value * 180 / Math.PI, 0) + '°';
+    this.showShares('positions', (joint, i) => joint.range && {
+      share: (knot) => {
+        const [low, high] = joint.range;
+        return 100 * (2 * knots[knot * stride + 8 + i] - low - high) / (high - low);
+      },
+      text: (share) => degrees(
+          joint, (joint.range[0] + joint.range[1] + share / 100 *
+                  (joint.range[1] - joint.range[0])) / 2),
+    });
+    this.showShares('speeds', (joint, i) => joint.speed && {
+      share: (knot) => 100 * rates.at(knot, i) / joint.speed,
+      text: (share) =>
+          fixed(share / 100 * joint.speed, 1) + (joint.prismatic ? ' m/s' : ''),
+    });
+    this.showShares('torques', (joint, i) => joint.effort && {
+      share: (knot) => 100 * torques.at(knot, i) / joint.effort,
+      text: (share) => fixed(share / 100 * joint.effort, 0) + (joint.prismatic ? ' N' : ''),
+    });
+  }
+
+  /* A share of a limit by joint: those that come closest to it by name, the others faint. */
+  showShares(name, describe) {
+    const shares = this.data.joints.map(describe);
+    const peaks = shares.map((share) => share ? this.peak(share.share) : -1);
+    const peak = (group) => Math.max(...group.joints.map((joint) => peaks[joint]));
+    const ranked = this.groups.filter((group) => peak(group) > 0.5)
+                       .sort((a, b) => peak(b) - peak(a));
+    const curves = [];
+    ranked.forEach((group, rank) => group.joints.forEach((joint, side) => {
+      if (!shares[joint]) return;
+      const named = rank < kMostGroups;
+      curves.push({
+        label: named && side === 0 ? group.name : '',
+        colour: named ? kCurveColours[rank] : kFaint,
+        dashed: named && side > 0,
+        faint: !named,
+        value: (phase, knot) => shares[joint].share(knot),
+        text: shares[joint].text,
+      });
+    }));
+    const highest = Math.max(0, ...peaks);
+    const shown = [20, 50, 108].find((edge) => edge >= 1.05 * highest) || 1.1 * highest;
+    this.put(name, {
+      curves: curves,
+      range: [-shown, shown],
+      limits: [{y: 100, text: ''}, {y: -100, text: ''}],
+    });
+  }
+
+  peak(share) {
+    let highest = 0;
+    for (const phase of this.phases) {
+      for (let knot = phase.first; knot < phase.first + phase.count; ++knot) {
+        highest = Math.max(highest, Math.abs(share(knot)));
+      }
+    }
+    return highest;
+  }
+
+  /* Offsets of a contact's forces at a knot; none if it does not bear. */
+  forceOffsets(phase, knot, contact) {
+    const place = phase.contacts.indexOf(contact);
+    if (place < 0) return null;
+    const before = phase.bearing.slice(0, place).reduce((sum, points) => sum + points.length, 0);
+    const first = phase.forces + 3 * (phase.points * (knot - phase.first) + before);
+    return phase.bearing[place].map((_, i) => first + 3 * i);
+  }
+
+  showContacts() {
+    const {forces} = this.motion;
+    const bearing = this.data.contacts.map((contact, i) => i)
+        .filter((i) => this.phases.some((phase) => phase.contacts.includes(i)));
+    const curves = (ofPoints, text) => bearing.map((contact) => ({
+      label: this.data.contacts[contact].name,
+      colour: limbColour(contact),
+      dashed: contact % 2 > 0,  // left and right often coincide
+      value: (phase, knot) => {
+        const offsets = this.forceOffsets(phase, knot, contact);
+        return offsets && ofPoints(offsets);
+      },
+      text,
+    }));
+    const marks = this.phases.filter((phase) => phase.impulses.length).map((phase) => ({
+      t: phase.begin, text: impulseText(phase), colour: kImpulseColour}));
+    this.put('forces', {
+      curves: curves((at) => at.reduce((sum, o) => sum + forces[o + 2], 0), (n) => fixed(n, 0)),
+      limits: [{y: this.data.weight, text: 'weight', colour: '#667180'}],
+      marks,
+      include: [0],
+    });
+    const share = (o) => forces[o + 2] < kLeastNormal ? 0
+        : 100 * Math.hypot(forces[o], forces[o + 1]) / (this.data.friction * forces[o + 2]);
+    this.put('friction', {
+      curves: curves((at) => Math.max(...at.map(share)), (n) => fixed(n, 0)),
+      limits: [{y: 100, text: ''}],
+      range: [0, 108],
+    });
+  }
+
+  showWhole() {
+    const {centres, momenta} = this.motion, {forward, left} = this.frame;
+    const start = this.motion.centreOfKnot(this.segment.phases[0].first);
+    const centre = (axis, from) => (phase, knot) =>
+        (centres[3 * knot] - from.x) * axis.x + (centres[3 * knot + 1] - from.y) * axis.y +
+        (centres[3 * knot + 2] - from.z) * axis.z;
+    const up = new THREE.Vector3(0, 0, 1), none = new THREE.Vector3();
+    const one = (label, colour, value, digits) =>
+        ({label, colour, value, text: (n) => fixed(n, digits)});
+    this.put('height', {curves: [one('height', '#1d2530', centre(up, none), 3)]});
+    this.put('forward', {curves: [one('forward', '#1d2530', centre(forward, start), 3)]});
+    const momentum = (first, axis) => (phase, knot) => momenta.at(knot, first) * axis.x +
+        momenta.at(knot, first + 1) * axis.y + momenta.at(knot, first + 2) * axis.z;
+    const three = (first, names) => [forward, left, up].map(
+        (axis, i) => one(names[i], kCurveColours[i], momentum(first, axis), 1));
+    this.put('linear', {curves: three(0, ['forward', 'left', 'up'])});
+    this.put('angular', {curves: three(3, ['roll', 'pitch', 'yaw'])});
+  }
+
+  /* What the bands behind the plots mean. */
+  showPhaseKey() {
+    this.key.textContent = '';
+    const seen = new Set();
+    for (const phase of this.phases) {
+      if (seen.has(phase.name)) continue;
+      seen.add(phase.name);
+      const key = addText(this.key, 'span', phase.name);
+      key.className = 'band';
+      key.style.setProperty('--colour', phaseColour(phase, this.data.contacts));
+    }
+  }
+
+  setTime(t) {
+    const phase = this.motion.phaseAt(t), place = this.motion.locate(phase, t);
+    for (const plot of Object.values(this.plots)) plot.setTime(t, phase, place);
+  }
+
+  redraw() {
+    for (const plot of Object.values(this.plots)) plot.draw();
+  }
+}

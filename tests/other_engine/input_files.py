@@ -1,0 +1,230 @@
+"""What the check reads: plan.json, the robot's YAML and the scenario's (docs/file_formats.md)."""
+
+import json
+import os
+import re
+from dataclasses import dataclass
+
+import numpy as np
+import yaml
+
+
+class InputError(Exception):
+    """One line that says what is wrong with which file."""
+
+
+@dataclass
+class Patch:
+    """A contact patch of the robot: a link and points in its frame (n x 3)."""
+
+    link: str
+    points: np.ndarray
+
+
+@dataclass
+class Robot:
+    file: str
+    urdf: str
+    root_link: str
+    lumped: set
+    friction: float
+    effort: dict  # joint -> limit that replaces the URDF's
+    patches: dict  # name -> Patch
+
+
+@dataclass
+class Ground:
+    """Upright boxes: x and y of the centres, half extents (n x 2), yaws and heights of the tops."""
+
+    centres: np.ndarray
+    half_sizes: np.ndarray
+    yaws: np.ndarray
+    tops: np.ndarray
+
+
+@dataclass
+class Phase:
+    """Arrays have one row per knot; `points` lists (patch, index) in the order of `forces`."""
+
+    segment: int
+    index: int
+    action: str
+    points: list
+    t: np.ndarray
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    tau: np.ndarray
+    forces: np.ndarray  # knots x points x 3
+    impulses: object  # points x 3, or None
+
+
+@dataclass
+class Plan:
+    joints: list
+    robot: Robot
+    ground: Ground
+    phases: list
+
+
+def _text_of(file):
+    try:
+        with open(file, encoding="utf-8") as stream:
+            return stream.read()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
+        raise InputError(f"{file}: cannot be read: {reason}") from None
+
+
+def _yaml_of(file):
+    try:
+        return yaml.load(_text_of(file), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError as error:
+        raise InputError(f"{file}: not YAML: {' '.join(str(error).split())}") from None
+
+
+def _get(node, key, kind, where):
+    if not isinstance(node, dict) or key not in node:
+        raise InputError(f"{where}: {key} is missing")
+    value = node[key]
+    wanted = (int, float) if kind is float else kind
+    if not isinstance(value, wanted) or isinstance(value, bool):
+        raise InputError(f"{where}: {key}: expected {kind.__name__}, found {str(value)[:40]!r}")
+    return value
+
+
+def _names(node, key, where):
+    """A list of different names; empty if there is no such key."""
+    names = node.get(key, [])
+    if (not isinstance(names, list) or not all(isinstance(name, str) for name in names) or
+            len(set(names)) < len(names)):
+        raise InputError(f"{where}: {key}: expected a list of different names")
+    return names
+
+
+def _numbers(value, shape, where):
+    """`value` as an array of finite numbers; None in `shape` stands for any length."""
+    try:
+        array = np.array(value)
+    except ValueError:
+        raise InputError(f"{where}: rows of different lengths") from None
+    if array.size == 0 and 0 in shape:
+        array = array.reshape(shape).astype(float)
+    fits = array.ndim == len(shape) and all(
+        want in (None, have) for want, have in zip(shape, array.shape))
+    if array.dtype.kind not in "iuf" or not fits or not (abs(array) <= 1e6).all():
+        wanted = " x ".join("n" if n is None else str(n) for n in shape)
+        raise InputError(f"{where}: expected {wanted} numbers, none beyond 1e6")
+    return array.astype(float)
+
+
+def _read_robot(file):
+    node = _yaml_of(file)
+    patches = {}
+    for contact in _get(node, "contacts", list, file):
+        name = _get(contact, "name", str, f"{file}: contacts")
+        where = f"{file}: contact {name}"
+        patches[name] = Patch(_get(contact, "link", str, where),
+                              _numbers(_get(contact, "points", list, where), (None, 3), where))
+    effort = {}
+    for entry in _get(node, "effort", list, file) if "effort" in node else []:
+        limit = float(_get(entry, "limit", float, f"{file}: effort"))
+        effort.update((joint, limit) for joint in _names(entry, "joints", f"{file}: effort"))
+    urdf = os.path.join(os.path.dirname(file), _get(node, "urdf", str, file))
+    return Robot(file, urdf, _get(node, "root_link", str, file), set(_names(node, "lump", file)),
+                 float(_get(node, "friction", float, file)), effort, patches)
+
+
+def _read_ground(file):
+    boxes = _get(_get(_yaml_of(file), "environment", dict, file), "ground", list, file)
+    if not boxes:
+        raise InputError(f"{file}: environment.ground: expected at least one box")
+    where = f"{file}: environment.ground"
+    sizes = _numbers([_get(box, "size", list, where) for box in boxes], (None, 3), where)
+    positions = _numbers([_get(box, "position", list, where) for box in boxes], (None, 3), where)
+    yaws = _numbers([box.get("yaw_deg", 0) for box in boxes], (None,), where)
+    return Ground(positions[:, :2], sizes[:, :2] / 2, np.radians(yaws),
+                  positions[:, 2] + sizes[:, 2] / 2)
+
+
+def _bearing_points(contacts, robot, where):
+    """(patch, index) of all points of "patch" or "patch[i,j]"."""
+    points = []
+    for contact in contacts:
+        parts = re.fullmatch(r"([^\[\]]+)(?:\[(\d+(?:,\d+)*)\])?", str(contact))
+        if not parts or parts[1] not in robot.patches:
+            raise InputError(f"{where}: the robot has no contact patch {contact}")
+        count = len(robot.patches[parts[1]].points)
+        indices = [int(i) for i in parts[2].split(",")] if parts[2] else list(range(count))
+        if max(indices) >= count:
+            raise InputError(f"{where}: {contact}: the patch has {count} points")
+        points += [(parts[1], index) for index in indices]
+    if len(set(points)) < len(points):
+        raise InputError(f"{where}: a contact point is listed twice")
+    return points
+
+
+def _read_phase(node, segment, index, action, robot, num_joints, file):
+    where = f"{file}: segment {segment}, phase {index}"
+    points = _bearing_points(_get(node, "contacts", list, where), robot, where)
+    t = _numbers(_get(node, "t", list, where), (None,), f"{where}: t")
+    knots = len(t)
+    if knots < 2 or (np.diff(t) <= 0).any() or (np.diff(t) > 1).any():
+        raise InputError(f"{where}: t: expected two times or more, increasing by at most 1 s")
+
+    def rows(key, width):
+        return _numbers(_get(node, key, list, where), (knots, width), f"{where}: {key}")
+
+    q = rows("q", 7 + num_joints)
+    if abs(np.linalg.norm(q[:, :4], axis=1) - 1).max() > 1e-6:
+        raise InputError(f"{where}: q: expected unit quaternions")
+    forces = rows("forces", 3 * len(points)).reshape(knots, len(points), 3)
+    impulses = None
+    if "impulses" in node:
+        if not points or (segment, index) == (0, 0):
+            raise InputError(f"{where}: impulses: nothing can hit the ground here")
+        impulses = _numbers(node["impulses"], (3 * len(points),), f"{where}: impulses")
+        impulses = impulses.reshape(len(points), 3)
+    return Phase(segment, index, action, points, t, q, rows("v", 6 + num_joints),
+                 rows("a", 6 + num_joints), rows("tau", num_joints), forces, impulses)
+
+
+def _refuse_constant(name):
+    raise ValueError(f"{name} is no number of JSON")
+
+
+def _object(pairs):
+    node = dict(pairs)
+    if len(node) < len(pairs):
+        raise ValueError("an object has the same key twice")
+    return node
+
+
+def read_plan(file):
+    """The plan with its robot and its ground.
+
+    Raises InputError for whatever cannot be read or does not fit together."""
+    if os.path.isdir(file):
+        file = os.path.join(file, "plan.json")
+    try:
+        node = json.loads(_text_of(file), parse_constant=_refuse_constant,
+                          object_pairs_hook=_object)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{file}: not proper JSON: {error}") from None
+    if not isinstance(node, dict) or node.get("format") != "possibility-plan/1":
+        raise InputError(f"{file}: format: expected \"possibility-plan/1\"")
+
+    def beside(key):
+        named = _get(_get(node, key, dict, file), "file", str, f"{file}: {key}")
+        return os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(file)), named))
+
+    robot = _read_robot(beside("robot"))
+    joints = _names(node, "joints", file)
+    phases = []
+    for i, segment in enumerate(_get(node, "segments", list, file)):
+        action = _get(segment, "action", str, f"{file}: segment {i}")
+        for j, phase in enumerate(_get(segment, "phases", list, f"{file}: segment {i}")):
+            phases.append(_read_phase(phase, i, j, action, robot, len(joints), file))
+    if not phases:
+        raise InputError(f"{file}: there is no motion in this plan")
+    return Plan(joints, robot, _read_ground(beside("scenario")), phases)

@@ -1,0 +1,136 @@
+"""What the tests of check_plan.py share: plans of the built program, and asking for an opinion."""
+
+import contextlib
+import io
+import json
+import os
+import subprocess
+import sys
+import unittest
+from dataclasses import dataclass
+
+import check_plan
+import yaml
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SCENARIOS = os.path.join(HERE, "..", "..", "experiments", "scenarios")
+PROGRAM, FOLDER = "", ""
+
+
+def make_plan(scenario):
+    """The folder of the plan for experiments/scenarios/`scenario`.yaml."""
+    folder = os.path.join(FOLDER, scenario)
+    if not os.path.exists(folder):
+        run = subprocess.run([PROGRAM, "plan", os.path.join(SCENARIOS, scenario + ".yaml"), "--out",
+                              folder, "--seed", "1", "--time-limit", "600"],
+                             capture_output=True, text=True, check=False)
+        if run.returncode != 0:
+            sys.exit(f"no plan for {scenario}: exit code {run.returncode}: {run.stderr}")
+    return folder
+
+
+@dataclass
+class Outcome:
+    code: int
+    out: str
+    err: str
+
+
+def check(*arguments):
+    """check_plan.py in this process: loading DART takes longer than most questions."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            code = check_plan.main(arguments)
+        except SystemExit as end:
+            code = end.code
+    return Outcome(code, out.getvalue(), err.getvalue())
+
+
+def run_script(*arguments):
+    """check_plan.py as its users run it."""
+    run = subprocess.run([sys.executable, "-B", os.path.join(HERE, "check_plan.py"), *arguments],
+                         capture_output=True, text=True, check=False)
+    return Outcome(run.returncode, run.stdout, run.stderr)
+
+
+class CheckCase(unittest.TestCase):
+    def accepts(self, *arguments):
+        outcome = check(*arguments, "--json")
+        self.assertEqual((outcome.code, outcome.err), (0, ""))
+        report = json.loads(outcome.out)
+        self.assertTrue(report["accepted"])
+        self.assertEqual(self.failing(report), set())
+        return report
+
+    @staticmethod
+    def failing(report):
+        return {entry["check"] for entry in report["checks"] if entry["failed"]}
+
+    def refused(self, file, *options):
+        """The checks that fail; one line says where the worst is."""
+        outcome = check(file, "--json", *options)
+        self.assertEqual(outcome.code, 1, outcome.out)
+        self.assert_one_line(outcome.err)
+        self.assertRegex(outcome.err, r"limit .*: segment \d+ \(.*\), phase \d+, ")
+        report = json.loads(outcome.out)
+        self.assertFalse(report["accepted"])
+        return self.failing(report)
+
+    def assert_one_line(self, text):
+        self.assertTrue(text.startswith("check_plan.py: "), text)
+        self.assertEqual((text.count("\n"), text[-1]), (1, "\n"), text)
+
+    def refuses(self, file, *failing, options=()):
+        """Exactly these checks fail."""
+        self.assertEqual(self.refused(file, *options), set(failing))
+
+    def refuses_at_least(self, file, *failing):
+        """These checks fail; others may as well, since one change spoils several things."""
+        self.assertLessEqual(set(failing), self.refused(file))
+
+    def refuses_input(self, file, *words):
+        outcome = check(file)
+        self.assertEqual((outcome.code, outcome.out), (1, ""))
+        self.assert_one_line(outcome.err)
+        for word in words:
+            self.assertIn(word, outcome.err)
+
+
+class Spoilt(CheckCase):
+    """Short pieces of plans: first as they are, then with one thing changed."""
+
+    def write(self, plan, robot=None, scenario=None):
+        """`plan` under this test's name, with another robot or scenario if given."""
+        for key, node in (("robot", robot), ("scenario", scenario)):
+            file = os.path.join(FOLDER, f"{self.id()}_{key}.yaml")
+            if node is not None:
+                with open(file, "w", encoding="utf-8") as stream:
+                    yaml.safe_dump(node, stream)
+                plan[key]["file"] = file
+        file = os.path.join(FOLDER, f"{self.id()}.json")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(json.dumps(plan))
+        return file
+
+    @staticmethod
+    def piece(scenario, action, phases=None):
+        """A plan of one segment: the first of that action, or some of its phases."""
+        with open(os.path.join(make_plan(scenario), "plan.json"), encoding="utf-8") as stream:
+            plan = json.load(stream)
+        for key in ("robot", "scenario"):
+            plan[key]["file"] = os.path.normpath(
+                os.path.join(make_plan(scenario), plan[key]["file"]))
+        segment = next(s for s in plan["segments"] if s["action"] == action)
+        segment["phases"] = segment["phases"][:phases]
+        plan["segments"] = [segment]
+        plan["explored"] = {"vertices": [], "edges": []}
+        return plan
+
+    @staticmethod
+    def yaml_of(plan, key):
+        with open(plan[key]["file"], encoding="utf-8") as stream:
+            node = yaml.safe_load(stream)
+        if key == "robot":
+            node["urdf"] = os.path.join(os.path.dirname(plan[key]["file"]), node["urdf"])
+        return node
