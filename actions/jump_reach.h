@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "actions/jump_library.h"
+#include "actions/manoeuvre_bounds.h"
 
 namespace possibility::actions {
 
@@ -18,11 +19,7 @@ JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& height
 JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
                          const std::function<bool()>& keep_going = {});
 
-/// Upper bounds, by joint speeds and lengths alone, of how a body that legs throw up can fly.
-struct FlightBounds {
-  double rise = 0;   ///< m, of the highest point of flight above the launch
-  double range = 0;  ///< m, between the stances, on level ground
-};
+/// By joint speeds and lengths alone, of how a body that legs throw up can fly.
 FlightBounds BoundFlight(const JumpModel& model);
 
 }  // namespace possibility::actions

@@ -15,18 +15,6 @@ bool IsJump(const models::RobotModel& robot, const std::string& action) {
                      [&](const models::Jump& jump) { return jump.name == action; });
 }
 
-LocomotionModel::JumpEntry PrepareJump(const LocomotionModel& model, const models::Jump& jump,
-                                       const std::filesystem::path& library) {
-  LocomotionModel::JumpEntry entry;
-  entry.name = jump.name;
-  entry.from = model.GaitIndex(jump.from);
-  entry.to = model.GaitIndex(jump.to);
-  entry.solver = std::make_unique<JumpSolver>(*model.robot, model.gaits[entry.from]->stance,
-                                              model.gaits[entry.to]->stance);
-  entry.library = std::make_unique<JumpLibrary>(*model.robot, *entry.solver, library);
-  return entry;
-}
-
 }  // namespace
 
 int LocomotionModel::GaitIndex(const std::string& name) const {
@@ -60,10 +48,6 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
         robot, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance, library, keep_going);
     entry.sweep = SweepTransition(robot, *entry.motion).Boxes();
     model.transitions.push_back(std::move(entry));
-  }
-  for (const models::Jump& jump : robot.jumps) {
-    if (std::find(actions.begin(), actions.end(), jump.name) == actions.end()) continue;
-    model.jumps.push_back(PrepareJump(model, jump, library));
   }
   return model;
 }

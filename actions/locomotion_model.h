@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "actions/gait_motion.h"
-#include "actions/jump_library.h"
-#include "actions/jump_solver.h"
 #include "actions/nominal_stance.h"
 #include "actions/swept_volume.h"
 #include "actions/transition_motion.h"
@@ -32,27 +30,17 @@ struct LocomotionModel {
     std::vector<Eigen::AlignedBox3d> sweep;  ///< in the first gait's stance frame
   };
 
-  /// `solver` and `library` are safe to use from several threads.
-  struct JumpEntry {
-    std::string name;
-    int from = 0;  ///< indices into gaits
-    int to = 0;
-    std::unique_ptr<JumpSolver> solver;
-    std::unique_ptr<JumpLibrary> library;
-  };
-
   const models::RobotModel* robot = nullptr;
   std::vector<std::unique_ptr<GaitEntry>> gaits;
   std::vector<TransitionEntry> transitions;
-  std::vector<JumpEntry> jumps;
 
   /// Index of the gait called `name`, or -1.
   int GaitIndex(const std::string& name) const;
 };
 
 /// Solves the stances and computes the swept volumes of the gaits among `actions` and the
-/// transitions among them, and prepares the jumps among `actions`. `robot` must outlive the result.
-/// `library`: folder of solved jumps and transitions, empty for none.
+/// transitions among them; jumps among them add nothing. `robot` must outlive the result.
+/// `library`: folder of solved transitions, empty for none.
 /// @throws InputError if an action does not exist, a gait's bounds allow a stride that the robot
 /// cannot
 ///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may

@@ -10,6 +10,7 @@
 
 #include "actions/exploration_pose.h"
 #include "actions/jump_reach.h"
+#include "actions/stance_motion.h"
 #include "collocation/solve_control.h"
 
 namespace possibility::actions {
@@ -31,17 +32,20 @@ constexpr double kArcSpacing = 0.05;
 /// closely.
 constexpr double kWideGround = 0.4;
 
-bool SamePoint(const graph::Point& a, const graph::Point& b) {
-  return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
-}
-
-bool SameEdge(const graph::PointPair& a, const graph::PointPair& b) {
-  return SamePoint(a.from, b.from) && SamePoint(a.to, b.to);
-}
-
 bool SameTask(const JumpTask& a, const JumpTask& b) {
   return std::abs(a.distance - b.distance) < kSamePlace &&
          std::abs(a.height - b.height) < kSamePlace;
+}
+
+/// From any of the levels to any other, on the library's grid, ascending.
+std::vector<double> RisesOf(const std::vector<double>& levels) {
+  std::vector<double> rises;
+  for (const double from : levels) {
+    for (const double to : levels) rises.push_back(JumpLibrary::OnGrid({0, to - from}).height);
+  }
+  std::sort(rises.begin(), rises.end());
+  rises.erase(std::unique(rises.begin(), rises.end()), rises.end());
+  return rises;
 }
 
 }  // namespace
@@ -163,7 +167,7 @@ class LongJump::Job : public graph::ConfirmationJob {
       return Decide(false, solved.hit);
     }
     const std::string hit = FirstHit(
-        *action_.model_->robot, *action_.world_.environment, action_.robot_checker_, *solved.poses,
+        *action_.model().robot, *action_.world().environment, *action_.checker(), *solved.poses,
         leap_.launch.pose.At(leap_.launch.z), [&] { return control->Checkpoint(); });
     if (!control->Checkpoint()) return graph::JobVerdict::kUndecided;
     return Decide(hit.empty(), hit);
@@ -181,38 +185,38 @@ class LongJump::Job : public graph::ConfirmationJob {
   std::string reason_;
 };
 
-LongJump::LongJump(const LocomotionModel& model, int jump, const World& world,
-                   std::shared_ptr<const QuasiStaticAction> launch,
-                   std::shared_ptr<const QuasiStaticAction> landing, JumpReach reach)
-    : model_(&model),
-      jump_(jump),
-      world_(world),
-      launch_(std::move(launch)),
-      landing_(std::move(landing)),
-      reach_(std::move(reach)),
-      highest_rise_(BoundFlight(model.jumps[jump].solver->model()).rise),
-      pelvis_checker_(*world.environment),
-      robot_checker_(*model.robot, *world.environment),
-      pelvis_(*model.robot, pelvis_checker_) {
-  for (const LocomotionModel::TransitionEntry& transition : model.transitions) {
-    if (transition.from == entry().from && transition.to == entry().to) transition_ = &transition;
+LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
+    : Manoeuvre(context, jump.name, context.model->GaitIndex(jump.from),
+                context.model->GaitIndex(jump.to)),
+      solver_(std::make_unique<JumpSolver>(*model().robot, model().gaits[from()]->stance,
+                                           model().gaits[to()]->stance)),
+      library_(std::make_unique<JumpLibrary>(*model().robot, *solver_, context.library)),
+      reach_(library_->reach_is_derived()
+                 ? library_->reach()
+                 : GuessReach(*solver_, RisesOf(world().ground->levels()))),
+      skip_growth_(context.settings.skip_jumps),
+      highest_rise_(BoundFlight(solver_->model()).rise),
+      pelvis_checker_(*world().environment),
+      pelvis_(*model().robot, pelvis_checker_) {
+  for (const LocomotionModel::TransitionEntry& transition : model().transitions) {
+    if (transition.from == from() && transition.to == to()) transition_ = &transition;
   }
   const auto add = [this](const std::vector<Eigen::AlignedBox3d>& boxes, double x) {
     for (const Eigen::AlignedBox3d& box : boxes) {
       room_.extend(box.translated(Eigen::Vector3d(x, 0, 0)));
     }
   };
-  add(model.gaits[entry().from]->sweep, 0);
-  add(model.gaits[entry().to]->sweep, 0);
+  add(model().gaits[from()]->sweep, 0);
+  add(model().gaits[to()]->sweep, 0);
   if (transition_ != nullptr) add(transition_->sweep, -transition_->motion->displacement().x);
 }
 
 bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double end) const {
   const Vector2d middle = launch.pose * Vector2d((begin + end) / 2, 0);
-  const std::optional<int> level = world_.ground->LevelAt(middle, launch.z, kSamePlace);
+  const std::optional<int> level = world().ground->LevelAt(middle, launch.z, kSamePlace);
   if (!level) return false;
   const double half = (end - begin) / 2;
-  const double clearance = world_.ground->Clearance(*level, middle);
+  const double clearance = world().ground->Clearance(*level, middle);
   if (clearance >= half + kWideGround) return true;
   if (clearance < kWideGround) return false;
   return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
@@ -243,26 +247,15 @@ bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& la
                        const QuasiStaticAction& second) {
     return first.CS(graph::PointPair{a, via}) && second.CS(graph::PointPair{via, b});
   };
-  return way(*launch_, PointOf(standing), *landing_) || way(*landing_, PointOf(sitting), *landing_);
-}
-
-std::optional<GroundedStance> LongJump::LaunchStance(const graph::Point& v) const {
-  return AsStance(*model_, entry().from, ToPose(v));
-}
-
-std::optional<GroundedStance> LongJump::LandingStance(const graph::Point& v) const {
-  return AsStance(*model_, entry().to, ToPose(v));
-}
-
-graph::Point LongJump::PointOf(const GroundedStance& stance) const {
-  return ToPoint(model_->gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
+  return way(launch_gait(), PointOf(standing), landing_gait()) ||
+         way(landing_gait(), PointOf(sitting), landing_gait());
 }
 
 std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
                                                  bool forward) const {
   std::optional<GroundedStance> best;
   double longest = 0;
-  for (const double level : world_.ground->levels()) {
+  for (const double level : world().ground->levels()) {
     const double height = forward ? level - stance.z : stance.z - level;
     const auto reach = reach_.Distances(JumpLibrary::OnGrid({0, height}).height);
     if (!reach) continue;
@@ -270,9 +263,9 @@ std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, d
     for (int i = static_cast<int>(limit / JumpLibrary::kDistanceStep);; --i) {
       const double d = i * JumpLibrary::kDistanceStep;
       if (d < reach->first - kSamePlace || d <= longest) break;
-      const GroundedStance end{forward ? entry().to : entry().from,
+      const GroundedStance end{forward ? to() : from(),
                                stance.pose * PlanarPose{forward ? d : -d, 0, 0}, level};
-      if (!(forward ? landing_ : launch_)->GroundHolds(end, 0) ||
+      if (!(forward ? landing_gait() : launch_gait()).GroundHolds(end, 0) ||
           IsImpossible(JumpLibrary::OnGrid({d, height}))) {
         continue;
       }
@@ -341,14 +334,10 @@ std::optional<LongJump::Leap> LongJump::AsLeap(const graph::PointPair& edge) con
   return Leap{*launch, *landing, task};
 }
 
-bool LongJump::CN(const graph::Point& vertex) const {
-  return launch_->CS(vertex) || landing_->CS(vertex);
-}
-
 bool LongJump::CN(const graph::PointPair& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
-  return leap && reach_.Allows(leap->task) && landing_->CS(edge.to) && launch_->CS(edge.from) &&
-         SomeParabolaIsFree(edge);
+  return leap && reach_.Allows(leap->task) && landing_gait().CS(edge.to) &&
+         launch_gait().CS(edge.from) && SomeParabolaIsFree(edge);
 }
 
 bool LongJump::SomeParabolaIsFree(const graph::PointPair& edge) const {
@@ -376,14 +365,12 @@ bool LongJump::ParabolaIsFree(const graph::PointPair& edge, double rise) const {
 bool LongJump::Explorable(const graph::PointPair& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap || IsImpossible(leap->task) || IsNeedless(leap->launch, leap->landing)) return false;
-  const std::optional<Verdict> verdict = VerdictOn(edge);
-  return verdict ? verdict->possible : CN(edge);
+  return Manoeuvre::Explorable(edge);
 }
 
 bool LongJump::CS(const graph::PointPair& edge) const {
-  const std::optional<Verdict> verdict = VerdictOn(edge);
   const std::optional<Leap> leap = AsLeap(edge);
-  return verdict && verdict->possible && leap && !IsImpossible(leap->task);
+  return leap && !IsImpossible(leap->task) && Manoeuvre::CS(edge);
 }
 
 double LongJump::ExpectedDuration(const graph::PointPair& edge) const {
@@ -402,39 +389,38 @@ std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
   return std::make_unique<Job>(*this, edge, *leap);
 }
 
+std::vector<Phase> LongJump::Motion(const graph::PointPair& edge,
+                                    const std::function<bool()>&) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap) throw MotionError("not a jump between nominal stances");
+  const std::optional<JumpAnswer> answer = library_->Find(leap->task);
+  if (!answer || !answer->jump) throw MotionError("the jump is not in the library");
+  return Placed(answer->jump->phases, leap->launch.pose, leap->launch.z);
+}
+
+ManoeuvreBounds LongJump::Bounds() const {
+  ManoeuvreBounds bounds;
+  bounds.landings = [reach = reach_](double rise) -> std::optional<LandingRange> {
+    const auto distances = reach.Distances(JumpLibrary::OnGrid({0, rise}).height);
+    if (!distances) return std::nullopt;
+    // How near does not matter: nearer ones only join what walking joins.
+    return LandingRange{{Vector2d::Zero(), Vector2d(distances->second, 0)}};
+  };
+  bounds.flight = BoundFlight(solver_->model());
+  return bounds;
+}
+
+bool LongJump::ReplaceGuesses(const std::function<bool()>& keep_going) {
+  if (library_->reach_is_derived()) return false;
+  reach_ = DeriveFarthest(reach_, library_.get(), keep_going);
+  return true;
+}
+
 void LongJump::Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap) return;
   Record(edge, false, reason);
   if (anywhere) RecordImpossible(leap->task);
-}
-
-std::vector<LongJump::Refusal> LongJump::Refusals() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<Refusal> refusals;
-  for (const Verdict& verdict : verdicts_) {
-    if (!verdict.possible) refusals.push_back({verdict.edge, verdict.reason});
-  }
-  return refusals;
-}
-
-std::optional<LongJump::Verdict> LongJump::VerdictOn(const graph::PointPair& edge) const {
-  const std::lock_guard lock(mutex_);
-  for (const Verdict& verdict : verdicts_) {
-    if (SameEdge(verdict.edge, edge)) return verdict;
-  }
-  return std::nullopt;
-}
-
-void LongJump::Record(const graph::PointPair& edge, bool possible,
-                      const std::string& reason) const {
-  const std::lock_guard lock(mutex_);
-  for (Verdict& verdict : verdicts_) {
-    if (!SameEdge(verdict.edge, edge)) continue;
-    verdict = {edge, possible, reason};
-    return;
-  }
-  verdicts_.push_back({edge, possible, reason});
 }
 
 void LongJump::RecordImpossible(const JumpTask& task) const {
@@ -453,7 +439,7 @@ std::shared_ptr<LongJump::SharedSolve> LongJump::SolveOf(const JumpTask& task) c
   for (const auto& solve : solves_) {
     if (SameTask(solve->task(), task)) return solve;
   }
-  return solves_.emplace_back(std::make_shared<SharedSolve>(entry().library.get(), task));
+  return solves_.emplace_back(std::make_shared<SharedSolve>(library_.get(), task));
 }
 
 LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) const {
@@ -463,11 +449,20 @@ LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) cons
       if (solved.jump == jump) return solved;
     }
   }
-  const auto poses = std::make_shared<const JumpPoses>(*model_->robot, *jump);
-  const std::string hit =
-      FirstHitOnBareGround(*model_->robot, entry().solver->model(), *jump, *poses);
+  const auto poses = std::make_shared<const MotionPoses>(*model().robot, jump->phases);
+  const std::string hit = FirstHitOnBareGround(*model().robot, solver_->model(), *jump, *poses);
   const std::lock_guard lock(mutex_);
   return solved_.emplace_back(Solved{std::move(jump), poses, hit});
+}
+
+std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot) {
+  std::vector<ManoeuvreFactory> factories;
+  for (const models::Jump& jump : robot.jumps) {
+    factories.push_back({jump.name, [jump](const PlanningContext& context) {
+                           return std::make_shared<LongJump>(context, jump);
+                         }});
+  }
+  return factories;
 }
 
 }  // namespace possibility::actions

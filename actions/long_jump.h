@@ -1,19 +1,15 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "actions/jump_library.h"
-#include "actions/locomotion_model.h"
+#include "actions/manoeuvre.h"
 #include "actions/pelvis_clearance.h"
 #include "actions/placed_jump.h"
-#include "actions/quasi_static_action.h"
-#include "graph/action.h"
 #include "models/collision.h"
 
 namespace possibility::actions {
@@ -22,25 +18,18 @@ namespace possibility::actions {
 /// one gait straight ahead into a stance of another, by distances on the jump library's grid. Its
 /// necessary conditions are those of the paper; what they leave open costs a confirmation job. One
 /// exploring thread per instance, beside any number of its jobs.
-class LongJump : public graph::NonholonomicAction {
+class LongJump : public Manoeuvre {
  public:
   /// Of a jump that is not solved yet, s.
   static constexpr double kNominalDuration = 4.5;
 
-  /// `jump`: index into the model's. `launch`, `landing`: the actions of its gaits. `reach`: which
-  /// jumps are worth examining. `model` and `world` must outlive the action.
-  LongJump(const LocomotionModel& model, int jump, const World& world,
-           std::shared_ptr<const QuasiStaticAction> launch,
-           std::shared_ptr<const QuasiStaticAction> landing, JumpReach reach);
+  /// Jumps worth examining: the table of the context's library if it has one, otherwise a guess
+  /// for the heights of the context's ground.
+  /// @throws InputError if the context lacks one of the jump's gaits, or the robot cannot be
+  /// brought into its sagittal plane.
+  LongJump(const PlanningContext& context, const models::Jump& jump);
   ~LongJump() override;
 
-  /// Jobs that ended with a "no" say why.
-  struct Refusal {
-    graph::PointPair edge;
-    std::string reason;
-  };
-
-  std::string name() const override { return entry().name; }
   graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
   graph::Point ReverseExtend(const graph::Point& v0, const graph::Point& v1) const override;
   std::optional<graph::Point> FindLaunchPoint(const graph::Point& v,
@@ -48,31 +37,31 @@ class LongJump : public graph::NonholonomicAction {
   std::optional<graph::Point> FindLandingPoint(const graph::Point& v,
                                                const graph::Point& v1) const override;
 
-  /// A stance that one can launch from or land in.
-  bool CN(const graph::Point& vertex) const override;
+  using Manoeuvre::CN;
+  using Manoeuvre::CS;
+  using Manoeuvre::Explorable;
   bool CN(const graph::PointPair& edge) const override;
-  bool CS(const graph::Point& vertex) const override { return CN(vertex); }
   /// Whether a job has confirmed it.
   bool CS(const graph::PointPair& edge) const override;
-  bool Explorable(const graph::Point& vertex) const override { return CN(vertex); }
   /// C_N, unless a job has refuted it, or the gaits have a way of their own straight on.
   bool Explorable(const graph::PointPair& edge) const override;
 
   double ExpectedDuration(const graph::PointPair& edge) const override;
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
       const graph::PointPair& edge) const override;
+  std::vector<Phase> Motion(const graph::PointPair& edge,
+                            const std::function<bool()>& keep_going) const override;
 
-  /// Which jumps are worth examining from now on. Not while FindPath explores in another thread.
-  void SetReach(JumpReach reach) { reach_ = std::move(reach); }
+  ManoeuvreBounds Bounds() const override;
+  /// Measures a reach that was guessed. Not while FindPath explores in another thread.
+  bool ReplaceGuesses(const std::function<bool()>& keep_going) override;
+  double skip_growth() const override { return skip_growth_; }
+
+  /// `anywhere`: so is every jump of its distance and height.
+  void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) override;
+
   const JumpReach& reach() const { return reach_; }
-
-  /// The edge failed as motion although a job had confirmed it: impossible from now on.
-  /// `anywhere`: and so is every jump of its distance and height, for what is wrong with it does
-  /// not depend on the place.
-  void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere = false);
-  std::vector<Refusal> Refusals() const;
-
-  const LocomotionModel::JumpEntry& entry() const { return model_->jumps[jump_]; }
+  const JumpSolver& solver() const { return *solver_; }
 
  private:
   class Job;
@@ -84,12 +73,6 @@ class LongJump : public graph::NonholonomicAction {
     GroundedStance landing;
     JumpTask task;  ///< on the grid
   };
-  struct Verdict {
-    graph::PointPair edge;
-    bool possible = false;
-    std::string reason;
-  };
-
   std::optional<Leap> AsLeap(const graph::PointPair& edge) const;
   /// The longest jump from `stance`, of at most `distance`, with ground to bear on at the other
   /// end: forward from a launch, or backward from a landing.
@@ -102,44 +85,38 @@ class LongJump : public graph::NonholonomicAction {
   bool GroundIsWide(const GroundedStance& launch, double begin, double end) const;
   /// Whether nothing at all is near the straight way on from `launch`, `distance` (m) long.
   bool WayIsOpen(const GroundedStance& launch, double distance) const;
-  std::optional<GroundedStance> LaunchStance(const graph::Point& v) const;
-  std::optional<GroundedStance> LandingStance(const graph::Point& v) const;
-  graph::Point PointOf(const GroundedStance& stance) const;
   bool SomeParabolaIsFree(const graph::PointPair& edge) const;
   bool ParabolaIsFree(const graph::PointPair& edge, double rise) const;
 
-  std::optional<Verdict> VerdictOn(const graph::PointPair& edge) const;
-  void Record(const graph::PointPair& edge, bool possible, const std::string& reason) const;
   void RecordImpossible(const JumpTask& task) const;
   bool IsImpossible(const JumpTask& task) const;
   /// With what it hits wherever it happens, if anything.
   struct Solved {
     std::shared_ptr<const SolvedJump> jump;
-    std::shared_ptr<const JumpPoses> poses;
+    std::shared_ptr<const MotionPoses> poses;
     std::string hit;
   };
   std::shared_ptr<SharedSolve> SolveOf(const JumpTask& task) const;
   Solved Examined(std::shared_ptr<const SolvedJump> jump) const;
 
-  const LocomotionModel* model_;
-  int jump_;
-  World world_;
-  std::shared_ptr<const QuasiStaticAction> launch_;
-  std::shared_ptr<const QuasiStaticAction> landing_;
+  std::unique_ptr<JumpSolver> solver_;
+  std::unique_ptr<JumpLibrary> library_;
   JumpReach reach_;
+  double skip_growth_;
   const LocomotionModel::TransitionEntry* transition_ = nullptr;  ///< from launch to landing gait
   Eigen::AlignedBox3d room_;  ///< that the gaits and the transition take, in the launch stance
   double highest_rise_ = 0;   ///< m, of a flight above its launch
   models::CollisionChecker pelvis_checker_;
-  models::CollisionChecker robot_checker_;
   PelvisClearance pelvis_;
 
   /// What jobs found out; everything below under mutex_.
   mutable std::mutex mutex_;
-  mutable std::vector<Verdict> verdicts_;
   mutable std::vector<JumpTask> impossible_;
   mutable std::vector<Solved> solved_;
   mutable std::vector<std::shared_ptr<SharedSolve>> solves_;
 };
+
+/// How the planner comes by the jumps of a robot's file.
+std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot);
 
 }  // namespace possibility::actions

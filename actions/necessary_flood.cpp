@@ -69,13 +69,13 @@ double LegReach(const LocomotionModel& model) {
 class NecessaryFlood {
  public:
   NecessaryFlood(const LocomotionModel& model, const World& world, double resolution,
-                 const std::vector<FloodJump>& jumps)
+                 const std::vector<FlightBounds>& flights)
       : model_(model),
         world_(world),
         ball_(LargestBall(model.robot->links[model.robot->pelvis_shape_link])),
         resolution_(std::min(resolution, 1.8 * ball_.radius / std::numbers::sqrt3)),
         reach_(LegReach(model) + ball_.centre_R.norm() + resolution_),
-        flight_(FarthestFlight(jumps)),
+        flight_(FarthestFlight(flights)),
         checker_(*world.environment),
         shrunk_(models::Shape::Sphere(
             std::max(1e-4, ball_.radius - resolution_ * std::numbers::sqrt3 / 2 - kCheckerError))),
@@ -94,11 +94,11 @@ class NecessaryFlood {
   }
 
  private:
-  static FlightBounds FarthestFlight(const std::vector<FloodJump>& jumps) {
+  static FlightBounds FarthestFlight(const std::vector<FlightBounds>& flights) {
     FlightBounds farthest;
-    for (const FloodJump& jump : jumps) {
-      farthest.rise = std::max(farthest.rise, jump.bounds.rise);
-      farthest.range = std::max(farthest.range, jump.bounds.range);
+    for (const FlightBounds& flight : flights) {
+      farthest.rise = std::max(farthest.rise, flight.rise);
+      farthest.range = std::max(farthest.range, flight.range);
     }
     return farthest;
   }
@@ -195,8 +195,8 @@ class NecessaryFlood {
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            double resolution, const std::function<bool()>& keep_going,
-                           const std::vector<FloodJump>& jumps) {
-  return NecessaryFlood(model, world, resolution, jumps).Run(start, goals, keep_going);
+                           const std::vector<FlightBounds>& flights) {
+  return NecessaryFlood(model, world, resolution, flights).Run(start, goals, keep_going);
 }
 
 }  // namespace possibility::actions

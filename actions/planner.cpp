@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "actions/exploration_pose.h"
-#include "actions/jump_reach.h"
 #include "actions/locomotion_model.h"
 #include "actions/long_jump.h"
 #include "actions/quasi_static_action.h"
@@ -46,6 +46,33 @@ std::string Describe(const models::Stance& stance) {
                      stance.yaw * 180 / EIGEN_PI);
 }
 
+std::string Describe(const Violation& violation) {
+  return fmt::format("its motion does not verify: {}, {}", ToString(violation.kind),
+                     violation.quantity);
+}
+
+std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories) {
+  std::vector<std::string> names;
+  for (const ManoeuvreFactory& factory : factories) names.push_back(factory.name);
+  return names;
+}
+
+/// @throws InputError if a manoeuvre has the name of another action.
+void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
+                     const std::vector<ManoeuvreFactory>& manoeuvres) {
+  std::vector<std::string> taken = NamesOf(JumpFactories(robot));
+  for (const models::Gait& gait : robot.gaits) taken.push_back(gait.name);
+  for (const std::string& name : NamesOf(manoeuvres)) {
+    if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+      throw InputError(
+          fmt::format("{}: actions: a manoeuvre is called '{}', as another action of robot '{}' or "
+                      "of this request is already",
+                      scenario.file.string(), name, robot.name));
+    }
+    taken.push_back(name);
+  }
+}
+
 /// One request, from the checked scenario to a verified plan.
 class TraversalPlanner {
  public:
@@ -56,8 +83,9 @@ class TraversalPlanner {
         request_(request),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
+        factories_(AllFactories()),
         model_(BuildLocomotionModel(
-            robot, ActionNames(), [this] { return Remaining() > 0; }, request.library)) {
+            robot, GaitNames(), [this] { return Remaining() > 0; }, request.library)) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -68,7 +96,7 @@ class TraversalPlanner {
       actions_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
                                                              space_, scenario_.planner.step));
     }
-    PrepareJumps();
+    PrepareManoeuvres();
     start_ = CheckedStance(scenario_.start, "start");
     for (size_t i = 0; i < scenario_.goals.size(); ++i) {
       goals_.push_back(CheckedStance(scenario_.goals[i], fmt::format("goals[{}]", i)));
@@ -85,6 +113,9 @@ class TraversalPlanner {
       result.plan.timings.graph_s += path.seconds;
       for (const graph::ConfirmationReport& job : path.confirmations) {
         result.plan.timings.confirmation_s += job.seconds;
+        if (job.outcome != graph::JobOutcome::kFailed) continue;
+        failures_[AllActions()[static_cast<size_t>(job.action)]->name()].push_back(
+            {job.points, job.reason});
       }
       Record(path, &result);
       if (path.status != graph::PathStatus::kFound) return result;
@@ -102,39 +133,46 @@ class TraversalPlanner {
   }
 
  private:
-  std::vector<std::string> ActionNames() const {
-    const std::vector<std::string>& names =
-        request_.actions.empty() ? scenario_.actions : request_.actions;
-    models::CheckActionsOfRobot(names, robot_, scenario_.file.string() + ": actions");
+  /// Those of the robot's file come first.
+  std::vector<ManoeuvreFactory> AllFactories() const {
+    std::vector<ManoeuvreFactory> factories = JumpFactories(robot_);
+    factories.insert(factories.end(), request_.manoeuvres.begin(), request_.manoeuvres.end());
+    return factories;
+  }
+
+  const std::vector<std::string>& ActionNames() const {
+    return request_.actions.empty() ? scenario_.actions : request_.actions;
+  }
+
+  std::vector<std::string> GaitNames() const {
+    models::CheckActionsOfRobot(ActionNames(), robot_, scenario_.file.string() + ": actions",
+                                NamesOf(request_.manoeuvres));
+    std::vector<std::string> names;
+    for (const std::string& name : ActionNames()) {
+      const bool is_gait =
+          std::none_of(factories_.begin(), factories_.end(),
+                       [&](const ManoeuvreFactory& factory) { return factory.name == name; });
+      if (is_gait) names.push_back(name);
+    }
     return names;
   }
 
-  void PrepareJumps() {
-    for (size_t i = 0; i < model_.jumps.size(); ++i) {
-      const LocomotionModel::JumpEntry& entry = model_.jumps[i];
-      jumps_.push_back(std::make_shared<LongJump>(model_, static_cast<int>(i), world_,
-                                                  actions_[entry.from], actions_[entry.to],
-                                                  ReachOf(entry)));
-    }
-  }
-
-  /// The library's table if it has one, otherwise a guess for the heights of this world.
-  JumpReach ReachOf(const LocomotionModel::JumpEntry& entry) const {
-    if (entry.library->reach_is_derived()) return entry.library->reach();
-    std::vector<double> heights;
-    for (const double from : ground_.levels()) {
-      for (const double to : ground_.levels()) {
-        heights.push_back(JumpLibrary::OnGrid({0, to - from}).height);
-      }
-    }
-    std::sort(heights.begin(), heights.end());
-    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
-    return GuessReach(*entry.solver, heights);
+  void PrepareManoeuvres() {
+    PlanningContext context;
+    context.model = &model_;
+    context.world = world_;
+    context.gaits.assign(actions_.begin(), actions_.end());
+    context.space = space_;
+    context.settings = scenario_.planner;
+    context.library = request_.library;
+    context.keep_going = [this] { return Remaining() > 0; };
+    manoeuvres_ =
+        MakeManoeuvres(factories_, ActionNames(), context, scenario_.file.string() + ": actions");
   }
 
   std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
     std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
-    all.insert(all.end(), jumps_.begin(), jumps_.end());
+    all.insert(all.end(), manoeuvres_.begin(), manoeuvres_.end());
     return all;
   }
 
@@ -198,8 +236,8 @@ class TraversalPlanner {
     }
     std::vector<graph::Point> goals;
     for (const GroundedStance& goal : goals_) goals.push_back(PointOf(goal));
-    for (const auto& jump : jumps_) {
-      settings.skip_growth[jump->name()] = scenario_.planner.skip_jumps;
+    for (const auto& manoeuvre : manoeuvres_) {
+      settings.skip_growth[manoeuvre->name()] = manoeuvre->skip_growth();
     }
     return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
   }
@@ -216,37 +254,58 @@ class TraversalPlanner {
   graph::RouteOracleAnswer AnswerOfFloods() {
     const double resolution = scenario_.planner.flood_resolution;
     const auto keep_going = [this] { return Remaining() > 0; };
-    const auto flood = [&] {
-      return FloodSufficient(model_, world_, start_, goals_, resolution, keep_going, FloodJumps());
-    };
-    flood_ = flood();
-    if (!flood_->route_may_exist && ReplaceGuesses(keep_going)) flood_ = flood();
-    if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
+    std::optional<std::vector<FloodManoeuvre>> manoeuvres = FloodManoeuvres();
+    const bool leads_are_known = manoeuvres.has_value();
+    if (leads_are_known) {
+      const auto flood = [&] {
+        return FloodSufficient(model_, world_, start_, goals_, resolution, keep_going, *manoeuvres);
+      };
+      flood_ = flood();
+      if (!flood_->route_may_exist && ReplaceGuesses(keep_going)) {
+        manoeuvres = FloodManoeuvres();
+        if (!manoeuvres) return graph::RouteOracleAnswer::kUnknown;
+        flood_ = flood();
+      }
+      if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
+    }
+    const graph::RouteOracleAnswer otherwise =
+        leads_are_known ? graph::RouteOracleAnswer::kExhausted : graph::RouteOracleAnswer::kUnknown;
+    const std::optional<std::vector<FlightBounds>> flights = Flights();
+    if (!flights) return otherwise;
     FloodResult necessary =
-        FloodNecessary(model_, world_, start_, goals_, resolution, keep_going, FloodJumps());
-    if (necessary.route_may_exist) return graph::RouteOracleAnswer::kExhausted;
+        FloodNecessary(model_, world_, start_, goals_, resolution, keep_going, *flights);
+    if (necessary.route_may_exist) return otherwise;
     flood_ = std::move(necessary);
     return graph::RouteOracleAnswer::kProvenInfeasible;
   }
 
-  std::vector<FloodJump> FloodJumps() const {
-    std::vector<FloodJump> jumps;
-    for (const auto& jump : jumps_) {
-      const LocomotionModel::JumpEntry& entry = jump->entry();
-      jumps.push_back({entry.from, entry.to, jump->reach(), BoundFlight(entry.solver->model())});
+  /// Nothing if some manoeuvre does not say where it leads: then no closed barrier is a proof.
+  std::optional<std::vector<FloodManoeuvre>> FloodManoeuvres() const {
+    std::vector<FloodManoeuvre> result;
+    for (const auto& manoeuvre : manoeuvres_) {
+      ManoeuvreBounds bounds = manoeuvre->Bounds();
+      if (!bounds.landings) return std::nullopt;
+      result.push_back({manoeuvre->from(), manoeuvre->to(), std::move(bounds.landings)});
     }
-    return jumps;
+    return result;
   }
 
-  /// Before a "no", jumps whose reach was guessed are measured; false if there are none.
+  /// Nothing if some manoeuvre does not say how it flies.
+  std::optional<std::vector<FlightBounds>> Flights() const {
+    std::vector<FlightBounds> result;
+    for (const auto& manoeuvre : manoeuvres_) {
+      const std::optional<FlightBounds> flight = manoeuvre->Bounds().flight;
+      if (!flight) return std::nullopt;
+      result.push_back(*flight);
+    }
+    return result;
+  }
+
   /// @throws Abandoned at the time limit.
   bool ReplaceGuesses(const std::function<bool()>& keep_going) {
     bool replaced = false;
-    for (const auto& jump : jumps_) {
-      JumpLibrary* library = jump->entry().library.get();
-      if (library->reach_is_derived()) continue;
-      jump->SetReach(DeriveFarthest(jump->reach(), library, keep_going));
-      replaced = true;
+    for (const auto& manoeuvre : manoeuvres_) {
+      replaced = manoeuvre->ReplaceGuesses(keep_going) || replaced;
     }
     return replaced;
   }
@@ -303,16 +362,27 @@ class TraversalPlanner {
       text += fmt::format(" {} {};", name, count);
     }
     text.back() = '.';
-    for (const auto& jump : jumps_) text += ExplainRefusals(*jump);
+    return text + ExplainManoeuvres();
+  }
+
+  /// What came of manoeuvres that are no part of the answer.
+  std::string ExplainManoeuvres() const {
+    std::string text;
+    for (const auto& manoeuvre : manoeuvres_) {
+      text += Listed(manoeuvre->Refusals(), fmt::format("of '{}' refuted", manoeuvre->name()));
+      const auto failures = failures_.find(manoeuvre->name());
+      if (failures == failures_.end()) continue;
+      text += Listed(failures->second, fmt::format("jobs of '{}' failed", manoeuvre->name()));
+    }
     return text;
   }
 
-  /// The first few jumps that were refuted, and why.
-  std::string ExplainRefusals(const LongJump& jump) const {
+  /// The first few, and why.
+  static std::string Listed(const std::vector<Manoeuvre::Refusal>& refusals,
+                            const std::string& what) {
     constexpr size_t kAtMost = 3;
-    const std::vector<LongJump::Refusal> refusals = jump.Refusals();
     if (refusals.empty()) return {};
-    std::string text = fmt::format(" {} of '{}' refuted:", refusals.size(), jump.name());
+    std::string text = fmt::format(" {} {}:", refusals.size(), what);
     for (size_t i = 0; i < std::min(refusals.size(), kAtMost); ++i) {
       const graph::Point& from = refusals[i].edge.from;
       text += fmt::format("{} from ({:.2f}, {:.2f}): {}", i == 0 ? "" : ";", from.x(), from.y(),
@@ -325,7 +395,7 @@ class TraversalPlanner {
   /// @throws Abandoned at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
-    Route route = RefineRoute(model_, RouteAlong(model_, path.path), actions_,
+    Route route = RefineRoute(model_, RouteAlong(model_, manoeuvres_, path.path), actions_,
                               [this] { return Remaining() > 0; });
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
@@ -353,13 +423,24 @@ class TraversalPlanner {
     result->verification = Verify(result->plan, robot_, scenario_, settings);
     result->plan.timings.verification_s += result->verification.seconds;
     if (result->verification.abandoned) throw Abandoned();
-    if (result->verification.accepted()) return true;
+    if (result->verification.accepted()) {
+      result->explanation = ExplainManoeuvres();
+      if (!result->explanation.empty()) result->explanation.erase(0, 1);
+      return true;
+    }
+    bool somebody_is_at_fault = false;
     for (const Violation& violation : result->verification.violations) {
       if (violation.segment < 0) continue;
-      Forbid(route[static_cast<size_t>(violation.segment)],
-             fmt::format("its motion does not verify: {}, {}", ToString(violation.kind),
-                         violation.quantity),
+      somebody_is_at_fault = true;
+      Forbid(route[static_cast<size_t>(violation.segment)], Describe(violation),
              !DependsOnPlace(violation.kind));
+    }
+    if (!somebody_is_at_fault) {
+      for (const RouteLeg& leg : route) {
+        if (leg.manoeuvre != nullptr) {
+          Forbid(leg, Describe(result->verification.violations.front()), false);
+        }
+      }
     }
     result->plan.statistics["routes refuted by verification"]++;
     result->plan.segments.clear();
@@ -377,7 +458,7 @@ class TraversalPlanner {
 
   void Forbid(const RouteLeg& leg, const std::string& reason, bool anywhere = false) {
     const graph::PointPair edge = LegEdge(model_, leg);
-    if (leg.jump >= 0) return jumps_[leg.jump]->Forbid(edge, reason, anywhere);
+    if (leg.manoeuvre != nullptr) return leg.manoeuvre->Forbid(edge, reason, anywhere);
     for (const auto& action : actions_) action->Forbid(edge);
   }
 
@@ -396,10 +477,13 @@ class TraversalPlanner {
   Stopwatch clock_;
   models::GroundMap ground_;
   World world_;
+  std::vector<ManoeuvreFactory> factories_;
   LocomotionModel model_;
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
-  std::vector<std::shared_ptr<LongJump>> jumps_;
+  std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
+  /// Jobs that failed, by the name of their action.
+  std::map<std::string, std::vector<Manoeuvre::Refusal>> failures_;
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
   double preparation_s_ = 0;
@@ -425,7 +509,8 @@ std::string ToString(PlanStatus status) {
 
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
-  models::CheckScenarioAgainstRobot(scenario, robot);
+  RequireNewNames(robot, scenario, request.manoeuvres);
+  models::CheckScenarioAgainstRobot(scenario, robot, NamesOf(request.manoeuvres));
   try {
     return TraversalPlanner(robot, scenario, request).Plan();
   } catch (const Abandoned&) {

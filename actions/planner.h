@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/manoeuvre.h"
 #include "actions/plan.h"
 #include "actions/verifier.h"
 #include "graph/find_path.h"
@@ -30,7 +31,9 @@ struct PlanRequest {
   int threads = 1;
   double time_limit = 60;            ///< s
   std::vector<std::string> actions;  ///< empty: the scenario's
-  std::filesystem::path library;     ///< folder of solved jumps; empty: none
+  /// Beside the actions of the robot's file: `actions` may name them, too.
+  std::vector<ManoeuvreFactory> manoeuvres;
+  std::filesystem::path library;  ///< folder of solved jumps; empty: none
   std::function<void(const PlanProgress&)> progress;
 };
 
@@ -38,12 +41,15 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kTimeLimit;
   Plan plan;                        ///< segments only if kFound; graph and statistics always
   VerificationReport verification;  ///< accepted if kFound
-  std::string explanation;          ///< one paragraph: which conditions rejected what, and where
+  /// One paragraph: which conditions rejected what, and where. If kFound: which manoeuvres were
+  /// refuted and which jobs failed on the way; empty if none.
+  std::string explanation;
 };
 
 /// Plans, generates the motion and verifies it. A plan that fails verification is never
 /// returned: its edge is marked impossible and the search goes on until the time limit.
-/// @throws InputError if start or goal is in collision, off the ground, or an action is unknown.
+/// @throws InputError if start or goal is in collision, off the ground, an action is unknown, or a
+/// manoeuvre's name is taken or its factory makes none; whatever a factory throws.
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request);
 

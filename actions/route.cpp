@@ -40,21 +40,21 @@ RouteLeg TransitionLeg(const LocomotionModel& model, const GroundedStance& from,
 }  // namespace
 
 int StartGait(const LocomotionModel& model, const RouteLeg& leg) {
-  if (leg.jump >= 0) return model.jumps[leg.jump].from;
+  if (leg.manoeuvre != nullptr) return leg.manoeuvre->from();
   if (leg.transition < 0) return leg.gait;
   const LocomotionModel::TransitionEntry& transition = model.transitions[leg.transition];
   return leg.backwards ? transition.to : transition.from;
 }
 
 int EndGait(const LocomotionModel& model, const RouteLeg& leg) {
-  if (leg.jump >= 0) return model.jumps[leg.jump].to;
+  if (leg.manoeuvre != nullptr) return leg.manoeuvre->to();
   if (leg.transition < 0) return leg.gait;
   const LocomotionModel::TransitionEntry& transition = model.transitions[leg.transition];
   return leg.backwards ? transition.from : transition.to;
 }
 
 std::string LegName(const LocomotionModel& model, const RouteLeg& leg) {
-  if (leg.jump >= 0) return model.jumps[leg.jump].name;
+  if (leg.manoeuvre != nullptr) return leg.manoeuvre->name();
   const std::string& start = model.gaits[StartGait(model, leg)]->stance.gait->name;
   if (leg.transition < 0) return start;
   return start + "->" + model.gaits[EndGait(model, leg)]->stance.gait->name;
@@ -65,17 +65,25 @@ graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg) {
           ToPoint(model.gaits[EndGait(model, leg)]->stance.RootPose(leg.to, leg.z_to))};
 }
 
-Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge>& path) {
+Route RouteAlong(const LocomotionModel& model,
+                 const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
+                 const std::vector<graph::PathEdge>& path) {
   Route route;
   for (const graph::PathEdge& edge : path) {
-    const std::optional<GroundedStance> from = AnyStance(model, ToPose(edge.points.from));
-    const std::optional<GroundedStance> to = AnyStance(model, ToPose(edge.points.to));
+    const int index = edge.action - static_cast<int>(model.gaits.size());
+    Manoeuvre* manoeuvre = index < 0 ? nullptr : manoeuvres[static_cast<size_t>(index)].get();
+    const auto stance = [&](const graph::Point& point, int gait) {
+      return manoeuvre ? AsStance(model, gait, ToPose(point)) : AnyStance(model, ToPose(point));
+    };
+    const std::optional<GroundedStance> from =
+        stance(edge.points.from, manoeuvre ? manoeuvre->from() : 0);
+    const std::optional<GroundedStance> to =
+        stance(edge.points.to, manoeuvre ? manoeuvre->to() : 0);
     if (!from || !to) throw std::logic_error("a path leaves the nominal stances");
     RouteLeg leg;
-    const int jump = edge.action - static_cast<int>(model.gaits.size());
-    if (jump >= 0 || from->gait == to->gait) {
+    if (manoeuvre || from->gait == to->gait) {
       leg.gait = from->gait;
-      leg.jump = std::max(jump, -1);
+      leg.manoeuvre = manoeuvre;
       leg.from = from->pose;
       leg.to = to->pose;
       leg.z = from->z;
@@ -90,16 +98,11 @@ Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge
   return route;
 }
 
-JumpTask TaskOf(const RouteLeg& leg) {
-  return JumpLibrary::OnGrid({(leg.to.position() - leg.from.position()).norm(), leg.z_to - leg.z});
-}
-
 double ExpectedDuration(const LocomotionModel& model, const Route& route) {
   double duration = 0;
   for (const RouteLeg& leg : route) {
-    if (leg.jump >= 0) {
-      const std::optional<JumpAnswer> answer = model.jumps[leg.jump].library->Find(TaskOf(leg));
-      if (answer && answer->jump) duration += answer->jump->duration();
+    if (leg.manoeuvre != nullptr) {
+      duration += leg.manoeuvre->ExpectedDuration(LegEdge(model, leg));
     } else if (leg.transition >= 0) {
       duration += model.transitions[leg.transition].motion->ExpectedDuration();
     } else {

@@ -5,23 +5,24 @@
 #include <vector>
 
 #include "actions/locomotion_model.h"
+#include "actions/manoeuvre.h"
 #include "actions/plan.h"
 #include "actions/quasi_static_action.h"
 #include "graph/find_path.h"
 
 namespace possibility::actions {
 
-/// One leg of a route, all of it confirmed: straight on with one gait, a transition, or a jump.
-/// Headings continue from leg to leg without wrapping.
+/// One leg of a route, all of it confirmed: straight on with one gait, a transition, or a
+/// manoeuvre. Headings continue from leg to leg without wrapping.
 struct RouteLeg {
-  int gait = 0;            ///< of an extension
-  int transition = -1;     ///< index into the model's transitions, or -1 for an extension
-  bool backwards = false;  ///< the transition runs from its second gait to its first
-  int jump = -1;           ///< index into the model's jumps, or -1
-  PlanarPose from;         ///< stance of the gait that the leg starts in
-  PlanarPose to;           ///< stance of the gait that the leg ends in
-  double z = 0;            ///< m, height of the ground that the leg starts on
-  double z_to = 0;         ///< m, of the ground that it ends on: another one only after a jump
+  int gait = 0;                    ///< of an extension
+  int transition = -1;             ///< index into the model's transitions, or -1 for an extension
+  bool backwards = false;          ///< the transition runs from its second gait to its first
+  Manoeuvre* manoeuvre = nullptr;  ///< if the leg is one
+  PlanarPose from;                 ///< stance of the gait that the leg starts in
+  PlanarPose to;                   ///< stance of the gait that the leg ends in
+  double z = 0;                    ///< m, height of the ground that the leg starts on
+  double z_to = 0;  ///< m, of the ground that it ends on: another one only after a manoeuvre
 };
 
 using Route = std::vector<RouteLeg>;
@@ -37,13 +38,13 @@ std::string LegName(const LocomotionModel& model, const RouteLeg& leg);
 graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg);
 
 /// The route along a confirmed path. `path`: edges between nominal stances, end to end; their
-/// actions are the model's gaits in order, then its jumps.
-Route RouteAlong(const LocomotionModel& model, const std::vector<graph::PathEdge>& path);
+/// actions are the model's gaits in order, then `manoeuvres`, which must outlive the route.
+/// @throws std::logic_error if the path leaves the nominal stances.
+Route RouteAlong(const LocomotionModel& model,
+                 const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
+                 const std::vector<graph::PathEdge>& path);
 
-/// The jump that a leg is.
-JumpTask TaskOf(const RouteLeg& leg);
-
-/// Expected time to execute, s; its jumps are in the model's libraries.
+/// Expected time to execute, s.
 double ExpectedDuration(const LocomotionModel& model, const Route& route);
 
 }  // namespace possibility::actions

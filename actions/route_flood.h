@@ -1,12 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "actions/jump_library.h"
-#include "actions/jump_reach.h"
 #include "actions/locomotion_model.h"
+#include "actions/manoeuvre_bounds.h"
 #include "actions/quasi_static_action.h"
 
 namespace possibility::actions {
@@ -23,33 +23,31 @@ struct FloodResult {
   std::int64_t cells = 0;  ///< tested
 };
 
-/// What a jump adds to a flood: which landings a launch leads to.
-struct FloodJump {
+/// What a manoeuvre adds to the flood over C_S: which landing stances a launch stance leads to
+/// (ManoeuvreBounds::landings, which must be there).
+struct FloodManoeuvre {
   int from = 0;  ///< gaits
   int to = 0;
-  /// How far, by the height of the landing; how near does not matter.
-  JumpReach reach;
-  /// Farther than `range` from any ground (m, seen from above), or higher than `rise` above it
-  /// (besides the length of a leg), nobody ever flies.
-  FlightBounds bounds;
+  std::function<std::optional<LandingRange>(double rise)> landings;
 };
 
 /// `keep_going` of both floods: asked at every cell, may be empty; false ends the flood without a
 /// proof (route_may_exist).
 ///
 /// Flood over what can be confirmed: cells of (gait, x, y, heading) in which C_S may hold
-/// somewhere, with shapes shrunk by the size of a cell, joined through the transitions and jumps.
+/// somewhere, with shapes shrunk by the size of a cell, joined through transitions and manoeuvres.
+/// Without manoeuvres nobody leaves the height of the start.
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
                             double resolution, const std::function<bool()>& keep_going = {},
-                            const std::vector<FloodJump>& jumps = {});
+                            const std::vector<FloodManoeuvre>& manoeuvres = {});
 
 /// Flood over C_N: cells of the position of the largest ball inside the pelvis that may be free
 /// and within a leg's reach of ground, whatever the orientation. `resolution` is refined until
-/// the ball is larger than a cell.
+/// the ball is larger than a cell. `flights`: of all manoeuvres.
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            double resolution, const std::function<bool()>& keep_going = {},
-                           const std::vector<FloodJump>& jumps = {});
+                           const std::vector<FlightBounds>& flights = {});
 
 }  // namespace possibility::actions

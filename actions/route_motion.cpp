@@ -1,7 +1,11 @@
 #include "actions/route_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <exception>
 #include <optional>
 #include <thread>
 
@@ -15,6 +19,9 @@ constexpr double kTimeScales[] = {1, 1.4, 2};
 
 /// A leg that goes nowhere is a pause, s.
 constexpr double kStandingTime = 0.2;
+
+/// Motions of neighbouring legs meet within this: m, rad, m/s, rad/s.
+constexpr double kContinuity = 1e-6;
 
 std::vector<MotionPhase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
                                     double time_scale) {
@@ -38,10 +45,60 @@ std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg
   return leg.backwards ? Reversed(phases) : phases;
 }
 
-std::vector<Phase> JumpPhases(const LocomotionModel& model, const RouteLeg& leg) {
-  const std::optional<JumpAnswer> answer = model.jumps[leg.jump].library->Find(TaskOf(leg));
-  if (!answer || !answer->jump) throw MotionError("the jump is not in the library");
-  return Placed(answer->jump->phases, leg.from, leg.z);
+/// @throws MotionError unless the robot is at rest in the stance at this knot.
+void RequireStance(const LocomotionModel& model, int gait, const PlanarPose& pose, double z,
+                   const Knot& knot, const char* where) {
+  const NominalStance& stance = model.gaits[gait]->stance;
+  const Eigen::Isometry3d X_WR = stance.RootPose(pose, z);
+  const auto joints = model.robot->num_joints();
+  const Eigen::Quaterniond turn(knot.q[0], knot.q[1], knot.q[2], knot.q[3]);
+  const double off =
+      std::max({(knot.q.segment<3>(4) - X_WR.translation()).norm(),
+                turn.angularDistance(Eigen::Quaterniond(X_WR.linear())),
+                (knot.q.tail(joints) - stance.q.tail(joints)).lpNorm<Eigen::Infinity>()});
+  if (!(off < kContinuity)) {
+    throw MotionError(fmt::format("the motion {} {:.2g} (m or rad) off the stance of '{}'", where,
+                                  off, stance.gait->name));
+  }
+  if (!(knot.v.lpNorm<Eigen::Infinity>() < kContinuity)) {
+    throw MotionError(fmt::format("the motion {} in the stance of '{}' but not at rest", where,
+                                  stance.gait->name));
+  }
+}
+
+/// What the rest of the plan relies on; all else is for the verifier to find.
+void RequireFit(const LocomotionModel& model, const RouteLeg& leg,
+                const std::vector<Phase>& phases) {
+  if (phases.empty()) throw MotionError("the motion has no phases");
+  const int nq = model.robot->nq();
+  for (const Phase& phase : phases) {
+    if (phase.knots.size() < 2) throw MotionError("a phase of the motion has less than two knots");
+    for (const Knot& knot : phase.knots) {
+      if (knot.q.size() == nq && knot.v.size() == model.robot->nv()) continue;
+      throw MotionError("a knot of the motion is not of the robot's sizes");
+    }
+  }
+  if (!(std::abs(phases.front().knots.front().t) < 1e-9)) {
+    throw MotionError("the motion does not begin at time 0");
+  }
+  RequireStance(model, StartGait(model, leg), leg.from, leg.z, phases.front().knots.front(),
+                "begins");
+  RequireStance(model, EndGait(model, leg), leg.to, leg.z_to, phases.back().knots.back(), "ends");
+}
+
+std::vector<Phase> ManoeuvrePhases(const LocomotionModel& model, const RouteLeg& leg,
+                                   const std::function<bool()>& keep_going) {
+  try {
+    std::vector<Phase> phases = leg.manoeuvre->Motion(LegEdge(model, leg), keep_going);
+    RequireFit(model, leg, phases);
+    return phases;
+  } catch (const MotionError&) {
+    throw;
+  } catch (const Abandoned&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw MotionError(fmt::format("no motion: {}", error.what()));
+  }
 }
 
 /// Legs shared out to workers; the first failure in route order wins.
@@ -96,7 +153,7 @@ class LegQueue {
 
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
                                const std::function<bool()>& keep_going) {
-  if (leg.jump >= 0) return JumpPhases(model, leg);
+  if (leg.manoeuvre != nullptr) return ManoeuvrePhases(model, leg, keep_going);
   if (leg.transition >= 0) return TransitionPhases(model, leg);
   MotionBuilder builder(*model.robot);
   for (const double scale : kTimeScales) {

@@ -21,8 +21,10 @@ class LegError : public MotionError {
 };
 
 /// Motion of one leg, from rest to rest; times start at 0. A motion that is too fast for the
-/// limits is stretched.
-/// @throws MotionError if no stretching helps; Abandoned if `keep_going` (may be empty) says no.
+/// limits is stretched. That of a manoeuvre is its own affair, but must have knots of the robot's
+/// sizes and begin and end at rest in the stances that the leg joins.
+/// @throws MotionError if no stretching helps, or for whatever a manoeuvre throws or does wrong;
+/// Abandoned if `keep_going` (may be empty) says no.
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
                                const std::function<bool()>& keep_going = {});
 

@@ -308,7 +308,7 @@ void Unwrap(Route* route) {
   }
 }
 
-/// One pass over the pieces of a route that start and end in one gait. Jumps stay as they are.
+/// One pass over the pieces of a route that start and end in one gait. Manoeuvres stay as they are.
 Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions& actions,
                  const std::function<bool()>& keep_going) {
   Route refined;
@@ -316,7 +316,7 @@ Route RefineOnce(const LocomotionModel& model, const Route& route, const Actions
     const int base = StartGait(model, route[begin]);
     // Up to where the route leaves its gait for good, or the ground.
     size_t end = begin;
-    for (size_t i = begin; i < route.size() && route[i].jump < 0; ++i) {
+    for (size_t i = begin; i < route.size() && route[i].manoeuvre == nullptr; ++i) {
       if (EndGait(model, route[i]) == base) end = i + 1;
     }
     if (end == begin) {

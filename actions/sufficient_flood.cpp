@@ -29,11 +29,11 @@ constexpr int kHeadings = 24;
 class SufficientFlood {
  public:
   SufficientFlood(const LocomotionModel& model, const World& world, double z, double resolution,
-                  const std::vector<FloodJump>& jumps)
+                  const std::vector<FloodManoeuvre>& manoeuvres)
       : model_(model),
         world_(world),
-        heights_(jumps.empty() ? std::vector<double>{z} : world.ground->levels()),
-        jumps_(jumps),
+        heights_(manoeuvres.empty() ? std::vector<double>{z} : world.ground->levels()),
+        manoeuvres_(manoeuvres),
         resolution_(resolution),
         origin_(world.environment->bounds.min() - Vector2d::Constant(Margin(model))),
         checker_(*world.environment),
@@ -175,29 +175,46 @@ class SufficientFlood {
         OfferImage(cell, SameHeight(cell, transition.from), d.Inverse(), offer);
       }
     }
-    for (const FloodJump& jump : jumps_) {
-      if (jump.from == GaitOf(cell)) OfferLandings(cell, jump, offer);
+    for (const FloodManoeuvre& manoeuvre : manoeuvres_) {
+      if (manoeuvre.from == GaitOf(cell)) OfferLandings(cell, manoeuvre, offer);
     }
   }
 
   template <typename Offer>
-  void OfferLandings(const Cell& cell, const FloodJump& jump, const Offer& offer) {
+  void OfferLandings(const Cell& cell, const FloodManoeuvre& manoeuvre, const Offer& offer) {
     for (size_t i = 0; i < heights_.size(); ++i) {
-      const JumpTask rise = JumpLibrary::OnGrid({0, heights_[i] - HeightOf(cell)});
-      const auto distances = jump.reach.Distances(rise.height);
-      if (!distances) continue;
-      // At half the cells' size, images of neighbouring distances overlap.
-      for (double d = 0; d < distances->second + resolution_ / 2; d += resolution_ / 2) {
-        OfferImage(cell, Layer(jump.to, i), {std::min(d, distances->second), 0, 0}, offer);
+      const std::optional<LandingRange> range = manoeuvre.landings(heights_[i] - HeightOf(cell));
+      if (!range) continue;
+      const Vector2d low = range->offset.min();
+      const Vector2d high = range->offset.max();
+      const int turns = static_cast<int>(std::ceil(range->turn / (2 * HalfHeading()) - 1e-9));
+      for (const double x : Samples(low.x(), high.x())) {
+        for (const double y : Samples(low.y(), high.y())) {
+          // A landing lies at most half a sample beside one of the samples.
+          const double beside = (low == high ? 0 : std::numbers::sqrt2 * resolution_ / 4);
+          for (int turn = -turns; turn <= turns; ++turn) {
+            OfferImage(cell, Layer(manoeuvre.to, i), {x, y, turn * 2 * HalfHeading()}, offer,
+                       beside);
+          }
+        }
       }
     }
   }
 
-  /// All cells that a stance in `cell` can be displaced into.
+  /// `low`, `high` and what lies between, at half the size of cells.
+  std::vector<double> Samples(double low, double high) const {
+    std::vector<double> samples = {low};
+    for (double s = low + resolution_ / 2; s < high; s += resolution_ / 2) samples.push_back(s);
+    if (high > low) samples.push_back(high);
+    return samples;
+  }
+
+  /// All cells that a stance in `cell` can be displaced into, or so far (m) beside them.
   template <typename Offer>
-  void OfferImage(const Cell& cell, int layer, const PlanarPose& displacement, const Offer& offer) {
+  void OfferImage(const Cell& cell, int layer, const PlanarPose& displacement, const Offer& offer,
+                  double beside = 0) {
     const PlanarPose image = Centre(cell) * displacement;
-    const double spread = resolution_ / 2 + displacement.position().norm() * HalfHeading();
+    const double spread = resolution_ / 2 + displacement.position().norm() * HalfHeading() + beside;
     const Cell low = CellOf(layer, {image.x - spread, image.y - spread, image.yaw});
     const Cell high = CellOf(layer, {image.x + spread, image.y + spread, image.yaw});
     for (int x = low[1]; x <= high[1]; ++x) {
@@ -229,7 +246,7 @@ class SufficientFlood {
   const LocomotionModel& model_;
   const World& world_;
   std::vector<double> heights_;  ///< of the ground, that the flood may reach
-  const std::vector<FloodJump>& jumps_;
+  const std::vector<FloodManoeuvre>& manoeuvres_;
   double resolution_;
   Vector2d origin_;
   models::CollisionChecker checker_;
@@ -242,8 +259,9 @@ class SufficientFlood {
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
                             double resolution, const std::function<bool()>& keep_going,
-                            const std::vector<FloodJump>& jumps) {
-  return SufficientFlood(model, world, start.z, resolution, jumps).Run(start, goals, keep_going);
+                            const std::vector<FloodManoeuvre>& manoeuvres) {
+  return SufficientFlood(model, world, start.z, resolution, manoeuvres)
+      .Run(start, goals, keep_going);
 }
 
 }  // namespace possibility::actions

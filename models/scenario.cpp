@@ -109,22 +109,26 @@ Scenario LoadScenario(const std::filesystem::path& yaml_file) {
   return scenario;
 }
 
-void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot) {
-  CheckActionsOfRobot(scenario.actions, robot, scenario.file.string() + ": actions");
+void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot,
+                               const std::vector<std::string>& further) {
+  CheckActionsOfRobot(scenario.actions, robot, scenario.file.string() + ": actions", further);
   const auto check = [&](const std::string& action, const std::string& key) {
     for (const Jump& jump : robot.jumps) {
       if (jump.name != action) continue;
       throw InputError(fmt::format("{}: {}: '{}' is a jump, expected a gait to stand in",
                                    scenario.file.string(), key, action));
     }
+    if (std::find(further.begin(), further.end(), action) == further.end()) return;
+    throw InputError(fmt::format("{}: {}: '{}' is not a gait, expected one to stand in",
+                                 scenario.file.string(), key, action));
   };
   check(scenario.start.action, "start.action");
   for (const Stance& goal : scenario.goals) check(goal.action, "goal.action");
 }
 
 void CheckActionsOfRobot(const std::vector<std::string>& actions, const RobotModel& robot,
-                         const std::string& where) {
-  std::vector<std::string> known;
+                         const std::string& where, const std::vector<std::string>& further) {
+  std::vector<std::string> known = further;
   for (const Gait& gait : robot.gaits) known.push_back(gait.name);
   for (const Jump& jump : robot.jumps) known.push_back(jump.name);
   const auto contains = [](const std::vector<std::string>& names, const std::string& name) {

@@ -47,13 +47,15 @@ struct Scenario {
 Scenario LoadScenario(const std::filesystem::path& yaml_file);
 
 /// Checks what only the robot can tell: every action of the scenario is a gait of the robot or a
-/// jump between two gaits that are among the actions as well; start and goals are gaits.
+/// jump between two gaits that are among the actions as well, or one of `further`, which others
+/// than the robot bring along; start and goals are gaits.
 /// @throws InputError naming the scenario, the action and the nearest known name.
-void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot);
+void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot,
+                               const std::vector<std::string>& further = {});
 
 /// The part of it about a list of actions. `where`: begins the message.
 /// @throws InputError.
 void CheckActionsOfRobot(const std::vector<std::string>& actions, const RobotModel& robot,
-                         const std::string& where);
+                         const std::string& where, const std::vector<std::string>& further = {});
 
 }  // namespace possibility::models

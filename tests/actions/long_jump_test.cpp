@@ -55,15 +55,15 @@ class JumpScene {
     for (int gait = 0; gait < 2; ++gait) {
       gaits_.push_back(std::make_shared<QuasiStaticAction>(Model(), gait, world_, space_, 0.25));
     }
-    jump_ = std::make_unique<LongJump>(Model(), 0, world_, gaits_[0], gaits_[1],
-                                       GuessReach(*Model().jumps[0].solver, {0}));
+    PlanningContext context;
+    context.model = &Model();
+    context.world = world_;
+    context.gaits = gaits_;
+    context.space = space_;
+    jump_ = std::make_unique<LongJump>(context, DrcHubo1().jumps.front());
   }
 
-  static const LocomotionModel& Model() {
-    static const LocomotionModel model =
-        BuildLocomotionModel(DrcHubo1(), {"walk", "crawl", "jump"});
-    return model;
-  }
+  static const LocomotionModel& Model() { return DrcHubo1Locomotion(); }
 
   const LongJump& jump() const { return *jump_; }
   LongJump* mutable_jump() { return jump_.get(); }
@@ -80,7 +80,7 @@ class JumpScene {
   models::GroundMap ground_;
   World world_;
   std::shared_ptr<PelvisPoseSpace> space_;
-  std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;
+  std::vector<std::shared_ptr<const QuasiStaticAction>> gaits_;
   std::unique_ptr<LongJump> jump_;
 };
 
@@ -181,14 +181,14 @@ TEST(LongJumpTest, ACancelledJobDecidesNothing) {
 TEST(LongJumpTest, AForbiddenJumpIsNeitherConfirmedNorExplored) {
   JumpScene scene(TwoFloors(kGap));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
-  scene.mutable_jump()->Forbid(edge, "a reason");
+  scene.mutable_jump()->Forbid(edge, "a reason", false);
   EXPECT_FALSE(scene.jump().Explorable(edge));
   EXPECT_FALSE(scene.jump().CS(edge));
   EXPECT_TRUE(scene.jump().Explorable(JumpScene::Edge(-0.21, 0.75)));
 }
 
 TEST(JumpReachTest, GuessesLieOnTheGrid) {
-  const JumpReach reach = GuessReach(*JumpScene::Model().jumps[0].solver, {-0.1, 0});
+  const JumpReach reach = GuessReach(JumpScene(TwoFloors(0)).jump().solver(), {-0.1, 0});
   ASSERT_EQ(reach.rows.size(), 2u);
   for (const JumpReach::Row& row : reach.rows) {
     EXPECT_GT(row.shortest, 0);
