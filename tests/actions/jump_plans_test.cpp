@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "actions/planner.h"
+#include "actions/verification_report.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+namespace {
+
+PlanRequest Request(std::uint64_t seed, int threads) {
+  PlanRequest request;
+  request.seed = seed;
+  request.threads = threads;
+  request.actions = {"walk", "crawl", "jump"};
+  request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
+  request.library = DrcHubo1().file.parent_path() / "jumps";
+  return request;
+}
+
+bool Jumps(const Plan& plan) {
+  return std::any_of(plan.segments.begin(), plan.segments.end(),
+                     [](const Segment& segment) { return segment.action == "jump"; });
+}
+
+void ExpectVerifiedPlans(const std::string& name, std::uint64_t seeds, bool jump_needed,
+                         int threads = 1) {
+  const models::Scenario scenario = ShippedScenario(name);
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(seed, threads));
+    ASSERT_EQ(result.status, PlanStatus::kFound) << "seed " << seed << ": " << result.explanation;
+    ASSERT_TRUE(result.verification.accepted())
+        << "seed " << seed << ": " << FormatText(result.verification);
+    EXPECT_TRUE(Jumps(result.plan) || !jump_needed) << "seed " << seed;
+  }
+}
+
+/// An answer, not a time limit, and no segment of a plan.
+void ExpectNo(const std::string& name, std::uint64_t runs) {
+  const models::Scenario scenario = ShippedScenario(name);
+  for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(seed, 1));
+    EXPECT_TRUE(result.status == PlanStatus::kExhausted ||
+                result.status == PlanStatus::kProvenInfeasible)
+        << "seed " << seed << ": " << result.explanation;
+    EXPECT_TRUE(result.plan.segments.empty());
+  }
+}
+
+TEST(JumpPlans, TheGapOfTheHallwayIsJumped) { ExpectVerifiedPlans("hallway", 1, true); }
+
+TEST(JumpPlans, TooWideAGapIsNot) { ExpectNo("hallway_infeasible", 1); }
+TEST(JumpPlans, NorOnesThatCannotBeReached) { ExpectNo("three_routes_c_infeasible", 1); }
+TEST(JumpPlans, NorABlockedLanding) { ExpectNo("double_jump_infeasible", 1); }
+
+TEST(JumpPlansLong, FiftySeedsOfThreeRoutesA) { ExpectVerifiedPlans("three_routes_a", 50, false); }
+TEST(JumpPlansLong, FiftySeedsOfThreeRoutesB) { ExpectVerifiedPlans("three_routes_b", 50, false); }
+TEST(JumpPlansLong, FiftySeedsOfThreeRoutesC) { ExpectVerifiedPlans("three_routes_c", 50, true); }
+TEST(JumpPlansLong, FiftySeedsOfTheHallway) { ExpectVerifiedPlans("hallway", 50, true); }
+TEST(JumpPlansLong, FiftySeedsOfTheDoubleJump) { ExpectVerifiedPlans("double_jump", 50, true); }
+TEST(JumpPlansLong, FourThreadsPlanTheHallway) { ExpectVerifiedPlans("hallway", 10, true, 4); }
+
+TEST(JumpPlansLong, TwentyTimesNo) {
+  for (const char* name :
+       {"hallway_infeasible", "three_routes_c_infeasible", "double_jump_infeasible"}) {
+    ExpectNo(name, 20);
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions
