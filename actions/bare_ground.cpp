@@ -46,7 +46,8 @@ models::Scenario BareGround(const JumpModel& model, const NominalStance& launch,
 
 std::string FaultOnBareGround(const models::RobotModel& robot, const JumpModel& model,
                               const NominalStance& launch, const NominalStance& landing,
-                              const JumpTask& task, const std::vector<Phase>& phases) {
+                              const JumpTask& task, const std::vector<Phase>& phases,
+                              bool simulates) {
   const models::Scenario scenario = BareGround(model, launch, landing, task);
   Plan plan;
   plan.robot_hash = robot.content_hash;
@@ -54,7 +55,7 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const JumpModel& 
   for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
   plan.segments = {{"motion", phases}};
   VerifierSettings settings;
-  settings.simulates = false;
+  settings.simulates = simulates;
   const VerificationReport report = Verify(plan, robot, scenario, settings);
   if (report.accepted()) return {};
   const Violation& worst = report.violations.front();

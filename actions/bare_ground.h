@@ -15,6 +15,7 @@ namespace possibility::actions {
 /// of plans.
 std::string FaultOnBareGround(const models::RobotModel& robot, const JumpModel& model,
                               const NominalStance& launch, const NominalStance& landing,
-                              const JumpTask& task, const std::vector<Phase>& phases);
+                              const JumpTask& task, const std::vector<Phase>& phases,
+                              bool simulates = false);
 
 }  // namespace possibility::actions

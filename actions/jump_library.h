@@ -51,6 +51,8 @@ class JumpLibrary {
   /// same jump may both solve it.
   JumpAnswer FindOrSolve(const JumpTask& task, collocation::SolveControl* control = nullptr);
 
+  const JumpSolver& solver() const { return solver_; }
+
   /// The table of the folder; if it has none, an optimistic bound from joint speeds and limb
   /// lengths alone.
   const JumpReach& reach() const { return reach_; }

@@ -119,6 +119,10 @@ JumpAnswer JumpSolver::Realise(const JumpTask& task,
   return answer;
 }
 
+std::string JumpSolver::FaultInSimulation(const SolvedJump& jump) const {
+  return FaultOnBareGround(robot_, model_, launch_, landing_, jump.task, jump.phases, true);
+}
+
 void JumpSolver::RealiseInSpace(const JumpProblem& problem,
                                 const collocation::Trajectory& trajectory, bool is_new,
                                 JumpAnswer* answer) const {

@@ -57,6 +57,9 @@ class JumpSolver {
   /// From a solution of the same task, at the cost of its realisation alone.
   /// @throws std::invalid_argument if it is of another problem.
   JumpAnswer Realise(const JumpTask& task, const collocation::StoredSolution& solution) const;
+  /// What is wrong with a jump when it is simulated on bare ground; empty if nothing. Takes
+  /// seconds.
+  std::string FaultInSimulation(const SolvedJump& jump) const;
 
  private:
   /// True if the attempt decided the answer; a finer mesh may help where only the whole robot

@@ -17,6 +17,8 @@ struct JumpSweep {
   /// Of each height: after this many refusals beyond a success, farther jumps are not tried; 0:
   /// all are.
   int refusals_to_stop = 2;
+  /// A new jump counts only if its simulation follows it; takes seconds.
+  bool simulates = false;
   /// Asked after every answer, from any thread, one at a time, with how many of how many (at most)
   /// are answered; false abandons the rest. May be empty.
   std::function<bool(int, int)> keep_going;

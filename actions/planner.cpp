@@ -19,6 +19,7 @@
 #include "actions/route_flood.h"
 #include "actions/route_motion.h"
 #include "actions/route_refinement.h"
+#include "actions/route_search.h"
 #include "models/ground_map.h"
 #include "models/input_error.h"
 
@@ -73,6 +74,11 @@ void RequireNewNames(const models::RobotModel& robot, const models::Scenario& sc
   }
 }
 
+/// Fast ones first; what they miss is left to the random search, or proven not to be there.
+constexpr RouteSearchSettings kSuggestions[] = {
+    {.step = 0.2, .headings = 8, .greed = 4, .most_stances = 20000},
+    {.step = 0.2, .headings = 16, .greed = 4, .most_stances = 20000}};
+
 /// One request, from the checked scenario to a verified plan.
 class TraversalPlanner {
  public:
@@ -81,11 +87,12 @@ class TraversalPlanner {
       : robot_(robot),
         scenario_(scenario),
         request_(request),
+        switches_(SwitchesOf(request.preset)),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
         model_(BuildLocomotionModel(
-            robot, GaitNames(), [this] { return Remaining() > 0; }, request.library)) {
+            robot, GaitNames(), [this] { return Remaining() > 0; }, Library())) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -164,7 +171,8 @@ class TraversalPlanner {
     context.gaits.assign(actions_.begin(), actions_.end());
     context.space = space_;
     context.settings = scenario_.planner;
-    context.library = request_.library;
+    context.settings.skip_jumps = switches_.skip_jumps.value_or(scenario_.planner.skip_jumps);
+    context.library = Library();
     context.keep_going = [this] { return Remaining() > 0; };
     manoeuvres_ =
         MakeManoeuvres(factories_, ActionNames(), context, scenario_.file.string() + ": actions");
@@ -174,6 +182,11 @@ class TraversalPlanner {
     std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
     all.insert(all.end(), manoeuvres_.begin(), manoeuvres_.end());
     return all;
+  }
+
+  /// Empty: none.
+  std::filesystem::path Library() const {
+    return switches_.library ? request_.library : std::filesystem::path();
   }
 
   double Remaining() const { return request_.time_limit - clock_.seconds(); }
@@ -228,7 +241,8 @@ class TraversalPlanner {
     settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
     settings.confirmation_threads = std::max(0, request_.threads - 1);
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
-    settings.oracle = [this] { return AskFloods(); };
+    if (switches_.suggestions) settings.suggestion = [this] { return SuggestRoute(); };
+    if (switches_.floods) settings.oracle = [this] { return AskFloods(); };
     if (request_.progress) {
       settings.progress = [this](const graph::FindPathProgress& progress) {
         request_.progress({"exploring", progress, 0});
@@ -240,6 +254,17 @@ class TraversalPlanner {
       settings.skip_growth[manoeuvre->name()] = manoeuvre->skip_growth();
     }
     return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
+  }
+
+  /// At one resolution after the other, until there is a route.
+  std::vector<graph::PathEdge> SuggestRoute() const {
+    const RouteSearchSpace space{&model_, &actions_, &manoeuvres_};
+    const auto keep_going = [this] { return Remaining() > 0; };
+    for (const RouteSearchSettings& settings : kSuggestions) {
+      std::vector<graph::PathEdge> route = SearchRoute(space, start_, goals_, settings, keep_going);
+      if (!route.empty()) return route;
+    }
+    return {};
   }
 
   graph::RouteOracleAnswer AskFloods() {
@@ -395,8 +420,10 @@ class TraversalPlanner {
   /// @throws Abandoned at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
-    Route route = RefineRoute(model_, RouteAlong(model_, manoeuvres_, path.path), actions_,
-                              [this] { return Remaining() > 0; });
+    Route route = RouteAlong(model_, manoeuvres_, path.path);
+    if (switches_.refinement) {
+      route = RefineRoute(model_, route, actions_, [this] { return Remaining() > 0; });
+    }
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
     result->plan.timings.motion_s += motion_clock.seconds();
@@ -474,6 +501,7 @@ class TraversalPlanner {
   const models::RobotModel& robot_;
   const models::Scenario& scenario_;
   const PlanRequest& request_;
+  PlannerSwitches switches_;
   Stopwatch clock_;
   models::GroundMap ground_;
   World world_;

@@ -8,6 +8,7 @@
 
 #include "actions/manoeuvre.h"
 #include "actions/plan.h"
+#include "actions/planner_switches.h"
 #include "actions/verifier.h"
 #include "graph/find_path.h"
 #include "models/robot_model.h"
@@ -34,6 +35,7 @@ struct PlanRequest {
   /// Beside the actions of the robot's file: `actions` may name them, too.
   std::vector<ManoeuvreFactory> manoeuvres;
   std::filesystem::path library;  ///< folder of solved jumps; empty: none
+  PlannerPreset preset = PlannerPreset::kDefault;
   std::function<void(const PlanProgress&)> progress;
 };
 

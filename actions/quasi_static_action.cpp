@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <numbers>
 #include <utility>
 
 #include "actions/blockers.h"
@@ -20,6 +22,33 @@ constexpr double kSamePlace = 1e-6;
 /// Spacing at which C_N looks at an edge, m.
 constexpr double kNecessarySpacing = 0.05;
 
+/// Distances to the edge of the ground err by less than this, those of two points taken together,
+/// m.
+constexpr double kGroundError = 3e-6;
+
+/// What a box of S covers while S moves by up to `half_way` (m, along the axes of its middle pose)
+/// either way and turns by up to `half_turn` (rad, at most a right angle) either way.
+Eigen::AlignedBox3d Swept(const Eigen::AlignedBox3d& box, const Vector2d& half_way,
+                          double half_turn) {
+  const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
+  const double sine = std::sin(half_turn);
+  const double versine = 1 - std::cos(half_turn);
+  const Vector2d growth = half_way.cwiseAbs() + Vector2d(sine * far.y() + versine * far.x(),
+                                                         sine * far.x() + versine * far.y());
+  const Vector3d grown(growth.x(), growth.y(), 0);
+  return {box.min() - grown, box.max() + grown};
+}
+
+std::vector<Eigen::AlignedBox3d> Inflated(const std::vector<Eigen::AlignedBox3d>& boxes,
+                                          double inflation) {
+  const Vector3d sideways(inflation, inflation, 0);
+  std::vector<Eigen::AlignedBox3d> inflated;
+  for (const Eigen::AlignedBox3d& box : boxes) {
+    inflated.emplace_back(box.min() - sideways, box.max() + sideways);
+  }
+  return inflated;
+}
+
 bool SamePoint(const graph::Point& a, const graph::Point& b) {
   return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
 }
@@ -36,10 +65,10 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
       step_(step),
       checker_(*world.environment),
       pelvis_(*model.robot, checker_),
-      sweep_(Prepare(model.gaits[gait]->sweep, 0)),
-      inflated_sweep_(Prepare(model.gaits[gait]->sweep, kEdgeInflation)) {
+      sweep_(model.gaits[gait]->sweep),
+      inflated_sweep_(Inflated(model.gaits[gait]->sweep, kEdgeInflation)) {
   for (const LocomotionModel::TransitionEntry& transition : model.transitions) {
-    transition_sweeps_.push_back(Prepare(transition.sweep, 0));
+    transition_sweeps_.emplace_back(transition.sweep);
   }
   const models::RobotModel& robot = *model.robot;
   for (const auto& entry : model.gaits) {
@@ -57,19 +86,6 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
     if (!limb.hold_orientation) continue;
     leg_reach_ = std::max(leg_reach_, ChainLength(robot, robot.contacts[limb.contact]));
   }
-}
-
-QuasiStaticAction::PreparedSweep QuasiStaticAction::Prepare(
-    const std::vector<Eigen::AlignedBox3d>& boxes, double inflation) const {
-  PreparedSweep sweep;
-  for (const Eigen::AlignedBox3d& box : boxes) {
-    const Vector3d size = box.sizes() + Vector3d(2 * inflation, 2 * inflation, 0);
-    sweep.boxes.emplace_back(models::Shape::Box(size));
-    Isometry3d X_SB = Isometry3d::Identity();
-    X_SB.translation() = box.center();
-    sweep.X_SB.push_back(X_SB);
-  }
-  return sweep;
 }
 
 std::string QuasiStaticAction::name() const { return model_->gaits[gait_]->stance.gait->name; }
@@ -122,10 +138,22 @@ bool QuasiStaticAction::SomeFootReachesGround(const Isometry3d& X_WR) const {
   return false;
 }
 
+std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {
+  const std::vector<double>& levels = world_.ground->levels();
+  std::optional<int> only;
+  for (size_t level = 0; level < levels.size(); ++level) {
+    if (!(std::abs(levels[level] - z) <= 2 * kSamePlace)) continue;
+    if (only) return std::nullopt;
+    if (std::abs(levels[level] - z) <= kSamePlace / 2) only = static_cast<int>(level);
+  }
+  return only;
+}
+
 bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearance) const {
   const Vector2d centre = stance.pose.position();
-  const std::optional<int> level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
   const double all_round = bearing_radii_[stance.gait] + clearance + kSamePlace;
+  std::optional<int> level = OnlyLevelAt(stance.z);
+  if (!level) level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
   if (level && world_.ground->Clearance(*level, centre) >= all_round) return true;
   const NominalStance& nominal = model_->gaits[stance.gait]->stance;
   for (const std::vector<Vector2d>& points : nominal.bearing_points) {
@@ -138,19 +166,9 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
   return true;
 }
 
-bool QuasiStaticAction::BoxesFree(const std::vector<models::PreparedShape>& boxes,
-                                  const std::vector<Isometry3d>& X_SB,
-                                  const GroundedStance& stance) const {
-  const Isometry3d X_WS = stance.pose.At(stance.z);
-  for (size_t i = 0; i < boxes.size(); ++i) {
-    if (!checker_.IsFree(boxes[i], X_WS * X_SB[i], 0)) return false;
-  }
-  return true;
-}
-
 StanceFault QuasiStaticAction::Examine(const GroundedStance& stance) const {
   if (!GroundHolds(stance, 0)) return StanceFault::kOffGround;
-  if (!BoxesFree(sweep_.boxes, sweep_.X_SB, stance)) return StanceFault::kCollision;
+  if (!BoxesFree(sweep_, stance)) return StanceFault::kCollision;
   return StanceFault::kNone;
 }
 
@@ -170,19 +188,101 @@ bool QuasiStaticAction::CS(const graph::Point& vertex) const {
   return stance && Examine(*stance) == StanceFault::kNone;
 }
 
-bool QuasiStaticAction::IsClear(const GroundedStance& from, const GroundedStance& to) const {
-  const double turn = std::abs(WrapAngle(to.pose.yaw - from.pose.yaw));
-  const double travel = (to.pose.position() - from.pose.position()).norm() + sweep_radius_ * turn;
-  const int samples = std::max(1, static_cast<int>(std::ceil(travel / (2 * kEdgeInflation))));
-  for (int i = 0; i < samples; ++i) {
-    GroundedStance sample = from;
-    sample.pose = Interpolate(from.pose, to.pose, (i + 0.5) / samples);
-    if (!GroundHolds(sample, travel / (2 * samples)) ||
-        !BoxesFree(inflated_sweep_.boxes, inflated_sweep_.X_SB, sample)) {
-      return false;
-    }
+/// A straight way between two stances and the samples of it that decide whether it is clear, each
+/// in the middle of its share of the way.
+struct QuasiStaticAction::StraightWay {
+  GroundedStance from;
+  PlanarPose to;
+  double travel = 0;  ///< no point of the sweep goes farther, m
+  int samples = 1;
+
+  GroundedStance At(double sample) const {
+    GroundedStance stance = from;
+    stance.pose = Interpolate(from.pose, to, sample / samples);
+    return stance;
+  }
+  double TravelOfSample() const { return travel / (2 * samples); }
+
+  /// From the middle to either end of the samples `first` to `last` - 1 and their shares.
+  double HalfShare(int first, int last) const {
+    return static_cast<double>(last - first) / (2 * samples);
+  }
+  Vector2d HalfWay(int first, int last) const {
+    return HalfShare(first, last) * (to.position() - from.pose.position());
+  }
+};
+
+bool QuasiStaticAction::SampleIsClear(const StraightWay& way, int sample) const {
+  const GroundedStance stance = way.At(sample + 0.5);
+  return GroundHolds(stance, way.TravelOfSample()) && BoxesFree(inflated_sweep_, stance);
+}
+
+/// True only if the samples `first` to `last` - 1 stand on ground all round, and the ends of their
+/// part of the way as well: the distance to the edge of the ground changes no faster than the
+/// place.
+bool QuasiStaticAction::PartIsOverGround(const StraightWay& way, int level, int first,
+                                         int last) const {
+  const PlanarPose middle = way.At((first + last) / 2.0).pose;
+  const double spare = world_.ground->Clearance(level, middle.position()) - bearing_radii_[gait_] -
+                       way.TravelOfSample() - kSamePlace - kGroundError;
+  if (spare >= way.HalfWay(first, last).norm()) return true;
+  const int split = (first + last) / 2;
+  return spare > 0 && split > first && PartIsOverGround(way, level, first, split) &&
+         PartIsOverGround(way, level, split, last);
+}
+
+/// True only if the samples `first` to `last` - 1 are clear, and the ends of their part of the way
+/// as well: what the boxes cover between its ends lies in larger boxes around its middle.
+bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, int last) const {
+  const double turn = std::abs(WrapAngle(way.to.yaw - way.from.pose.yaw));
+  const double half_turn = way.HalfShare(first, last) * turn;
+  if (!(half_turn <= std::numbers::pi / 2)) return false;
+  const std::optional<int> level = OnlyLevelAt(way.from.z);
+  if (!level || !PartIsOverGround(way, *level, first, last)) return false;
+  const GroundedStance middle = way.At((first + last) / 2.0);
+  const Vector2d half_way = middle.pose.rotation().inverse() * way.HalfWay(first, last);
+  const Isometry3d X_WS = middle.pose.At(middle.z);
+  std::vector<models::Prism> swept;
+  swept.reserve(inflated_sweep_.boxes().size());
+  for (const Eigen::AlignedBox3d& box : inflated_sweep_.boxes()) {
+    swept.emplace_back(Swept(box, half_way, half_turn), X_WS);
+  }
+  return checker_.AreCertainlyFree(swept);
+}
+
+/// The same as asking all samples in turn, for a way that is not certainly clear as a whole. Coarse
+/// to fine, so that neither stretches of free space nor ways that are blocked ask many.
+bool QuasiStaticAction::SamplesAreClear(const StraightWay& way) const {
+  struct Part {
+    int first;
+    int last;
+  };
+  std::deque<Part> parts = {{0, way.samples}};
+  while (!parts.empty()) {
+    const auto [first, last] = parts.front();
+    parts.pop_front();
+    const bool is_part = last - first > 1 && last - first < way.samples;
+    if (first == last || (is_part && PartIsCertainlyClear(way, first, last))) continue;
+    const int middle = (first + last) / 2;
+    if (!SampleIsClear(way, middle)) return false;
+    parts.push_back({first, middle});
+    parts.push_back({middle + 1, last});
   }
   return true;
+}
+
+QuasiStaticAction::StraightWay QuasiStaticAction::WayBetween(const GroundedStance& from,
+                                                             const GroundedStance& to) const {
+  StraightWay way{from, to.pose, 0, 1};
+  const double turn = std::abs(WrapAngle(to.pose.yaw - from.pose.yaw));
+  way.travel = (to.pose.position() - from.pose.position()).norm() + sweep_radius_ * turn;
+  way.samples = std::max(1, static_cast<int>(std::ceil(way.travel / (2 * kEdgeInflation))));
+  return way;
+}
+
+bool QuasiStaticAction::IsClear(const GroundedStance& from, const GroundedStance& to) const {
+  const StraightWay way = WayBetween(from, to);
+  return PartIsCertainlyClear(way, 0, way.samples) || SamplesAreClear(way);
 }
 
 bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
@@ -194,8 +294,12 @@ bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
   const std::optional<GroundedStance> from = AsStance(*model_, gait_, ToPose(edge.from));
   const std::optional<GroundedStance> to = AsStance(*model_, gait_, ToPose(edge.to));
   if (!from || !to || std::abs(from->z - to->z) > kSamePlace) return false;
+  const StraightWay way = WayBetween(*from, *to);
+  const bool is_level = std::abs(from->z - to->z) <= kSamePlace / 4;
+  // The whole way includes its ends.
+  if (is_level && PartIsCertainlyClear(way, 0, way.samples)) return true;
   return Examine(*from) == StanceFault::kNone && Examine(*to) == StanceFault::kNone &&
-         IsClear(*from, *to);
+         SamplesAreClear(way);
 }
 
 const LocomotionModel::TransitionEntry* QuasiStaticAction::FindTransition(
@@ -221,8 +325,8 @@ bool QuasiStaticAction::TransitionIsClear(const LocomotionModel::TransitionEntry
                                           const GroundedStance& start) const {
   GroundedStance end{transition.to, start.pose * transition.motion->displacement(), start.z};
   const size_t index = &transition - model_->transitions.data();
-  const PreparedSweep& sweep = transition_sweeps_[index];
-  return GroundHolds(start, 0) && GroundHolds(end, 0) && BoxesFree(sweep.boxes, sweep.X_SB, start);
+  return GroundHolds(start, 0) && GroundHolds(end, 0) &&
+         BoxesFree(transition_sweeps_[index], start);
 }
 
 std::vector<graph::Point> QuasiStaticAction::TransitionFrom(const graph::Point& v) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "graph/action.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
+#include "models/upright_boxes.h"
 
 namespace possibility::actions {
 
@@ -73,8 +75,18 @@ class QuasiStaticAction : public graph::HolonomicAction {
   int gait() const { return gait_; }
 
  private:
-  bool BoxesFree(const std::vector<models::PreparedShape>& boxes,
-                 const std::vector<Eigen::Isometry3d>& X_SB, const GroundedStance& stance) const;
+  struct StraightWay;
+
+  bool BoxesFree(const models::UprightBoxes& boxes, const GroundedStance& stance) const {
+    return checker_.AreFree(boxes, stance.pose.At(stance.z));
+  }
+  StraightWay WayBetween(const GroundedStance& from, const GroundedStance& to) const;
+  bool SampleIsClear(const StraightWay& way, int sample) const;
+  bool PartIsCertainlyClear(const StraightWay& way, int first, int last) const;
+  bool PartIsOverGround(const StraightWay& way, int level, int first, int last) const;
+  bool SamplesAreClear(const StraightWay& way) const;
+  /// The level of this height if there is but one.
+  std::optional<int> OnlyLevelAt(double z) const;
   /// The transition that leads from one point to the other in either direction, and the stance
   /// of its first gait; null if none does.
   const LocomotionModel::TransitionEntry* FindTransition(const graph::PointPair& edge,
@@ -83,12 +95,6 @@ class QuasiStaticAction : public graph::HolonomicAction {
                          const GroundedStance& start) const;
   bool SomeFootReachesGround(const Eigen::Isometry3d& X_WR) const;
 
-  struct PreparedSweep {
-    std::vector<models::PreparedShape> boxes;
-    std::vector<Eigen::Isometry3d> X_SB;
-  };
-  PreparedSweep Prepare(const std::vector<Eigen::AlignedBox3d>& boxes, double inflation) const;
-
   const LocomotionModel* model_;
   int gait_;
   World world_;
@@ -96,9 +102,9 @@ class QuasiStaticAction : public graph::HolonomicAction {
   double step_;
   models::CollisionChecker checker_;
   PelvisClearance pelvis_;
-  PreparedSweep sweep_;
-  PreparedSweep inflated_sweep_;
-  std::vector<PreparedSweep> transition_sweeps_;  ///< by index of the model's transitions
+  models::UprightBoxes sweep_;
+  models::UprightBoxes inflated_sweep_;
+  std::vector<models::UprightBoxes> transition_sweeps_;  ///< by index of the model's transitions
   double sweep_radius_ = 0;            ///< farthest point of the sweep from the stance's axis, m
   std::vector<double> bearing_radii_;  ///< by gait: farthest bearing point from the axis, m
   double leg_reach_ = 0;               ///< no foot point is farther from the root, m

@@ -13,6 +13,8 @@
 namespace possibility::graph {
 namespace {
 
+constexpr int kMostSuggestions = 8;
+
 void CheckPoint(const Point& point, Eigen::Index size, const std::string& what) {
   if (point.size() != size || size == 0 || !point.allFinite()) {
     throw std::invalid_argument("FindPath: " + what + " has " + std::to_string(point.size()) +
@@ -100,7 +102,9 @@ class PathFinder {
     q_confirmation_.LaunchThreads(settings_.confirmation_threads);
     while (!deadline_.Passed() && !Answered()) {
       confirmation_.CollectResults();
-      if (!ExplorationIsOver()) {
+      if (SuggestionIsDue()) {
+        ExploreSuggestion();
+      } else if (!ExplorationIsOver()) {
         Explore();
         ++cycles_;
       } else if (q_confirmation_.num_open() == 0) {
@@ -160,6 +164,46 @@ class PathFinder {
     }
   }
 
+  bool SuggestionIsDue() const {
+    return settings_.suggestion && num_suggestions_ < kMostSuggestions &&
+           (num_suggestions_ == 0 || NumRefuted() > refuted_before_suggestion_);
+  }
+
+  std::int64_t NumRefuted() const {
+    const auto refuted = result_.counters.find("jobs refuted");
+    return refuted == result_.counters.end() ? 0 : refuted->second;
+  }
+
+  void ExploreSuggestion() {
+    ++num_suggestions_;
+    refuted_before_suggestion_ = NumRefuted();
+    const std::vector<PathEdge> route = settings_.suggestion();
+    nothing_suggested_ = route.empty();
+    VertexId v = master_.start();
+    for (const PathEdge& step : route) {
+      const Action& action = *actions_[step.action];
+      if (!action.Explorable(step.points.to) || !action.Explorable(step.points)) {
+        return;
+      }
+      const VertexId next = master_.VertexAt(step.points.to);
+      AppendFound(
+          step.action,
+          {.vertices = {next}, .edges = {{v, next, action.IsReversible()}}, .offered = {next}});
+      v = next;
+    }
+  }
+
+  /// An edge of `action` that no exploration of its own has found.
+  void AppendFound(int action, const NewElements& found) {
+    explorations_[action]->action_graph().Append(found);
+    for (std::size_t other = 0; other < explorations_.size(); ++other) {
+      if (static_cast<int>(other) != action) {
+        explorations_[other]->TakeOver(found);
+      }
+    }
+    master_.Append(action, found.edges);
+  }
+
   bool Skips(std::size_t action) {
     return skip_growth_[action] > 0 && UniformReal(0, 1, &generator_) < skip_growth_[action];
   }
@@ -215,7 +259,8 @@ class PathFinder {
 
   /// Whether the oracle, if it is its time, ends the search.
   bool Answered() {
-    if (oracle_asked_ || !settings_.oracle || cycles_ < settings_.ask_oracle_after) {
+    const bool is_due = cycles_ >= settings_.ask_oracle_after || nothing_suggested_;
+    if (oracle_asked_ || !settings_.oracle || !is_due) {
       return false;
     }
     oracle_asked_ = true;
@@ -283,6 +328,9 @@ class PathFinder {
   std::vector<std::unique_ptr<ActionExploration>> explorations_;
   std::vector<double> skip_growth_;  ///< per action
   std::int64_t cycles_ = 0;
+  int num_suggestions_ = 0;
+  std::int64_t refuted_before_suggestion_ = 0;
+  bool nothing_suggested_ = false;
   bool oracle_asked_ = false;
   double next_progress_ = 0;
   double next_turn_ = 0;

@@ -51,6 +51,11 @@ struct FindPathSettings {
   std::int64_t max_cycles = -1;        ///< -1: until the time limit
   std::int64_t ask_oracle_after = 200;  ///< cycles
   RouteOracle oracle = {};              ///< may be empty
+  /// A route that somebody who knows the space thinks worth exploring first: edges end to end from
+  /// the start. What of it the actions accept becomes part of the graph. Asked before the first
+  /// cycle, and again, a few times, when jobs have refuted edges since. May be empty, or give
+  /// nothing; then the oracle is asked at once.
+  std::function<std::vector<PathEdge>()> suggestion = {};
   /// Per name of an action: with what probability a cycle grows it not (paper: 0.9 for jumping).
   std::map<std::string, double> skip_growth = {};
   std::function<void(const FindPathProgress&)> progress = {};  ///< called at most 10 times a second

@@ -159,6 +159,84 @@ TEST(StickFigure, TheSameSeedGivesTheSameResult) {
   EXPECT_NE(a.graph.vertices.size(), run(4).graph.vertices.size());
 }
 
+/// Over the rubble, down, under the bar, and up again.
+std::vector<PathEdge> WayUnderTheBar() {
+  const std::vector<std::pair<int, Point>> steps = {{0, MakePoint(3, 0.85)},
+                                                    {1, MakePoint(3, 0.3)},
+                                                    {1, MakePoint(7, 0.3)},
+                                                    {0, MakePoint(7, 0.85)},
+                                                    {0, Goal()}};
+  std::vector<PathEdge> way;
+  Point from = Start();
+  for (const auto& [action, to] : steps) {
+    way.push_back({action, {from, to}});
+    from = to;
+  }
+  return way;
+}
+
+TEST(Suggestion, IsTakenBeforeAnythingElseIsExplored) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  FindPathSettings settings{.time_limit = 10};
+  settings.suggestion = WayUnderTheBar;
+  const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+  ExpectValidPath(result, Start(), {Goal()}, actions);
+  EXPECT_EQ(result.path.size(), 5);
+  EXPECT_EQ(result.statistics.vertices, 6);
+  EXPECT_EQ(result.counters.at("walk: extend made"), 0);
+}
+
+TEST(Suggestion, OfWhatNoActionAcceptsIsWorthNothing) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    FindPathSettings settings{.time_limit = 10, .seed = seed};
+    settings.suggestion = [] {
+      return std::vector<PathEdge>{{0, {Start(), Goal()}}};  // straight through the bar
+    };
+    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+    ExpectValidPath(result, Start(), {Goal()}, actions);
+    EXPECT_GT(result.path.size(), 1);
+  }
+}
+
+TEST(Suggestion, IsAPlaceToGrowFromAsFarAsItGoes) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  FindPathSettings settings{.time_limit = 10};
+  settings.suggestion = [] {
+    std::vector<PathEdge> way = WayUnderTheBar();
+    way.resize(3);
+    return way;
+  };
+  const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+  ExpectValidPath(result, Start(), {Goal()}, actions);
+  EXPECT_EQ(result.graph.vertices[4], MakePoint(7, 0.3));  // after start, goal and two more
+}
+
+TEST(Suggestion, IfThereIsNoneTheOracleIsAskedAtOnce) {
+  FindPathSettings settings{.time_limit = 10, .max_cycles = 80, .ask_oracle_after = 50};
+  settings.suggestion = [] { return std::vector<PathEdge>(); };
+  settings.oracle = [] { return RouteOracleAnswer::kExhausted; };
+  const PathResult result =
+      FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom, settings);
+  EXPECT_EQ(result.status, PathStatus::kExhausted);
+  EXPECT_EQ(result.counters.at("walk: extend made"), 0);
+}
+
+TEST(Suggestion, IsAskedForAgainWhenItsEdgesAreRefuted) {
+  const auto leap = std::make_shared<UncertainAction>("leap", Interval{0.7, 1.0}, 0.85,
+                                                      Interval{4, 6}, Always(Ending::kRefute, 2));
+  const Actions actions = {leap, MakeCrawl()};
+  int asked = 0;
+  FindPathSettings settings{.time_limit = 10};
+  settings.suggestion = [&asked] {
+    if (++asked > 1) return WayUnderTheBar();
+    return std::vector<PathEdge>{{0, {Start(), Goal()}}};
+  };
+  const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+  ExpectValidPath(result, Start(), {Goal()}, actions);
+  EXPECT_EQ(asked, 2);
+}
+
 TEST(FindPath, AnyReachableGoalWillDo) {
   const Point unreachable = MakePoint(5, 0.05);
   const std::vector<Point> goals = {unreachable, Goal(), MakePoint(3, 0.3)};

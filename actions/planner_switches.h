@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+namespace possibility::actions {
+
+/// Which planner is asked.
+enum class PlannerPreset {
+  kDefault,  ///< everything we know
+  kPaper,    ///< Algorithms 1 to 4 as the paper prints them
+};
+
+/// What a preset switches. Whatever is off in kPaper is ours and not in the paper.
+struct PlannerSwitches {
+  bool library = true;  ///< solved motions are read from PlanRequest::library
+  bool suggestions =
+      true;                ///< a deterministic search proposes a route before the random one begins
+  bool floods = true;      ///< a search over the whole space may end the random one with "no"
+  bool refinement = true;  ///< a quicker route is sought among the positions of the found one
+  std::optional<double> skip_jumps;  ///< instead of the scenario's probability
+};
+
+inline PlannerSwitches SwitchesOf(PlannerPreset preset) {
+  PlannerSwitches switches;
+  if (preset == PlannerPreset::kPaper) {
+    switches.library = false;
+    switches.suggestions = false;
+    switches.floods = false;
+    switches.refinement = false;
+    switches.skip_jumps = 0.9;  // section "Experimental Results"
+  }
+  return switches;
+}
+
+}  // namespace possibility::actions

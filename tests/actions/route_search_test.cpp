@@ -1,0 +1,132 @@
+#include "actions/route_search.h"
+
+#include <gtest/gtest.h>
+
+#include "actions/exploration_pose.h"
+#include "actions/long_jump.h"
+#include "models/ground_map.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+namespace {
+
+/// The robot with its actions in a shipped scenario.
+class Scene {
+ public:
+  Scene(const std::string& name, bool with_jumps)
+      : scenario_(ShippedScenario(name)),
+        ground_(scenario_.environment),
+        world_{&scenario_.environment, &ground_},
+        space_(std::make_shared<PelvisPoseSpace>(scenario_.environment.bounds, ground_.levels(),
+                                                 scenario_.planner.rotation_weight)) {
+    const LocomotionModel& model = DrcHubo1Locomotion();
+    for (int gait = 0; gait < static_cast<int>(model.gaits.size()); ++gait) {
+      gaits_.push_back(
+          std::make_shared<QuasiStaticAction>(model, gait, world_, space_, scenario_.planner.step));
+    }
+    if (with_jumps) AddJumps();
+  }
+
+  std::vector<graph::PathEdge> Search(const RouteSearchSettings& settings) const {
+    const RouteSearchSpace space{&DrcHubo1Locomotion(), &gaits_, &manoeuvres_};
+    std::vector<GroundedStance> goals;
+    for (const models::Stance& goal : scenario_.goals) goals.push_back(Grounded(goal));
+    return SearchRoute(space, Grounded(scenario_.start), goals, settings, {});
+  }
+
+  graph::Point PointOf(const models::Stance& stance) const {
+    const GroundedStance grounded = Grounded(stance);
+    return ToPoint(
+        DrcHubo1Locomotion().gaits[grounded.gait]->stance.RootPose(grounded.pose, grounded.z));
+  }
+
+  bool Holds(const graph::PathEdge& edge) const {
+    const int gaits = static_cast<int>(gaits_.size());
+    if (edge.action < gaits) return gaits_[edge.action]->CS(edge.points);
+    return manoeuvres_[edge.action - gaits]->Explorable(edge.points);
+  }
+
+  const models::Scenario& scenario() const { return scenario_; }
+  int num_gaits() const { return static_cast<int>(gaits_.size()); }
+
+ private:
+  static GroundedStance Grounded(const models::Stance& stance) {
+    return {
+        DrcHubo1Locomotion().GaitIndex(stance.action), {stance.x, stance.y, stance.yaw}, stance.z};
+  }
+
+  void AddJumps() {
+    PlanningContext context;
+    context.model = &DrcHubo1Locomotion();
+    context.world = world_;
+    context.gaits.assign(gaits_.begin(), gaits_.end());
+    context.space = space_;
+    context.library = DrcHubo1().file.parent_path() / "jumps";
+    manoeuvres_ = MakeManoeuvres(JumpFactories(DrcHubo1()), scenario_.actions, context, "test");
+  }
+
+  models::Scenario scenario_;
+  models::GroundMap ground_;
+  World world_;
+  std::shared_ptr<PelvisPoseSpace> space_;
+  std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;
+  std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
+};
+
+constexpr RouteSearchSettings kFast = {.step = 0.2, .headings = 8, .greed = 4};
+
+void ExpectRoute(const Scene& scene, const std::vector<graph::PathEdge>& route) {
+  ASSERT_FALSE(route.empty());
+  EXPECT_EQ(route.front().points.from, scene.PointOf(scene.scenario().start));
+  EXPECT_EQ(route.back().points.to, scene.PointOf(scene.scenario().goals[0]));
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    EXPECT_TRUE(scene.Holds(route[i])) << i;
+    const graph::Point& before = i == 0 ? route.front().points.from : route[i - 1].points.to;
+    EXPECT_EQ(route[i].points.from, before);
+  }
+}
+
+TEST(RouteSearch, FindsRoutesOnWhichEveryConditionHolds) {
+  for (const char* name : {"three_routes_a", "three_routes_b"}) {
+    const Scene scene(name, false);
+    ExpectRoute(scene, scene.Search(kFast));
+    ExpectRoute(scene, scene.Search({.step = 0.3, .headings = 12, .greed = 1}));
+  }
+}
+
+TEST(RouteSearch, JumpsWhereNothingElseLeads) {
+  for (const char* name : {"three_routes_c", "hallway", "double_jump"}) {
+    const Scene scene(name, true);
+    const std::vector<graph::PathEdge> route = scene.Search(kFast);
+    ExpectRoute(scene, route);
+    int jumps = 0;
+    for (const graph::PathEdge& edge : route) jumps += edge.action >= scene.num_gaits() ? 1 : 0;
+    EXPECT_EQ(jumps, std::string(name) == "double_jump" ? 2 : 1) << name;
+    EXPECT_TRUE(Scene(name, false).Search(kFast).empty()) << name;
+  }
+}
+
+TEST(RouteSearch, FindsNothingWhereThereIsNoWay) {
+  EXPECT_TRUE(Scene("closed_room", false).Search(kFast).empty());
+  EXPECT_TRUE(Scene("hallway_infeasible", true).Search(kFast).empty());
+}
+
+TEST(RouteSearch, GivesUpWhenItHasExaminedEnough) {
+  RouteSearchSettings settings = kFast;
+  settings.most_stances = 10;
+  EXPECT_TRUE(Scene("three_routes_a", false).Search(settings).empty());
+}
+
+TEST(RouteSearch, AlwaysGivesTheSameRoute) {
+  const Scene scene("double_jump", true);
+  const std::vector<graph::PathEdge> once = scene.Search(kFast);
+  const std::vector<graph::PathEdge> again = scene.Search(kFast);
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(once[i].action, again[i].action);
+    EXPECT_EQ(once[i].points.to, again[i].points.to);
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions

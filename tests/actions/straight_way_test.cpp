@@ -1,0 +1,157 @@
+// Straight ways between stances are decided coarse to fine, with boxes that cover many samples at
+// once. The answers are to be those of looking at every sample by itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "actions/exploration_pose.h"
+#include "actions/quasi_static_action.h"
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/random_scene.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A scene with shapes of all kinds, as they stand, lie and hang about.
+models::Environment MixedScene(std::mt19937* generator, int count) {
+  models::Environment environment = RandomEnvironment(generator, count);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < count; ++i) {
+    const models::Shape shape =
+        i % 2 == 0 ? models::Shape::Cylinder(0.05, 0.8) : models::Shape::Sphere(0.1);
+    Isometry3d X_WO = RandomStance(generator, 3).At(0.8 + 0.7 * unit(*generator));
+    X_WO.rotate(Eigen::AngleAxisd(2 * unit(*generator), Vector3d::UnitX()));
+    environment.obstacles.push_back({fmt::format("piece_{}", i), shape, X_WO, false});
+  }
+  return environment;
+}
+
+class StraightWays {
+ public:
+  StraightWays(int gait, models::Environment environment)
+      : model_(DrcHubo1Locomotion()),
+        gait_(gait),
+        environment_(std::move(environment)),
+        ground_(environment_),
+        world_{&environment_, &ground_},
+        checker_(environment_),
+        action_(model_, gait, world_,
+                std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_.levels(), 0.137),
+                0.25) {}
+
+  const QuasiStaticAction& action() const { return action_; }
+  GroundedStance At(const PlanarPose& pose) const { return {gait_, pose, 0}; }
+  graph::Point PointAt(const PlanarPose& pose) const {
+    return ToPoint(model_.gaits[gait_]->stance.RootPose(pose, 0));
+  }
+
+  bool StanceBySample(const PlanarPose& pose) const { return SampleIsClear(pose, 0, 0); }
+
+  /// The rule as it is written: samples in the middle of equal shares, each for what the sweep
+  /// moves by within its share.
+  bool WayBySamples(const PlanarPose& from, const PlanarPose& to) const {
+    double radius = 0;
+    for (const AlignedBox3d& box : model_.gaits[gait_]->sweep) {
+      const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
+      radius = std::max(radius, far.norm());
+    }
+    const double inflation = QuasiStaticAction::kEdgeInflation;
+    const double travel =
+        (to.position() - from.position()).norm() + radius * std::abs(WrapAngle(to.yaw - from.yaw));
+    const int samples = std::max(1, static_cast<int>(std::ceil(travel / (2 * inflation))));
+    for (int i = 0; i < samples; ++i) {
+      const PlanarPose pose = Interpolate(from, to, (i + 0.5) / samples);
+      if (!SampleIsClear(pose, travel / (2 * samples), inflation)) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool SampleIsClear(const PlanarPose& pose, double travel, double inflation) const {
+    return GroundHolds(pose, travel) && BoxesAreFree(pose, inflation);
+  }
+
+  bool GroundHolds(const PlanarPose& pose, double clearance) const {
+    double radius = 0;
+    const auto& patches = model_.gaits[gait_]->stance.bearing_points;
+    for (const auto& points : patches) {
+      for (const Vector2d& p : points) radius = std::max(radius, p.norm());
+    }
+    const auto holds = [&](const Vector2d& p, double needed) {
+      const std::optional<int> level = ground_.LevelAt(p, 0, 1e-6);
+      return level && ground_.Clearance(*level, p) >= needed;
+    };
+    if (holds(pose.position(), radius + clearance + 1e-6)) return true;
+    for (const auto& points : patches) {
+      for (const Vector2d& p : points) {
+        if (!holds(pose * p, clearance)) return false;
+      }
+    }
+    return true;
+  }
+
+  bool BoxesAreFree(const PlanarPose& pose, double inflation) const {
+    for (const AlignedBox3d& box : model_.gaits[gait_]->sweep) {
+      Isometry3d X_SB = Isometry3d::Identity();
+      X_SB.translation() = box.center();
+      const Vector3d size = box.sizes() + Vector3d(2 * inflation, 2 * inflation, 0);
+      if (!checker_.IsFree(models::Shape::Box(size), pose.At(0) * X_SB, 0)) return false;
+    }
+    return true;
+  }
+
+  const LocomotionModel& model_;
+  int gait_;
+  models::Environment environment_;
+  models::GroundMap ground_;
+  World world_;
+  models::CollisionChecker checker_;
+  QuasiStaticAction action_;
+};
+
+TEST(StraightWay, AnswersAreThoseOfItsSamples) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int clear = 0;
+  int blocked = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    const StraightWays ways(scene % 2, MixedScene(&generator, scene % 12));
+    for (int trial = 0; trial < 40; ++trial) {
+      const PlanarPose from = RandomStance(&generator, 3);
+      const double reach = trial % 2 == 0 ? 0.3 : 3;
+      const PlanarPose to{from.x + reach * unit(generator), from.y + reach * unit(generator),
+                          from.yaw + (trial % 3 == 0 ? 0 : 3 * unit(generator))};
+      const bool by_samples = ways.WayBySamples(from, to);
+      EXPECT_EQ(ways.action().IsClear(ways.At(from), ways.At(to)), by_samples);
+      const bool ends = ways.StanceBySample(from) && ways.StanceBySample(to);
+      EXPECT_EQ(ways.action().CS(ways.PointAt(from)), ways.StanceBySample(from));
+      EXPECT_EQ(ways.action().CS(graph::PointPair{ways.PointAt(from), ways.PointAt(to)}),
+                ends && by_samples);
+      ++(ends && by_samples ? clear : blocked);
+    }
+  }
+  EXPECT_GT(clear, 150);
+  EXPECT_GT(blocked, 150);
+}
+
+TEST(StraightWay, OnTheSpotAndAllTheWayRound) {
+  std::mt19937 generator(6);
+  for (int scene = 0; scene < 40; ++scene) {
+    const StraightWays ways(scene % 2, MixedScene(&generator, 4));
+    const PlanarPose from = RandomStance(&generator, 2.5);
+    for (const double turn : {0.0, 0.2, 1.6, 3.1}) {
+      const PlanarPose to{from.x, from.y, from.yaw + turn};
+      EXPECT_EQ(ways.action().IsClear(ways.At(from), ways.At(to)), ways.WayBySamples(from, to));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions
