@@ -25,15 +25,21 @@ bool Jumps(const Plan& plan) {
 }
 
 void ExpectVerifiedPlans(const std::string& name, std::uint64_t seeds, bool jump_needed,
-                         int threads = 1) {
+                         int threads = 1, PlannerPreset preset = PlannerPreset::kDefault) {
   const models::Scenario scenario = ShippedScenario(name);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(seed, threads));
+    PlanRequest request = Request(seed, threads);
+    request.preset = preset;
+    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
     ASSERT_EQ(result.status, PlanStatus::kFound) << "seed " << seed << ": " << result.explanation;
     ASSERT_TRUE(result.verification.accepted())
         << "seed " << seed << ": " << FormatText(result.verification);
     EXPECT_TRUE(Jumps(result.plan) || !jump_needed) << "seed " << seed;
   }
+}
+
+void ExpectRandomPlans(const std::string& name, bool jump_needed) {
+  ExpectVerifiedPlans(name, 50, jump_needed, 1, PlannerPreset::kPaper);
 }
 
 /// An answer, not a time limit, and no segment of a plan.
@@ -54,12 +60,20 @@ TEST(JumpPlans, TooWideAGapIsNot) { ExpectNo("hallway_infeasible", 1); }
 TEST(JumpPlans, NorOnesThatCannotBeReached) { ExpectNo("three_routes_c_infeasible", 1); }
 TEST(JumpPlans, NorABlockedLanding) { ExpectNo("double_jump_infeasible", 1); }
 
-TEST(JumpPlansLong, FiftySeedsOfThreeRoutesA) { ExpectVerifiedPlans("three_routes_a", 50, false); }
-TEST(JumpPlansLong, FiftySeedsOfThreeRoutesB) { ExpectVerifiedPlans("three_routes_b", 50, false); }
-TEST(JumpPlansLong, FiftySeedsOfThreeRoutesC) { ExpectVerifiedPlans("three_routes_c", 50, true); }
-TEST(JumpPlansLong, FiftySeedsOfTheHallway) { ExpectVerifiedPlans("hallway", 50, true); }
-TEST(JumpPlansLong, FiftySeedsOfTheDoubleJump) { ExpectVerifiedPlans("double_jump", 50, true); }
+TEST(JumpPlansLong, EverySceneIsCrossed) {
+  ExpectVerifiedPlans("three_routes_a", 1, false);
+  ExpectVerifiedPlans("three_routes_b", 1, false);
+  ExpectVerifiedPlans("three_routes_c", 1, true);
+  ExpectVerifiedPlans("double_jump", 1, true);
+}
 TEST(JumpPlansLong, FourThreadsPlanTheHallway) { ExpectVerifiedPlans("hallway", 10, true, 4); }
+
+// At random, as the paper does: with suggestions, one seed is like the other.
+TEST(JumpPlansLong, FiftySeedsOfThreeRoutesA) { ExpectRandomPlans("three_routes_a", false); }
+TEST(JumpPlansLong, FiftySeedsOfThreeRoutesB) { ExpectRandomPlans("three_routes_b", false); }
+TEST(JumpPlansLong, FiftySeedsOfThreeRoutesC) { ExpectRandomPlans("three_routes_c", true); }
+TEST(JumpPlansLong, FiftySeedsOfTheHallway) { ExpectRandomPlans("hallway", true); }
+TEST(JumpPlansLong, FiftySeedsOfTheDoubleJump) { ExpectRandomPlans("double_jump", true); }
 
 TEST(JumpPlansLong, TwentyTimesNo) {
   for (const char* name :
