@@ -153,6 +153,9 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
   const Vector2d centre = stance.pose.position();
   const double all_round = bearing_radii_[stance.gait] + clearance + kSamePlace;
   std::optional<int> level = OnlyLevelAt(stance.z);
+  if (level && world_.ground->OneFaceHolds(*level, centre, centre, all_round + kGroundError)) {
+    return true;
+  }
   if (!level) level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
   if (level && world_.ground->Clearance(*level, centre) >= all_round) return true;
   const NominalStance& nominal = model_->gaits[stance.gait]->stance;
@@ -238,7 +241,11 @@ bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, 
   const double half_turn = way.HalfShare(first, last) * turn;
   if (!(half_turn <= std::numbers::pi / 2)) return false;
   const std::optional<int> level = OnlyLevelAt(way.from.z);
-  if (!level || !PartIsOverGround(way, *level, first, last)) return false;
+  if (!level) return false;
+  const double all_round = bearing_radii_[gait_] + way.TravelOfSample() + kSamePlace + kGroundError;
+  const bool one_face_holds = world_.ground->OneFaceHolds(*level, way.At(first).pose.position(),
+                                                          way.At(last).pose.position(), all_round);
+  if (!one_face_holds && !PartIsOverGround(way, *level, first, last)) return false;
   const GroundedStance middle = way.At((first + last) / 2.0);
   const Vector2d half_way = middle.pose.rotation().inverse() * way.HalfWay(first, last);
   const Isometry3d X_WS = middle.pose.At(middle.z);

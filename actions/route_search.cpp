@@ -15,8 +15,13 @@
 namespace possibility::actions {
 namespace {
 
-/// How far ahead a manoeuvre is asked to lead, m; it goes as far as it can.
-constexpr double kAhead = 2;
+/// How far ahead a manoeuvre is asked to lead, m: first little, for the least demanding is the most
+/// likely to be confirmed, then more, until it lands somewhere.
+constexpr double kLeastAhead = 0.2;
+constexpr double kMostAhead = 2;
+constexpr double kAheadStep = 0.05;
+
+constexpr double kSamePoint = 1e-9;
 
 class RouteSearch {
  public:
@@ -174,19 +179,32 @@ class RouteSearch {
     for (std::size_t i = 0; i < space_.manoeuvres->size(); ++i) {
       const Manoeuvre& manoeuvre = *(*space_.manoeuvres)[i];
       if (manoeuvre.from() != nodes_[node].stance.gait) continue;
-      GroundedStance ahead = nodes_[node].stance;
-      ahead.pose = ahead.pose * PlanarPose{kAhead, 0, 0};
-      const graph::Point v = PointOf(nodes_[node].stance);
-      const graph::Point target = PointOf(ahead);
-      const std::optional<graph::Point> launch = manoeuvre.FindLaunchPoint(v, target);
-      if (!launch || (*launch - v).norm() > 1e-9) continue;
-      const graph::Point end = manoeuvre.ExtendTowards(v, target);
-      const std::optional<GroundedStance> landing =
-          AsStance(*space_.model, manoeuvre.to(), ToPose(end));
-      if (!landing || (end - v).norm() < 1e-9) continue;
-      Offer(node, *landing, static_cast<int>(space_.gaits->size() + i),
-            manoeuvre.ExpectedDuration({v, end}));
+      if (!Landing(node, manoeuvre, kMostAhead)) continue;
+      for (double ahead = kLeastAhead; ahead < kMostAhead; ahead += kAheadStep) {
+        if (Execute(node, manoeuvre, static_cast<int>(space_.gaits->size() + i), ahead)) break;
+      }
     }
+  }
+
+  bool Execute(int node, const Manoeuvre& manoeuvre, int action, double distance) {
+    const std::optional<GroundedStance> landing = Landing(node, manoeuvre, distance);
+    if (!landing) return false;
+    const graph::PointPair edge = {PointOf(nodes_[node].stance), PointOf(*landing)};
+    return Offer(node, *landing, action, manoeuvre.ExpectedDuration(edge));
+  }
+
+  /// Where a manoeuvre straight ahead from a node, so far at most, would end.
+  std::optional<GroundedStance> Landing(int node, const Manoeuvre& manoeuvre,
+                                        double distance) const {
+    GroundedStance ahead = nodes_[node].stance;
+    ahead.pose = ahead.pose * PlanarPose{distance, 0, 0};
+    const graph::Point v = PointOf(nodes_[node].stance);
+    const graph::Point target = PointOf(ahead);
+    const std::optional<graph::Point> launch = manoeuvre.FindLaunchPoint(v, target);
+    if (!launch || (*launch - v).norm() > kSamePoint) return std::nullopt;
+    const graph::Point end = manoeuvre.ExtendTowards(v, target);
+    if ((end - v).norm() < kSamePoint) return std::nullopt;
+    return AsStance(*space_.model, manoeuvre.to(), ToPose(end));
   }
 
   std::vector<graph::PathEdge> EdgesTo(int node) const {
