@@ -218,7 +218,8 @@ bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double e
   const double half = (end - begin) / 2;
   const double clearance = world().ground->Clearance(*level, middle);
   if (clearance >= half + kWideGround) return true;
-  if (clearance < kWideGround) return false;
+  // Along a boundary that is just so far away, halves would go on being undecided.
+  if (clearance < kWideGround || half < kSamePlace) return false;
   return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
 }
 

@@ -39,6 +39,7 @@ class RouteSearch {
 
   std::vector<graph::PathEdge> Run(const GroundedStance& start) {
     Push({start, -1, 0, 0});
+    if (const int last = StraightOn(start); last >= 0) return EdgesTo(last);
     while (!open_.empty()) {
       if (examined_ > settings_.most_stances || (keep_going_ && !keep_going_())) return {};
       const int node = open_.top().node;
@@ -157,6 +158,17 @@ class RouteSearch {
       }
       Offer(node, next, next.gait, transition.motion->ExpectedDuration());
     }
+  }
+
+  /// The node of a goal that the straight way from the start leads to; -1 if there is none.
+  int StraightOn(const GroundedStance& start) {
+    for (const GroundedStance& goal : goals_) {
+      if (goal.gait != start.gait) continue;
+      nodes_.push_back({goal, 0, start.gait, 0, true});
+      const int last = static_cast<int>(nodes_.size()) - 1;
+      if (IsReached(last)) return last;
+    }
+    return -1;
   }
 
   /// Straight to a goal that is near.

@@ -10,8 +10,10 @@
 #include "experiments/bench_collocation.h"
 #include "experiments/bench_confirmation.h"
 #include "experiments/bench_dynamics.h"
+#include "experiments/bench_graph.h"
 #include "experiments/benchmark.h"
 #include "experiments/commands.h"
+#include "experiments/option_values.h"
 #include "models/input_error.h"
 #include "models/nearest_name.h"
 
@@ -21,15 +23,39 @@ namespace {
 struct BenchOptions {
   std::string subject;
   std::string robot = "models/drchubo1/drchubo1.yaml";
+  std::string scenarios = GraphBenchSettings().scenarios;
+  std::string seeds;
   bool json = false;
 };
 
-using Bench = BenchmarkReport (*)(const models::RobotModel&,
-                                  const std::function<void(int, int)>& progress);
+using Progress = std::function<void(int, int)>;
+using Bench =
+    std::function<BenchmarkReport(const BenchOptions&, const models::RobotModel&, const Progress&)>;
+
+/// A subject that only the robot is asked of.
+template <typename Function>
+Bench OfRobot(Function bench) {
+  return [bench](const BenchOptions&, const models::RobotModel& robot, const Progress& progress) {
+    return bench(robot, progress);
+  };
+}
+
+BenchmarkReport BenchGraphAsAsked(const BenchOptions& options, const models::RobotModel& robot,
+                                  const Progress& progress) {
+  GraphBenchSettings settings;
+  settings.scenarios = options.scenarios;
+  if (!options.seeds.empty()) {
+    settings.seeds = static_cast<int>(ParseInteger("--seeds", options.seeds, 1, 100000));
+  }
+  return BenchGraph(robot, settings, progress);
+}
+
 const std::map<std::string, Bench>& Benches() {
-  static const std::map<std::string, Bench> benches = {{"collocation", &BenchCollocation},
-                                                       {"confirmation", &BenchConfirmation},
-                                                       {"dynamics", &BenchDynamics}};
+  static const std::map<std::string, Bench> benches = {
+      {"collocation", OfRobot(&BenchCollocation)},
+      {"confirmation", OfRobot(&BenchConfirmation)},
+      {"dynamics", OfRobot(&BenchDynamics)},
+      {"graph", &BenchGraphAsAsked}};
   return benches;
 }
 
@@ -49,7 +75,8 @@ ExitCode RunBench(const BenchOptions& options) {
                                  fmt::join(known, ", "),
                                  models::DidYouMean(options.subject, known)));
   }
-  const BenchmarkReport report = found->second(models::LoadRobotModel(options.robot), &ShowRound);
+  const BenchmarkReport report =
+      found->second(options, models::LoadRobotModel(options.robot), &ShowRound);
   if (options.json) {
     fmt::print("{}\n", report.Json().dump());
   } else {
@@ -63,8 +90,12 @@ ExitCode RunBench(const BenchOptions& options) {
 Command AddBenchCommand(CLI::App& program) {
   CLI::App* app = program.add_subcommand("bench", "Measures speed, against peers in the same run.");
   auto options = std::make_shared<BenchOptions>();
-  app->add_option("SUBJECT", options->subject, "collocation, confirmation or dynamics")->required();
+  app->add_option("SUBJECT", options->subject, "collocation, confirmation, dynamics or graph")
+      ->required();
   app->add_option("--robot", options->robot, "Robot YAML")->capture_default_str();
+  app->add_option("--scenarios", options->scenarios, "graph: folder of the paper's scenarios")
+      ->capture_default_str();
+  app->add_option("--seeds", options->seeds, "graph: searches of each planner (default 20)");
   app->add_flag("--json", options->json, "One JSON object on stdout, nothing else");
   return {app, [options] { return RunBench(*options); }};
 }

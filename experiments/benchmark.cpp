@@ -53,21 +53,13 @@ double TimeTwoThreads(const std::function<std::function<void(int)>()>& worker, i
 
 }  // namespace
 
-double Median(std::vector<double> values) {
-  if (values.empty()) throw std::invalid_argument("Median: no values");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
-
 std::vector<BenchmarkRow> TimeInTurn(const std::vector<BenchmarkCase>& cases, int rounds,
                                      double seconds_per_batch,
                                      const std::function<void(int, int)>& progress) {
   std::vector<BenchmarkRow> rows;
   std::vector<int> calls;
   for (const BenchmarkCase& c : cases) {
-    rows.push_back({c.name, 0, {}});
+    rows.push_back({c.name, 0, {}, {}});
     calls.push_back(CallsFor(c.call, seconds_per_batch));
   }
   for (int round = 0; round < rounds; ++round) {
@@ -111,7 +103,9 @@ nlohmann::ordered_json BenchmarkReport::Json() const {
   nlohmann::ordered_json json;
   json["rows"] = nlohmann::ordered_json::array();
   for (const BenchmarkRow& row : rows) {
-    json["rows"].push_back({{"name", row.name}, {"microseconds", row.microseconds}});
+    nlohmann::ordered_json& added = json["rows"].emplace_back();
+    added = {{"name", row.name}, {"microseconds", row.microseconds}};
+    for (const auto& [name, value] : row.figures) added[name] = value;
   }
   json["ratios"] = nlohmann::ordered_json::object();
   for (const BenchmarkRatio& ratio : ratios) json["ratios"][ratio.name] = ratio.value;
@@ -122,7 +116,9 @@ nlohmann::ordered_json BenchmarkReport::Json() const {
 std::string BenchmarkReport::Text() const {
   std::string text;
   for (const BenchmarkRow& row : rows) {
-    text += fmt::format("{:<58}{:>10.2f} us\n", row.name, row.microseconds);
+    text += fmt::format("{:<58}{:>10.2f} us", row.name, row.microseconds);
+    for (const auto& [name, value] : row.figures) text += fmt::format("  {} {:.4g}", name, value);
+    text += "\n";
   }
   for (const BenchmarkRatio& ratio : ratios) {
     text += fmt::format("{:<28}{:>8.2f}   {}\n", ratio.name, ratio.value, ratio.meaning);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/statistics.h"
+
 namespace possibility::experiments {
 
 /// One thing whose time is measured. `call(i)` does it once; i counts up, so that calls can cycle
@@ -19,6 +21,8 @@ struct BenchmarkRow {
   std::string name;
   double microseconds = 0;  ///< per call: median over rounds
   std::vector<double> rounds;
+  /// What else there is to say of it: "success", ...
+  std::vector<std::pair<std::string, double>> figures = {};
 };
 
 struct BenchmarkRatio {
@@ -33,14 +37,13 @@ struct BenchmarkReport {
   /// What is no ratio: "cold_s_median", ...
   std::vector<std::pair<std::string, double>> figures;
 
-  /// {"rows": [{"name", "microseconds"}...], "ratios": {name: value...}, and each figure}
+  /// {"rows": [{"name", "microseconds", and each figure}...], "ratios": {name: value...}, and each
+  /// figure}
   nlohmann::ordered_json Json() const;
   std::string Text() const;
   /// Median over rounds of slow / fast, each round's two taken a moment apart. Rows by name.
   double Ratio(const std::string& slow, const std::string& fast) const;
 };
-
-double Median(std::vector<double> values);
 
 /// Times the cases in turn, over and over, so that what else the machine does meets all alike:
 /// every round each case runs for about `seconds_per_batch`. Reports rounds through `progress`

@@ -31,5 +31,8 @@ Command AddExportCommand(CLI::App& program);
 Command AddBenchCommand(CLI::App& program);
 Command AddRegressCommand(CLI::App& program);
 Command AddLibraryCommand(CLI::App& program);
+Command AddTableCommand(CLI::App& program);
+Command AddSweepCommand(CLI::App& program);
+Command AddMergeCommand(CLI::App& program);
 
 }  // namespace possibility::experiments

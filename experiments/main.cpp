@@ -17,8 +17,8 @@ namespace possibility::experiments {
 namespace {
 
 constexpr Command (*kCommands[])(CLI::App&) = {
-    &AddPlanCommand,  &AddVerifyCommand,  &AddViewCommand,   &AddExportCommand,
-    &AddBenchCommand, &AddRegressCommand, &AddLibraryCommand};
+    &AddPlanCommand,    &AddVerifyCommand,  &AddViewCommand,  &AddExportCommand, &AddBenchCommand,
+    &AddRegressCommand, &AddLibraryCommand, &AddTableCommand, &AddSweepCommand,  &AddMergeCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -67,7 +67,8 @@ ExitCode Run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // Solves allocate and free matrices all the time; giving the pages back to the system and
   // faulting them in again makes threads queue in the kernel (eight solves at a time on two
-  // cores: 1.58 to 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of reach).
+  // cores: 1.58 to 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of
+  // reach).
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   return possibility::experiments::Run(argc, argv);

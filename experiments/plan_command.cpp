@@ -15,6 +15,7 @@
 #include "experiments/option_values.h"
 #include "experiments/output_file.h"
 #include "experiments/plan_summary.h"
+#include "experiments/preset_names.h"
 #include "experiments/progress_line.h"
 #include "experiments/viewer_page.h"
 #include "models/input_error.h"
@@ -33,6 +34,7 @@ struct PlanOptions {
   std::string time_limit;
   std::string actions;
   std::string library;
+  std::string preset;
   bool json = false;
 };
 
@@ -56,6 +58,7 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
     request->time_limit = ParseSeconds("--time-limit", options.time_limit);
   }
   if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
+  if (!options.preset.empty()) request->preset = ParsePreset("--preset", options.preset);
   if (!options.library.empty()) {
     if (!std::filesystem::is_directory(options.library)) {
       throw InputError(fmt::format("--library: '{}' is not a folder", options.library));
@@ -125,6 +128,7 @@ Command AddPlanCommand(CLI::App& program) {
   app->add_option("--actions", options->actions, "Names and commas, e.g. walk,crawl");
   app->add_option("--library", options->library,
                   "Folder of solved jumps (default: jumps, beside the robot)");
+  app->add_option("--preset", options->preset, "Planner: default, or paper (as it prints it)");
   app->add_flag("--json", options->json, "Print one JSON object");
   return {app, [options] { return RunPlan(*options); }};
 }

@@ -186,6 +186,9 @@ class PathFinder {
         return;
       }
       const VertexId next = master_.VertexAt(step.points.to);
+      if (next == v) {
+        continue;
+      }
       AppendFound(
           step.action,
           {.vertices = {next}, .edges = {{v, next, action.IsReversible()}}, .offered = {next}});

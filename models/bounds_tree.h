@@ -24,10 +24,13 @@ class BoundsTree {
     int item = -1;  ///< of leaves
     std::array<int, 2> children = {-1, -1};
   };
-  /// Half the items lie on either side of every split, so depth stays below 32 for any int count.
+  /// On a way down, so many splits at most set apart a single item.
+  static constexpr int kMaxSetApart = 16;
+  /// Half the items lie on either side of every other split, so depth stays below 32 + kMaxSetApart
+  /// for any int count.
   static constexpr int kMaxDepth = 64;
 
-  int Build(std::vector<int>::iterator first, std::vector<int>::iterator last,
+  int Build(std::vector<int>::iterator first, std::vector<int>::iterator last, int set_apart,
             const std::vector<Eigen::AlignedBox3d>& items);
 
   std::vector<Node> nodes_;  ///< the root is the first

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -53,23 +54,40 @@ std::vector<std::pair<int, int>> SelfPairs(const RobotModel& robot) {
 /// overlap, which needs overlapping boxes.
 double Reach(double threshold) { return std::max(threshold, 0.0) + kRounding; }
 
+bool FartherThan(const AlignedBox3d& a, const AlignedBox3d& b, double reach) {
+  return a.squaredExteriorDistance(b) > reach * reach;
+}
+
+/// Nothing if one of them is not finite.
+std::optional<AlignedBox3d> BoundsOf(const std::vector<Prism>& prisms) {
+  AlignedBox3d bounds;
+  for (const Prism& prism : prisms) {
+    const AlignedBox3d own = prism.Bounds();
+    if (!own.min().allFinite() || !own.max().allFinite()) return std::nullopt;
+    bounds.extend(own);
+  }
+  return bounds;
+}
+
 }  // namespace
 
 struct CollisionChecker::Impl {
   std::vector<std::vector<PosedBody>> links;
   std::vector<std::pair<int, int>> self_pairs;
   std::vector<PosedBody> obstacles;
+  std::vector<AlignedBox3d> bounds;  ///< of the obstacles
+  std::vector<Prism> prisms;         ///< around the obstacles
   BoundsTree tree;
 
   explicit Impl(const Environment& environment) {
-    std::vector<AlignedBox3d> bounds;
     for (const Obstacle& obstacle : environment.obstacles) {
       PreparedShape shape(obstacle.shape);
       const Isometry3d X_WC = shape.CorePose(obstacle.X_WO);
+      prisms.emplace_back(shape, X_WC, shape.OuterBounds(X_WC));
       obstacles.push_back({std::move(shape), X_WC});
       bounds.push_back(obstacle.shape.Bounds(obstacle.X_WO));
     }
-    tree = BoundsTree(std::move(bounds));
+    tree = BoundsTree(bounds);
   }
 
   void CheckPoses(const std::vector<Isometry3d>& X_WL) const {
@@ -93,6 +111,22 @@ struct CollisionChecker::Impl {
       return nearest < stop_below ? -1 : Reach(nearest);
     });
     return nearest;
+  }
+
+  /// Whether one of the boxes that its prism does not tell from the obstacle is nearer than 0.
+  bool Meets(const UprightBoxes& boxes, const std::vector<Prism>& posed, const Isometry3d& X_WS,
+             int obstacle) const {
+    for (size_t i = 0; i < posed.size(); ++i) {
+      if (AreApart(posed[i], prisms[obstacle], kCertainGap)) continue;
+      const PreparedShape& shape = boxes.shapes()[i];
+      const Isometry3d X_WC = X_WS * boxes.X_SB()[i];
+      if (FartherThan(shape.OuterBounds(X_WC), bounds[obstacle], Reach(0))) continue;
+      const PosedBody& other = obstacles[obstacle];
+      if (!(SignedDistance(shape, X_WC, other.shape, other.X_PC, kRounding) >= kRounding)) {
+        return true;
+      }
+    }
+    return false;
   }
 
   /// Distances below `threshold` of one link's bodies to obstacles, by obstacle.
@@ -141,10 +175,6 @@ struct WorldBodies {
     }
   }
 };
-
-bool FartherThan(const AlignedBox3d& a, const AlignedBox3d& b, double reach) {
-  return a.squaredExteriorDistance(b) > reach * reach;
-}
 
 }  // namespace
 
@@ -204,6 +234,33 @@ bool CollisionChecker::IsFree(const PreparedShape& shape, const Isometry3d& X_WS
 
 bool CollisionChecker::IsFree(const Shape& shape, const Isometry3d& X_WS, double margin) const {
   return IsFree(PreparedShape(shape), X_WS, margin);
+}
+
+bool CollisionChecker::AreFree(const UprightBoxes& boxes, const Isometry3d& X_WS) const {
+  std::vector<Prism> posed;
+  posed.reserve(boxes.boxes().size());
+  for (const AlignedBox3d& box : boxes.boxes()) posed.emplace_back(box, X_WS);
+  const std::optional<AlignedBox3d> bounds = BoundsOf(posed);
+  if (!bounds) return impl_->obstacles.empty();
+  bool is_free = true;
+  impl_->tree.VisitNear(*bounds, kCertainGap, [&](int obstacle) {
+    is_free = !impl_->Meets(boxes, posed, X_WS, obstacle);
+    return is_free ? kCertainGap : -1;
+  });
+  return is_free;
+}
+
+bool CollisionChecker::AreCertainlyFree(const std::vector<Prism>& boxes) const {
+  const std::optional<AlignedBox3d> bounds = BoundsOf(boxes);
+  if (!bounds) return false;
+  bool is_free = true;
+  impl_->tree.VisitNear(*bounds, kCertainGap, [&](int obstacle) {
+    is_free = std::all_of(boxes.begin(), boxes.end(), [&](const Prism& box) {
+      return AreApart(box, impl_->prisms[obstacle], kCertainGap);
+    });
+    return is_free ? kCertainGap : -1;
+  });
+  return is_free;
 }
 
 double CollisionChecker::Clearance(const PreparedShape& shape, const Isometry3d& X_WS,

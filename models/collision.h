@@ -7,6 +7,7 @@
 #include "models/environment.h"
 #include "models/prepared_shape.h"
 #include "models/robot_model.h"
+#include "models/upright_boxes.h"
 
 namespace possibility::models {
 
@@ -48,6 +49,17 @@ class CollisionChecker {
   /// towards false (by at most 0.05 mm); a shape that touches an obstacle is not free.
   bool IsFree(const PreparedShape& shape, const Eigen::Isometry3d& X_WS, double margin) const;
   bool IsFree(const Shape& shape, const Eigen::Isometry3d& X_WS, double margin) const;
+
+  /// True if every box posed by X_WS, which turns about the vertical alone, is free: the same
+  /// answer as IsFree of each with margin 0, sooner.
+  bool AreFree(const UprightBoxes& boxes, const Eigen::Isometry3d& X_WS) const;
+
+  /// True only if all of the upright boxes keep at least kCertainGap from every obstacle, so that
+  /// IsFree holds for any shape inside them; false says nothing. Costs a fraction of IsFree.
+  bool AreCertainlyFree(const std::vector<Prism>& boxes) const;
+
+  /// More than the error of a distance, m.
+  static constexpr double kCertainGap = 1e-4;
 
   /// Signed distance (m) from `shape` posed at X_WS to the nearest obstacle, or `at_most` if there
   /// is none nearer. Errs only towards smaller values (by at most 0.05 mm).

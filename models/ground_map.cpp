@@ -42,6 +42,12 @@ struct Face {
     return (local.cwiseAbs().array() <= half_extents.array()).all();
   }
 
+  /// How far p lies from the nearest side, negative outside.
+  double Depth(const Vector2d& p) const {
+    const Vector2d local = axes.transpose() * (p - centre);
+    return (half_extents - local.cwiseAbs()).minCoeff();
+  }
+
   std::array<Vector2d, 4> Corners() const {
     const Vector2d x = axes.col(0) * half_extents.x();
     const Vector2d y = axes.col(1) * half_extents.y();
@@ -148,6 +154,17 @@ class Level {
     boundary_tree_ = FlatTree(boundary_);
   }
 
+  /// Faces are convex: a line is nowhere closer to their sides than at its ends.
+  bool OneFaceHolds(const Vector2d& from, const Vector2d& to, double radius) const {
+    const double needed = radius + kGrowth;
+    bool holds = false;
+    face_tree_.VisitNear(FlatBounds(from), 0, [&](int face) {
+      holds = faces_[face].Depth(from) >= needed && faces_[face].Depth(to) >= needed;
+      return holds ? -1.0 : 0.0;
+    });
+    return holds;
+  }
+
   double Clearance(const Vector2d& p) const {
     const double distance = DistanceToBoundary(p);
     return (IsInside(p) ? distance : -distance) - kGrowth;
@@ -243,6 +260,11 @@ const std::vector<double>& GroundMap::levels() const { return impl_->heights; }
 
 double GroundMap::Clearance(int level, const Vector2d& p) const {
   return impl_->levels.at(level).Clearance(p);
+}
+
+bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
+                             double radius) const {
+  return impl_->levels.at(level).OneFaceHolds(from, to, radius);
 }
 
 std::optional<int> GroundMap::LevelAt(const Vector2d& p, double z, double tolerance) const {

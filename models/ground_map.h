@@ -31,6 +31,13 @@ class GroundMap {
   /// @throws std::out_of_range unless there is such a level.
   double Clearance(int level, const Eigen::Vector2d& p) const;
 
+  /// True only if all that lies within `radius` (m) of the straight line between two points is
+  /// ground of a level; so is then the Clearance of each point of the line at least `radius`, its
+  /// error aside. False if it takes more than one face to tell. Costs a fraction of Clearance.
+  /// @throws std::out_of_range unless there is such a level.
+  bool OneFaceHolds(int level, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                    double radius) const;
+
   /// The level whose height is within `tolerance` of z and that has ground at p; the highest
   /// one if several; none otherwise.
   std::optional<int> LevelAt(const Eigen::Vector2d& p, double z, double tolerance) const;

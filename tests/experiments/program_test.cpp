@@ -272,8 +272,8 @@ TEST_F(Program, BenchNamesTheSubjectItDoesNotKnow) {
   const Outcome outcome = Run("bench dynamix");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.err,
-            "bench: unknown subject 'dynamix', expected collocation, confirmation, dynamics (did "
-            "you mean 'dynamics'?)\n");
+            "bench: unknown subject 'dynamix', expected collocation, confirmation, dynamics, graph "
+            "(did you mean 'dynamics'?)\n");
   EXPECT_EQ(Run("bench dynamics --robot no_such_robot.yaml").code, 1);
 }
 

@@ -42,6 +42,31 @@ TEST(BoundsTree, VisitsExactlyTheItemsWithinTheLimit) {
   }
 }
 
+TEST(BoundsTree, ItemsAsLargeAsAllOthersTogetherAreFoundLikeTheRest) {
+  testing::RandomGeometry random(3);
+  std::vector<AlignedBox3d> items;
+  for (int i = 0; i < 300; ++i) items.push_back(RandomBounds(&random));
+  for (int i = 0; i < 60; ++i) {  // one around the other, and some alike
+    const Vector3d half = Vector3d::Constant(4 + i / 2);
+    items.emplace_back(-half, half);
+  }
+  const BoundsTree tree(items);
+  for (int trial = 0; trial < 200; ++trial) {
+    const AlignedBox3d bounds = RandomBounds(&random);
+    const double limit = random.Uniform(0, 1);
+    std::vector<int> visited, expected;
+    tree.VisitNear(bounds, limit, [&](int item) {
+      visited.push_back(item);
+      return limit;
+    });
+    for (size_t i = 0; i < items.size(); ++i) {
+      if (items[i].exteriorDistance(bounds) <= limit) expected.push_back(static_cast<int>(i));
+    }
+    std::sort(visited.begin(), visited.end());
+    EXPECT_EQ(visited, expected);
+  }
+}
+
 TEST(BoundsTree, ShrinkingLimitFindsTheNearest) {
   testing::RandomGeometry random(2);
   std::vector<AlignedBox3d> items;

@@ -61,6 +61,32 @@ TEST(GroundMap, RectangleHasAClosedForm) {
   }
 }
 
+TEST(GroundMap, WhatOneFaceHoldsIsClearAllAlongTheLine) {
+  RandomGeometry random(5);
+  int held = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    const GroundMap map = Map({Ground(0, 0, 0, 4, 3, random.Uniform(-4, 4)),
+                               Ground(2.5, 0.5, 0, 2, 4, random.Uniform(-4, 4))});
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vector2d from(random.Uniform(-3, 4), random.Uniform(-3, 3));
+      const Vector2d to(random.Uniform(-3, 4), random.Uniform(-3, 3));
+      const double radius = random.Uniform(0, 0.8);
+      if (!map.OneFaceHolds(0, from, to, radius)) continue;
+      ++held;
+      for (int i = 0; i <= 10; ++i) {
+        EXPECT_GE(map.Clearance(0, from + i / 10.0 * (to - from)), radius - 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(held, 100);
+  // On a single face nothing is missed.
+  const GroundMap map = Map({Ground(0, 0, 0, 4, 2)});
+  EXPECT_TRUE(map.OneFaceHolds(0, {-1.4, 0.4}, {1.4, -0.4}, 0.59));
+  EXPECT_FALSE(map.OneFaceHolds(0, {-1.4, 0.4}, {1.4, -0.4}, 0.61));
+  EXPECT_FALSE(map.OneFaceHolds(0, {0, 0}, {std::nan(""), 0}, 0.1));
+  EXPECT_THROW(map.OneFaceHolds(1, {0, 0}, {0, 0}, 0.1), std::out_of_range);
+}
+
 /// Within the clearance of p everything is alike, and a little farther something differs.
 TEST(GroundMap, UnionsOfYawedBoxesAgreeWithPointSampling) {
   RandomGeometry random(2);

@@ -1,0 +1,108 @@
+#include "experiments/single_gait_search.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "actions/route_search.h"
+#include "models/input_error.h"
+
+namespace possibility::experiments {
+namespace {
+
+using actions::GroundedStance;
+using actions::PlanarPose;
+using actions::RouteSearchSettings;
+
+/// Coarse lattices that hurry first.
+constexpr RouteSearchSettings kLattices[] = {
+    {.step = 0.8, .headings = 1, .greed = 5, .most_stances = 100000},
+    {.step = 0.4, .headings = 1, .greed = 5, .most_stances = 100000},
+    {.step = 0.4, .headings = 8, .greed = 5, .most_stances = 100000}};
+
+PlanarPose PoseOf(const models::Stance& stance) { return {stance.x, stance.y, stance.yaw}; }
+
+}  // namespace
+
+SingleGaitSearch::SingleGaitSearch(const models::RobotModel& robot, const std::string& gait,
+                                   models::Scenario scenario)
+    : model_(actions::BuildLocomotionModel(robot, {gait})),
+      scenario_(std::move(scenario)),
+      ground_(scenario_.environment),
+      world_{&scenario_.environment, &ground_},
+      start_(PoseOf(scenario_.start)),
+      goal_(PoseOf(scenario_.goals.front())) {
+  if (model_.gaits.size() != 1) {
+    throw InputError(fmt::format("{}: '{}' is not a gait", robot.file.string(), gait));
+  }
+  space_ = std::make_shared<actions::PelvisPoseSpace>(
+      scenario_.environment.bounds, ground_.levels(), scenario_.planner.rotation_weight);
+  gaits_.push_back(std::make_shared<actions::QuasiStaticAction>(model_, 0, world_, space_,
+                                                                scenario_.planner.step));
+  for (const PlanarPose& end : {start_, goal_}) {
+    if (IsValid(end)) continue;
+    throw InputError(fmt::format("{}: '{}' is impossible at ({}, {}), where the way begins or ends",
+                                 scenario_.name, gait, end.x, end.y));
+  }
+}
+
+graph::Point SingleGaitSearch::PointAt(const PlanarPose& pose) const {
+  return actions::ToPoint(model_.gaits[0]->stance.RootPose(pose, scenario_.start.z));
+}
+
+PlanarPose SingleGaitSearch::PoseAt(const graph::Point& point) const {
+  return actions::AsStance(model_, 0, actions::ToPose(point)).value().pose;
+}
+
+bool SingleGaitSearch::IsValid(const PlanarPose& pose) const {
+  return gaits_[0]->CS(PointAt(pose));
+}
+
+bool SingleGaitSearch::IsValid(const PlanarPose& from, const PlanarPose& to) const {
+  return gaits_[0]->CS(graph::PointPair{PointAt(from), PointAt(to)});
+}
+
+std::vector<graph::PathEdge> SingleGaitSearch::SuggestRoute() const {
+  const std::vector<std::shared_ptr<actions::Manoeuvre>> none;
+  const actions::RouteSearchSpace space{&model_, &gaits_, &none};
+  const double z = scenario_.start.z;
+  for (const RouteSearchSettings& lattice : kLattices) {
+    std::vector<graph::PathEdge> route = actions::SearchRoute(
+        space, GroundedStance{0, start_, z}, {GroundedStance{0, goal_, z}}, lattice, {});
+    if (!route.empty()) return route;
+  }
+  return {};
+}
+
+FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t seed,
+                                 double time_limit) const {
+  using Clock = std::chrono::steady_clock;
+  graph::FindPathSettings settings;
+  settings.time_limit = time_limit;
+  settings.seed = seed;
+  settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
+  if (actions::SwitchesOf(preset).suggestions) {
+    settings.suggestion = [this] { return SuggestRoute(); };
+  }
+  const Clock::time_point begin = Clock::now();
+  const graph::PathResult result =
+      graph::FindPath(PointAt(start_), {PointAt(goal_)}, {gaits_[0]}, *space_, settings);
+  FoundPath path;
+  path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  path.found = result.status == graph::PathStatus::kFound;
+  if (!path.found) return path;
+  path.poses.push_back(start_);
+  for (const graph::PathEdge& edge : result.path) path.poses.push_back(PoseAt(edge.points.to));
+  return path;
+}
+
+double LengthOf(const std::vector<PlanarPose>& path) {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length += (path[i].position() - path[i - 1].position()).norm();
+  }
+  return length;
+}
+
+}  // namespace possibility::experiments

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/commands.h"
+#include "experiments/experiment_run.h"
+#include "experiments/output_file.h"
+#include "experiments/scenario_template.h"
+#include "experiments/sweep_report.h"
+#include "experiments/sweep_values.h"
+#include "models/input_error.h"
+
+namespace possibility::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+  ExperimentOptions experiment;
+  std::string scenario_template;
+  std::string parameter;
+  std::string values;
+};
+
+std::string RowName(const std::string& parameter, double value) {
+  return fmt::format("{}={:.12g}", parameter, value);
+}
+
+/// One value of the sweep: writes scenarios and reads them.
+class SweepScenarios {
+ public:
+  SweepScenarios(std::shared_ptr<const ScenarioTemplate> scenario_template, fs::path folder,
+                 std::string parameter, double value)
+      : template_(std::move(scenario_template)),
+        folder_(std::move(folder)),
+        parameter_(std::move(parameter)),
+        value_(value) {}
+
+  /// @throws InputError naming the template, or the scenario that it gave.
+  std::shared_ptr<const models::Scenario> Load(std::uint64_t seed) const {
+    const fs::path file = folder_ / fmt::format("{}_{}.yaml", RowName(parameter_, value_), seed);
+    WriteOutput(file, template_->Instantiate({{parameter_, value_}}, seed, folder_));
+    return std::make_shared<const models::Scenario>(models::LoadScenario(file));
+  }
+
+ private:
+  std::shared_ptr<const ScenarioTemplate> template_;
+  fs::path folder_;
+  std::string parameter_;
+  double value_;
+};
+
+void CheckParameter(const ScenarioTemplate& scenario_template, const std::string& name) {
+  bool is_name = !name.empty() && std::isdigit(static_cast<unsigned char>(name.front())) == 0;
+  for (const char c : name) {
+    is_name = is_name && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_');
+  }
+  if (!is_name) {
+    throw InputError(fmt::format("--parameter: '{}' is not valid, expected a name", name));
+  }
+  if (scenario_template.Mentions(name)) return;
+  throw InputError(fmt::format("--parameter: {} has no placeholder with '{}'",
+                               scenario_template.file().string(), name));
+}
+
+std::vector<ExperimentRow> RowsOf(const SweepOptions& options, const ExperimentSettings& settings) {
+  const auto scenario_template =
+      std::make_shared<const ScenarioTemplate>(options.scenario_template);
+  CheckParameter(*scenario_template, options.parameter);
+  const fs::path folder = settings.out / "scenarios";
+  const std::vector<double> values = ParseSweepValues("--values", options.values);
+  PrepareOutputFolder("--out", folder);
+  std::map<fs::path, std::shared_ptr<const models::RobotModel>> robots;
+  std::vector<ExperimentRow> rows;
+  for (const double value : values) {
+    const SweepScenarios scenarios(scenario_template, folder, options.parameter, value);
+    // Errors in the template are found before the work, not after half of it.
+    const auto scenario = scenarios.Load(settings.first_seed);
+    auto& robot = robots[scenario->robot_file];
+    if (!robot) {
+      robot =
+          std::make_shared<const models::RobotModel>(models::LoadRobotModel(scenario->robot_file));
+    }
+    models::CheckScenarioAgainstRobot(*scenario, *robot);
+    ExperimentRow row;
+    row.name = RowName(options.parameter, value);
+    row.identity = {
+        fmt::format("sweep {} {}", scenario_template->file().stem().string(), options.parameter),
+        scenario_template->content_hash(), robot->content_hash, settings.Hash(LibraryOf(*robot))};
+    row.robot = robot;
+    row.scenario = [scenarios](std::uint64_t seed) { return scenarios.Load(seed); };
+    row.parameter = options.parameter;
+    row.value = value;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ExitCode RunSweep(const SweepOptions& options) {
+  ExperimentSettings settings = ParseExperimentOptions(options.experiment);
+  if (settings.out.empty()) {
+    settings.out =
+        fs::path("out") / ("sweep_" + fs::path(options.scenario_template).stem().string());
+  }
+  const std::vector<ExperimentRow> rows = RowsOf(options, settings);
+  const SweepReport report{RunExperiment(rows, settings, settings.out / "results.jsonl", {})};
+  if (report.trials.empty()) {
+    fmt::print("{}", options.experiment.json ? "{}\n" : "no trial in this part of the sweep\n");
+    return kDone;
+  }
+  report.Write(settings.out);
+  if (options.experiment.json) {
+    fmt::print("{}\n", report.Summary().dump());
+  } else {
+    fmt::print("{}\nreport: {}\n", report.Markdown(), (settings.out / "report.html").string());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command AddSweepCommand(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("sweep", "Success and time over a parameter of a scenario.");
+  auto options = std::make_shared<SweepOptions>();
+  app->add_option("TEMPLATE", options->scenario_template, "Scenario YAML with ${placeholders}")
+      ->required();
+  app->add_option("--parameter", options->parameter, "Name in the placeholders")->required();
+  app->add_option("--values", options->values, "FIRST:LAST:STEP, or numbers and commas")
+      ->required();
+  AddExperimentOptions(&options->experiment, app);
+  return {app, [options] { return RunSweep(*options); }};
+}
+
+}  // namespace possibility::experiments

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace possibility::experiments {
+
+/// A table of words, to be printed in several ways. Every row has as many cells as the header; the
+/// first `text_columns` are words, the others numbers.
+struct TextTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  std::size_t text_columns = 1;
+
+  std::string Markdown() const;
+  std::string Html() const;
+};
+
+}  // namespace possibility::experiments
