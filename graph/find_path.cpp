@@ -262,7 +262,9 @@ class PathFinder {
 
   /// Whether the oracle, if it is its time, ends the search.
   bool Answered() {
-    const bool is_due = cycles_ >= settings_.ask_oracle_after || nothing_suggested_;
+    // While jobs look into a suggested route, a whole search for a "no" would only hold them up.
+    const std::int64_t patience = num_suggestions_ > 0 ? 10 : 1;
+    const bool is_due = cycles_ >= patience * settings_.ask_oracle_after || nothing_suggested_;
     if (oracle_asked_ || !settings_.oracle || !is_due) {
       return false;
     }
