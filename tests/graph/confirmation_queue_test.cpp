@@ -117,11 +117,13 @@ TEST_P(WithWorkers, ACancelledJobEndsAndTheOthersGoOn) {
   for (int tag = 0; tag < 6; ++tag) {
     queue.Insert(tag, Job(tag % 2 ? Ending::kConfirm : Ending::kNever, 10, milliseconds(1)), 0);
   }
-  EXPECT_TRUE(Collect(&queue, GetParam(), 1, 0.005).empty());
+  // On a machine that is busy, some of those that end may have ended by then.
+  std::vector<JobResult> results = Collect(&queue, GetParam(), 1, 0.005);
   for (const int tag : {0, 2, 4, 4, 99}) {
     queue.Cancel(tag, "a detour is confirmed");
   }
-  const auto results = Collect(&queue, GetParam(), 6);
+  const auto others = Collect(&queue, GetParam(), 6 - static_cast<int>(results.size()));
+  results.insert(results.end(), others.begin(), others.end());
   ASSERT_EQ(results.size(), 6);
   for (const JobResult& result : results) {
     EXPECT_EQ(result.outcome, result.tag % 2 ? JobOutcome::kConfirmed : JobOutcome::kCancelled);
