@@ -74,10 +74,11 @@ std::optional<std::pair<double, double>> JumpReach::Distances(double height) con
 }
 
 JumpLibrary::JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
-                         const std::filesystem::path& folder)
+                         const std::filesystem::path& folder, Use use)
     : solver_(solver),
       identity_(MotionIdentity(robot, solver.settings())),
       folder_(MotionFolder(folder, identity_)),
+      use_(use),
       reach_(OptimisticReach(solver.model())) {
   if (!folder_.empty()) ReadReach();
 }
@@ -98,7 +99,9 @@ std::optional<JumpAnswer> JumpLibrary::Find(const JumpTask& task) {
     const auto known = answers_.find(KeyOf(task));
     if (known != answers_.end()) return known->second;
   }
-  if (folder_.empty() || !std::filesystem::exists(FileOf(task))) return std::nullopt;
+  if (folder_.empty() || use_ == Use::kReachAlone || !std::filesystem::exists(FileOf(task))) {
+    return std::nullopt;
+  }
   JumpAnswer answer;
   try {
     answer = solver_.Realise(OnGrid(task), collocation::ReadSolution(FileOf(task)));

@@ -38,9 +38,14 @@ class JumpLibrary {
   static constexpr double kDistanceStep = 0.05;  ///< m
   static constexpr double kHeightStep = 0.001;   ///< m: grounds are where they are
 
+  enum class Use {
+    kAll,
+    kReachAlone,  ///< the folder's jumps are not read: each is solved once in a run
+  };
+
   /// `solver` must outlive it. `folder`: empty for none; need not exist.
   JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
-              const std::filesystem::path& folder);
+              const std::filesystem::path& folder, Use use = Use::kAll);
 
   /// The nearest task on the grid.
   static JumpTask OnGrid(const JumpTask& task);
@@ -73,6 +78,7 @@ class JumpLibrary {
   const JumpSolver& solver_;
   std::string identity_;  ///< of robot and settings
   std::filesystem::path folder_;
+  Use use_;
   JumpReach reach_;
   bool reach_is_derived_ = false;
   std::mutex mutex_;

@@ -190,7 +190,9 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
                 context.model->GaitIndex(jump.to)),
       solver_(std::make_unique<JumpSolver>(*model().robot, model().gaits[from()]->stance,
                                            model().gaits[to()]->stance)),
-      library_(std::make_unique<JumpLibrary>(*model().robot, *solver_, context.library)),
+      library_(std::make_unique<JumpLibrary>(
+          *model().robot, *solver_, context.library,
+          context.solved_motions ? JumpLibrary::Use::kAll : JumpLibrary::Use::kReachAlone)),
       reach_(library_->reach_is_derived()
                  ? library_->reach()
                  : GuessReach(*solver_, RisesOf(world().ground->levels()))),

@@ -27,7 +27,8 @@ struct PlanningContext {
   std::vector<std::shared_ptr<const QuasiStaticAction>> gaits;
   std::shared_ptr<const graph::ExplorationSpace> space;
   models::PlannerSettings settings;
-  std::filesystem::path library;     ///< folder of solved motions; empty: none
+  std::filesystem::path library;     ///< folder of solved motions and of reaches; empty: none
+  bool solved_motions = true;        ///< false: nothing but reaches is taken from the library
   std::function<bool()> keep_going;  ///< false once time is up; may be empty
 };
 

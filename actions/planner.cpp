@@ -92,7 +92,7 @@ class TraversalPlanner {
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
         model_(BuildLocomotionModel(
-            robot, GaitNames(), [this] { return Remaining() > 0; }, Library())) {
+            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary())) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -172,7 +172,8 @@ class TraversalPlanner {
     context.space = space_;
     context.settings = scenario_.planner;
     context.settings.skip_jumps = switches_.skip_jumps.value_or(scenario_.planner.skip_jumps);
-    context.library = Library();
+    context.library = request_.library;
+    context.solved_motions = switches_.solved_motions;
     context.keep_going = [this] { return Remaining() > 0; };
     manoeuvres_ =
         MakeManoeuvres(factories_, ActionNames(), context, scenario_.file.string() + ": actions");
@@ -185,8 +186,8 @@ class TraversalPlanner {
   }
 
   /// Empty: none.
-  std::filesystem::path Library() const {
-    return switches_.library ? request_.library : std::filesystem::path();
+  std::filesystem::path TransitionLibrary() const {
+    return switches_.solved_motions ? request_.library : std::filesystem::path();
   }
 
   double Remaining() const { return request_.time_limit - clock_.seconds(); }

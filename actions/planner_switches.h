@@ -12,9 +12,11 @@ enum class PlannerPreset {
 
 /// What a preset switches. Whatever is off in kPaper is ours and not in the paper.
 struct PlannerSwitches {
-  bool library = true;  ///< solved motions are read from PlanRequest::library
-  bool suggestions =
-      true;                ///< a deterministic search proposes a route before the random one begins
+  /// Solved motions are read from PlanRequest::library; if not, only how far the robot jumps is,
+  /// which is part of C_N.
+  bool solved_motions = true;
+  /// A deterministic search proposes a route before the random one begins.
+  bool suggestions = true;
   bool floods = true;      ///< a search over the whole space may end the random one with "no"
   bool refinement = true;  ///< a quicker route is sought among the positions of the found one
   std::optional<double> skip_jumps;  ///< instead of the scenario's probability
@@ -23,7 +25,7 @@ struct PlannerSwitches {
 inline PlannerSwitches SwitchesOf(PlannerPreset preset) {
   PlannerSwitches switches;
   if (preset == PlannerPreset::kPaper) {
-    switches.library = false;
+    switches.solved_motions = false;
     switches.suggestions = false;
     switches.floods = false;
     switches.refinement = false;

@@ -283,6 +283,14 @@ TEST_F(JumpLibraryTest, GivesBackWhatWasSaved) {
   EXPECT_FALSE(library.Find({0.55, 0}));
 }
 
+TEST_F(JumpLibraryTest, TheReachAloneCanBeTaken) {
+  Fill();
+  JumpLibrary library(DrcHubo1(), Solver(), folder_, JumpLibrary::Use::kReachAlone);
+  EXPECT_TRUE(library.reach_is_derived());
+  EXPECT_FALSE(library.reach().Allows({0.65, 0}));
+  EXPECT_FALSE(library.Find(kTask));
+}
+
 TEST_F(JumpLibraryTest, AnotherRobotsFolderIsNotLookedAt) {
   Fill();
   models::RobotModel other = DrcHubo1();
