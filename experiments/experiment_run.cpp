@@ -106,10 +106,11 @@ void AddExperimentOptions(ExperimentOptions* options, CLI::App* app) {
   app->add_flag("--json", options->json, "Print one JSON object");
 }
 
-ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options) {
+ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options,
+                                          const fs::path& default_out) {
   ExperimentSettings settings;
   settings.trials = static_cast<int>(ParseInteger("--trials", options.trials, 1, kMaxTrials));
-  settings.out = options.out;
+  settings.out = options.out.empty() ? default_out : fs::path(options.out);
   settings.presets = ParsePresets("--preset", options.preset);
   settings.threads =
       options.threads.empty()

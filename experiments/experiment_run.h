@@ -46,9 +46,11 @@ struct ExperimentSettings {
   std::string Hash(const std::filesystem::path& library) const;
 };
 
-/// Without --shard: that of a Slurm job array, if this is a task of one.
+/// Without --shard: that of a Slurm job array, if this is a task of one. Without --out:
+/// `default_out`.
 /// @throws InputError for anything invalid.
-ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options);
+ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options,
+                                          const std::filesystem::path& default_out);
 
 /// What trials have in common but for preset and seed.
 struct ExperimentRow {

@@ -10,6 +10,7 @@
 #include "experiments/commands.h"
 #include "experiments/merge.h"
 #include "experiments/output_file.h"
+#include "experiments/report_output.h"
 #include "experiments/results_file.h"
 #include "experiments/sweep_report.h"
 #include "experiments/table_report.h"
@@ -58,17 +59,6 @@ void CopyPictures(const MergeOptions& options) {
   }
 }
 
-template <typename Report>
-void Finish(const Report& report, const MergeOptions& options) {
-  report.Write(options.out);
-  if (options.json) {
-    fmt::print("{}\n", report.Summary().dump());
-  } else {
-    fmt::print("{}\nreport: {}\n", report.Markdown(),
-               (fs::path(options.out) / "report.html").string());
-  }
-}
-
 ExitCode RunMerge(const MergeOptions& options) {
   for (const std::string& folder : options.folders) {
     if (fs::is_regular_file(fs::path(folder) / "results.jsonl") ||
@@ -86,9 +76,9 @@ ExitCode RunMerge(const MergeOptions& options) {
   }
   CopyPictures(options);
   if (!trials.empty() && !trials.front().parameter.empty()) {
-    Finish(SweepReport{trials}, options);
+    PutOutReport(SweepReport{trials}, options.out, options.json);
   } else {
-    Finish(TableReport{trials, twins}, options);
+    PutOutReport(TableReport{trials, twins}, options.out, options.json);
   }
   return kDone;
 }

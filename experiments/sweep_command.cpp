@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,8 @@
 #include "experiments/commands.h"
 #include "experiments/experiment_run.h"
 #include "experiments/output_file.h"
+#include "experiments/report_output.h"
+#include "experiments/row_robots.h"
 #include "experiments/scenario_template.h"
 #include "experiments/sweep_report.h"
 #include "experiments/sweep_values.h"
@@ -76,24 +77,17 @@ std::vector<ExperimentRow> RowsOf(const SweepOptions& options, const ExperimentS
   const fs::path folder = settings.out / "scenarios";
   const std::vector<double> values = ParseSweepValues("--values", options.values);
   PrepareOutputFolder("--out", folder);
-  std::map<fs::path, std::shared_ptr<const models::RobotModel>> robots;
+  RowRobots robots(settings);
+  const std::string experiment =
+      fmt::format("sweep {} {}", scenario_template->file().stem().string(), options.parameter);
   std::vector<ExperimentRow> rows;
   for (const double value : values) {
     const SweepScenarios scenarios(scenario_template, folder, options.parameter, value);
     // Errors in the template are found before the work, not after half of it.
     const auto scenario = scenarios.Load(settings.first_seed);
-    auto& robot = robots[scenario->robot_file];
-    if (!robot) {
-      robot =
-          std::make_shared<const models::RobotModel>(models::LoadRobotModel(scenario->robot_file));
-    }
-    models::CheckScenarioAgainstRobot(*scenario, *robot);
-    ExperimentRow row;
-    row.name = RowName(options.parameter, value);
-    row.identity = {
-        fmt::format("sweep {} {}", scenario_template->file().stem().string(), options.parameter),
-        scenario_template->content_hash(), robot->content_hash, settings.Hash(LibraryOf(*robot))};
-    row.robot = robot;
+    ExperimentRow row = robots.RowOf(experiment, RowName(options.parameter, value), *scenario,
+                                     scenario_template->content_hash());
+    models::CheckScenarioAgainstRobot(*scenario, *row.robot);
     row.scenario = [scenarios](std::uint64_t seed) { return scenarios.Load(seed); };
     row.parameter = options.parameter;
     row.value = value;
@@ -103,23 +97,16 @@ std::vector<ExperimentRow> RowsOf(const SweepOptions& options, const ExperimentS
 }
 
 ExitCode RunSweep(const SweepOptions& options) {
-  ExperimentSettings settings = ParseExperimentOptions(options.experiment);
-  if (settings.out.empty()) {
-    settings.out =
-        fs::path("out") / ("sweep_" + fs::path(options.scenario_template).stem().string());
-  }
+  const ExperimentSettings settings = ParseExperimentOptions(
+      options.experiment,
+      fs::path("out") / ("sweep_" + fs::path(options.scenario_template).stem().string()));
   const std::vector<ExperimentRow> rows = RowsOf(options, settings);
   const SweepReport report{RunExperiment(rows, settings, settings.out / "results.jsonl", {})};
   if (report.trials.empty()) {
     fmt::print("{}", options.experiment.json ? "{}\n" : "no trial in this part of the sweep\n");
     return kDone;
   }
-  report.Write(settings.out);
-  if (options.experiment.json) {
-    fmt::print("{}\n", report.Summary().dump());
-  } else {
-    fmt::print("{}\nreport: {}\n", report.Markdown(), (settings.out / "report.html").string());
-  }
+  PutOutReport(report, settings.out, options.experiment.json);
   return kDone;
 }
 

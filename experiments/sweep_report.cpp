@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "experiments/experiment_page.h"
-#include "experiments/experiment_run.h"
 #include "experiments/output_file.h"
+#include "experiments/plan_gallery.h"
 #include "experiments/svg_plot.h"
 #include "experiments/text_table.h"
 #include "experiments/trial_groups.h"
-#include "models/file_contents.h"
 
 namespace possibility::experiments {
 namespace {
@@ -174,16 +173,6 @@ std::string NoteOf(const std::vector<TrialRecord>& trials) {
       MachinesOf(trials));
 }
 
-PageSection Gallery(const std::vector<TrialGroup>& groups, const std::filesystem::path& folder) {
-  PageSection gallery{"Plans of the first seed", {}, "", {}, true};
-  for (const TrialGroup& group : groups) {
-    const std::filesystem::path file = PictureFile(folder, group.row, group.preset);
-    if (!std::filesystem::is_regular_file(file)) continue;
-    gallery.figures.push_back({group.row + ", " + group.preset, models::ReadFileContents(file)});
-  }
-  return gallery;
-}
-
 }  // namespace
 
 Json SweepReport::Summary() const {
@@ -262,7 +251,7 @@ void SweepReport::Write(const std::filesystem::path& folder) const {
                            {{"Success", success}, {"Times", times}},
                            false};
   WriteOutput(folder / "report.html",
-              ExperimentPage(TitleOf(trials), {curves, Gallery(groups, folder)}));
+              ExperimentPage(TitleOf(trials), {curves, PlanGallery(groups, folder)}));
 }
 
 }  // namespace possibility::experiments

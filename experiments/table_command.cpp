@@ -11,6 +11,8 @@
 
 #include "experiments/commands.h"
 #include "experiments/experiment_run.h"
+#include "experiments/report_output.h"
+#include "experiments/row_robots.h"
 #include "experiments/table_report.h"
 #include "experiments/table_rows.h"
 #include "models/input_error.h"
@@ -28,31 +30,22 @@ struct TableOptions {
   bool twins = false;
 };
 
-/// Scenarios and robots of the rows, each loaded once.
+/// Rows, their scenarios and robots each loaded once.
 class RowLoader {
  public:
   RowLoader(std::filesystem::path folder, const ExperimentSettings& settings)
-      : folder_(std::move(folder)), settings_(settings) {}
+      : folder_(std::move(folder)), robots_(settings) {}
 
   ExperimentRow Load(const std::string& experiment, const std::string& name,
                      const std::string& scenario_name, const std::vector<std::string>& actions) {
     const auto scenario = Scenario(scenario_name);
-    const Robot& robot = RobotOf(*scenario);
-    ExperimentRow row;
-    row.name = name;
-    row.identity = {experiment, scenario->content_hash, robot.model->content_hash, robot.settings};
-    row.robot = robot.model;
+    ExperimentRow row = robots_.RowOf(experiment, name, *scenario, scenario->content_hash);
     row.scenario = [scenario](std::uint64_t) { return scenario; };
     row.actions = actions;
     return row;
   }
 
  private:
-  struct Robot {
-    std::shared_ptr<const models::RobotModel> model;
-    std::string settings;  ///< hash; it depends on the robot's library
-  };
-
   std::shared_ptr<const models::Scenario> Scenario(const std::string& name) {
     auto& scenario = scenarios_[name];
     if (!scenario) {
@@ -62,20 +55,9 @@ class RowLoader {
     return scenario;
   }
 
-  const Robot& RobotOf(const models::Scenario& scenario) {
-    Robot& robot = robots_[scenario.robot_file];
-    if (!robot.model) {
-      robot.model =
-          std::make_shared<const models::RobotModel>(models::LoadRobotModel(scenario.robot_file));
-      robot.settings = settings_.Hash(LibraryOf(*robot.model));
-    }
-    return robot;
-  }
-
   std::filesystem::path folder_;
-  const ExperimentSettings& settings_;
+  RowRobots robots_;
   std::map<std::string, std::shared_ptr<const models::Scenario>> scenarios_;
-  std::map<std::filesystem::path, Robot> robots_;
 };
 
 /// Rows and twins that were asked for.
@@ -128,19 +110,14 @@ std::vector<TrialRecord> RunTwins(const Selection& selection, ExperimentSettings
 }
 
 ExitCode RunTable(const TableOptions& options) {
-  ExperimentSettings settings = ParseExperimentOptions(options.experiment);
-  if (settings.out.empty()) settings.out = std::filesystem::path("out") / "table";
+  const ExperimentSettings settings =
+      ParseExperimentOptions(options.experiment, std::filesystem::path("out") / "table");
   const Selection selection = Select(options.scenario, options.twins);
   RowLoader loader(options.scenarios, settings);
   TableReport report;
   report.trials = RunRows(selection, settings, &loader);
   report.twins = RunTwins(selection, settings, &loader);
-  report.Write(settings.out);
-  if (options.experiment.json) {
-    fmt::print("{}\n", report.Summary().dump());
-  } else {
-    fmt::print("{}\nreport: {}\n", report.Markdown(), (settings.out / "report.html").string());
-  }
+  PutOutReport(report, settings.out, options.experiment.json);
   return kDone;
 }
 

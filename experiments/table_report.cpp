@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "experiments/experiment_page.h"
-#include "experiments/experiment_run.h"
 #include "experiments/output_file.h"
+#include "experiments/plan_gallery.h"
 #include "experiments/run_environment.h"
 #include "experiments/table_rows.h"
 #include "experiments/text_table.h"
 #include "experiments/trial_groups.h"
 #include "experiments/trial_plots.h"
-#include "models/file_contents.h"
 
 namespace possibility::experiments {
 namespace {
@@ -149,17 +148,10 @@ std::vector<NamedPicture> Pictures(const std::vector<TrialGroup>& groups) {
 }
 
 PageSection Gallery(const std::vector<TrialGroup>& groups, const std::filesystem::path& folder) {
-  PageSection gallery{"Plans of the first seed",
-                      {"From above: obstacles dark, explored graph thin, pelvis path coloured by "
-                       "action (blue walk, orange crawl, red jump, grey transitions)."},
-                      "",
-                      {},
-                      true};
-  for (const TrialGroup& group : groups) {
-    const std::filesystem::path file = PictureFile(folder, group.row, group.preset);
-    if (!std::filesystem::is_regular_file(file)) continue;
-    gallery.figures.push_back({group.row + ", " + group.preset, models::ReadFileContents(file)});
-  }
+  PageSection gallery = PlanGallery(groups, folder);
+  gallery.paragraphs = {
+      "From above: obstacles dark, explored graph thin, pelvis path coloured by action (blue walk, "
+      "orange crawl, red jump, grey transitions)."};
   return gallery;
 }
 
@@ -228,7 +220,7 @@ void TableReport::Write(const std::filesystem::path& folder) const {
   sections.push_back(Gallery(groups, folder));
   sections.push_back({"Distributions", {}, Distributions(groups).Html(), {}, false});
   if (!twins.empty()) {
-    PageSection gallery = Gallery(GroupTrials(twins), folder);
+    PageSection gallery = PlanGallery(GroupTrials(twins), folder);
     sections.push_back({"Infeasible twins",
                         {kTwinsNote},
                         Twins(GroupTrials(twins)).Html(),

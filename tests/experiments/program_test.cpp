@@ -1,60 +1,27 @@
 // The built program as its users run it: exit codes, and what goes to which stream.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "actions/plan.h"
 #include "models/robot_model.h"
 #include "models/scenario.h"
+#include "tests/experiments/program_run.h"
+#include "tests/experiments/read_text.h"
 
 namespace possibility::experiments {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ProgramRun;
+using testing::ReadText;
 
-std::string ReadText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
-class Program : public ::testing::Test {
+class Program : public ProgramRun {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// Runs the program in the test's own folder; `arguments` are words for the shell.
-  Outcome Run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" POSSIBILITY_PROGRAM "' " + arguments + " 2>stderr.txt";
-    Outcome outcome;
-    FILE* pipe = ::popen(command.c_str(), "r");
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
-      outcome.out += static_cast<char>(c);
-    }
-    const int status = ::pclose(pipe);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    outcome.err = ReadText(folder_ / "stderr.txt");
-    return outcome;
-  }
-
   /// plan.json of the robot standing still at the scenario's start.
   void WriteStandingPlan() const {
     const models::Scenario scenario = models::LoadScenario(scenario_file_);
@@ -83,8 +50,6 @@ class Program : public ::testing::Test {
     actions::WritePlan(plan, folder_ / "plan.json");
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("possibility_program_" + std::to_string(::getpid()));
   const fs::path scenario_file_ =
       fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/scenarios/three_routes_b.yaml";
 };

@@ -4,12 +4,12 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "experiments/merge.h"
 #include "experiments/shard.h"
 #include "models/input_error.h"
+#include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_records.h"
 
 namespace possibility::experiments {
@@ -17,13 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::FailedRecord;
+using testing::ReadText;
 using testing::SampleRecord;
-
-std::string ReadText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::string ErrorOf(const std::function<void()>& call) {
   try {

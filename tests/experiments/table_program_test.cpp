@@ -1,46 +1,38 @@
 // Table, sweep and merge of the built program, killed and resumed.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "experiments/results_file.h"
+#include "tests/experiments/program_run.h"
+#include "tests/experiments/read_text.h"
 
 namespace possibility::experiments {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ProgramRun;
+using testing::ReadText;
 
-std::string ReadText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-/// The program in a folder of its own, with small scenarios that are planned in a moment.
-class ExperimentProgram : public ::testing::Test {
+/// With small scenarios that are planned in a moment.
+class ExperimentProgram : public ProgramRun {
  protected:
   void SetUp() override {
-    fs::remove_all(folder_);
+    ProgramRun::SetUp();
     fs::create_directories(folder_ / "scenarios");
     WriteScenario("three_routes_a", "");
     WriteScenario("closed_room",
                   "    - {name: wall, shape: box, size: [0.2, 4, 2.2], position: [2, 0, 1.1]}\n",
                   "2.8");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   /// A few steps across a floor, or not.
   void WriteScenario(const std::string& name, const std::string& obstacles,
@@ -58,39 +50,6 @@ class ExperimentProgram : public ::testing::Test {
         << obstacles;
   }
 
-  /// Starts the program with its output in files.
-  pid_t Start(std::vector<std::string> arguments) const {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    std::vector<char*> words;
-    arguments.insert(arguments.begin(), POSSIBILITY_PROGRAM);
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
-    for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT"}) ::unsetenv(name);
-    const bool is_ready = ::chdir(folder_.c_str()) == 0 &&
-                          std::freopen("stdout.txt", "w", stdout) != nullptr &&
-                          std::freopen("stderr.txt", "w", stderr) != nullptr;
-    if (is_ready) ::execv(POSSIBILITY_PROGRAM, words.data());
-    ::_exit(99);
-  }
-
-  /// Exit code, or -1 if it was killed.
-  static int Wait(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  int Run(const std::string& line) const {
-    std::istringstream words(line);
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
-    return Wait(Start(arguments));
-  }
-
-  std::string Output() const { return ReadText(folder_ / "stdout.txt"); }
-  std::string Errors() const { return ReadText(folder_ / "stderr.txt"); }
-
   /// The records of a finished run without what may differ between runs.
   std::vector<std::string> Facts(const fs::path& folder) const {
     std::vector<std::string> lines;
@@ -105,9 +64,7 @@ class ExperimentProgram : public ::testing::Test {
   /// Runs a table to its end, killing it `kills` times on the way, at random moments.
   void RunKilled(const std::string& table, const fs::path& out, int kills, int longest_ms) const {
     std::mt19937 random(static_cast<unsigned>(kills));
-    std::istringstream words(table + " --out " + out.string());
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
+    const std::string arguments = table + " --out " + out.string();
     int killed = 0;
     for (int i = 0; i < kills; ++i) {
       const pid_t child = Start(arguments);
@@ -117,18 +74,16 @@ class ExperimentProgram : public ::testing::Test {
       if (Wait(child) == -1) ++killed;
     }
     EXPECT_GT(killed, 0);
-    ASSERT_EQ(Wait(Start(arguments)), 0) << Errors();
+    ASSERT_EQ(Run(arguments).code, 0) << Errors();
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("possibility_experiment_" + std::to_string(::getpid()));
   const std::string table_ = "table --scenarios scenarios --scenario three_routes_a_1 ";
 };
 using ExperimentProgramLong = ExperimentProgram;
 
 TEST_F(ExperimentProgram, ATableThatIsKilledAndResumedEndsLikeAnUndisturbedOne) {
   const std::string table = table_ + "--trials 5 --threads 2";
-  ASSERT_EQ(Run(table + " --out whole"), 0) << Errors();
+  ASSERT_EQ(Run(table + " --out whole").code, 0) << Errors();
   RunKilled(table, "killed", 4, 300);
   EXPECT_EQ(Facts("killed"), Facts("whole"));
   ASSERT_EQ(Facts("whole").size(), 5u);
@@ -141,33 +96,33 @@ TEST_F(ExperimentProgram, ATableThatIsKilledAndResumedEndsLikeAnUndisturbedOne) 
 
 TEST_F(ExperimentProgramLong, TwentyKillsLeaveNoTrace) {
   const std::string table = table_ + "--trials 20 --preset both --threads 2";
-  ASSERT_EQ(Run(table + " --out whole"), 0) << Errors();
+  ASSERT_EQ(Run(table + " --out whole").code, 0) << Errors();
   RunKilled(table, "killed", 20, 1200);
   EXPECT_EQ(Facts("killed"), Facts("whole"));
 }
 
 TEST_F(ExperimentProgram, AFinishedTableIsNotMeasuredAgainAndMayGrow) {
-  ASSERT_EQ(Run(table_ + "--trials 1 --out t"), 0) << Errors();
+  ASSERT_EQ(Run(table_ + "--trials 1 --out t").code, 0) << Errors();
   const std::string before = ReadText(folder_ / "t/results.jsonl");
-  ASSERT_EQ(Run(table_ + "--trials 1 --out t --json"), 0) << Errors();
+  ASSERT_EQ(Run(table_ + "--trials 1 --out t --json").code, 0) << Errors();
   EXPECT_EQ(ReadText(folder_ / "t/results.jsonl"), before);
   EXPECT_EQ(nlohmann::ordered_json::parse(Output()),
             nlohmann::ordered_json::parse(ReadText(folder_ / "t/summary.json")));
-  ASSERT_EQ(Run(table_ + "--trials 2 --out t"), 0) << Errors();
+  ASSERT_EQ(Run(table_ + "--trials 2 --out t").code, 0) << Errors();
   EXPECT_EQ(ReadText(folder_ / "t/results.jsonl").rfind(before, 0), 0u);
   EXPECT_EQ(Facts("t").size(), 2u);
 }
 
 TEST_F(ExperimentProgram, ShardsMergeToWhatOneRunGives) {
-  ASSERT_EQ(Run(table_ + "--trials 5 --out whole"), 0) << Errors();
+  ASSERT_EQ(Run(table_ + "--trials 5 --out whole").code, 0) << Errors();
   for (const char* shard : {"0/2", "1/2"}) {
-    ASSERT_EQ(Run(table_ + "--trials 5 --shard " + shard + " --out part" + shard[0]), 0)
+    ASSERT_EQ(Run(table_ + "--trials 5 --shard " + shard + " --out part" + shard[0]).code, 0)
         << Errors();
   }
   EXPECT_EQ(Facts("part0").size() + Facts("part1").size(), 5u);
-  ASSERT_EQ(Run("merge part1 part0 --out merged"), 0) << Errors();
+  ASSERT_EQ(Run("merge part1 part0 --out merged").code, 0) << Errors();
   EXPECT_EQ(Facts("merged"), Facts("whole"));
-  ASSERT_EQ(Run("merge part0 --out merged"), 0) << "again is no harm";
+  ASSERT_EQ(Run("merge part0 --out merged").code, 0) << "again is no harm";
   EXPECT_EQ(Facts("merged"), Facts("whole"));
   for (const char* name : {"table.md", "report.html", "summary.json", "success.svg",
                            "plans/three_routes_a_1_default.svg"}) {
@@ -176,22 +131,23 @@ TEST_F(ExperimentProgram, ShardsMergeToWhatOneRunGives) {
 }
 
 TEST_F(ExperimentProgram, ResultsOfOtherScenariosOrSettingsAreNotMixed) {
-  ASSERT_EQ(Run(table_ + "--trials 1 --out t"), 0) << Errors();
+  ASSERT_EQ(Run(table_ + "--trials 1 --out t").code, 0) << Errors();
   const std::string before = ReadText(folder_ / "t/results.jsonl");
-  EXPECT_EQ(Run(table_ + "--trials 2 --out t --time-limit 20"), 1);
+  EXPECT_EQ(Run(table_ + "--trials 2 --out t --time-limit 20").code, 1);
   EXPECT_NE(Errors().find("results.jsonl:1: row 'three_routes_a_1' comes from other settings"),
             std::string::npos)
       << Errors();
   WriteScenario("three_routes_a", "", "1.6");
-  EXPECT_EQ(Run(table_ + "--trials 2 --out t"), 1);
+  EXPECT_EQ(Run(table_ + "--trials 2 --out t").code, 1);
   EXPECT_NE(Errors().find("another scenario"), std::string::npos) << Errors();
   EXPECT_EQ(ReadText(folder_ / "t/results.jsonl"), before);
-  ASSERT_EQ(Run(table_ + "--trials 1 --out other"), 0) << Errors();
-  EXPECT_EQ(Run("merge t other --out merged"), 1);
+  ASSERT_EQ(Run(table_ + "--trials 1 --out other").code, 0) << Errors();
+  EXPECT_EQ(Run("merge t other --out merged").code, 1);
 }
 
 TEST_F(ExperimentProgram, ATwinIsAnsweredNo) {
-  ASSERT_EQ(Run("table --scenarios scenarios --scenario closed_room --trials 2 --out t --json"), 0)
+  ASSERT_EQ(
+      Run("table --scenarios scenarios --scenario closed_room --trials 2 --out t --json").code, 0)
       << Errors();
   const auto json = nlohmann::ordered_json::parse(Output());
   EXPECT_TRUE(json["rows"].empty());
@@ -213,21 +169,21 @@ TEST_F(ExperimentProgram, ASweepIsResumedShardedAndMerged) {
          "    - posts: {count: 5, x: [0, 5], y: [-2, 2], size: [0.05, 0.1], height: 1, clear: "
          "[[1.2, 0, 1], [2, 0, 1], [2.8, 0, 1]]}\n";
   const std::string sweep = "sweep length.yaml --parameter length --values 0.3:0.6:0.3 --trials 2 ";
-  ASSERT_EQ(Run(sweep + "--out whole --json"), 0) << Errors();
+  ASSERT_EQ(Run(sweep + "--out whole --json").code, 0) << Errors();
   const auto json = nlohmann::ordered_json::parse(Output());
   ASSERT_EQ(json["rows"].size(), 2u);
   EXPECT_LT(json["rows"][0]["length_m"]["median"].get<double>(),
             json["rows"][1]["length_m"]["median"].get<double>());
   const std::string before = ReadText(folder_ / "whole/results.jsonl");
-  ASSERT_EQ(Run(sweep + "--out whole"), 0) << Errors();
+  ASSERT_EQ(Run(sweep + "--out whole").code, 0) << Errors();
   EXPECT_EQ(ReadText(folder_ / "whole/results.jsonl"), before);
-  ASSERT_EQ(Run(sweep + "--out p0 --shard 0/3"), 0) << Errors();
-  ASSERT_EQ(Run(sweep + "--out p1 --shard 1/3"), 0) << Errors();
-  ASSERT_EQ(Run(sweep + "--out p2 --shard 2/3"), 0) << Errors();
-  ASSERT_EQ(Run("merge p0 p1 p2 --out merged"), 0) << Errors();
+  ASSERT_EQ(Run(sweep + "--out p0 --shard 0/3").code, 0) << Errors();
+  ASSERT_EQ(Run(sweep + "--out p1 --shard 1/3").code, 0) << Errors();
+  ASSERT_EQ(Run(sweep + "--out p2 --shard 2/3").code, 0) << Errors();
+  ASSERT_EQ(Run("merge p0 p1 p2 --out merged").code, 0) << Errors();
   EXPECT_EQ(Facts("merged"), Facts("whole"));
   EXPECT_TRUE(fs::exists(folder_ / "merged/sweep.csv"));
-  EXPECT_EQ(Run("table --scenarios scenarios --scenario three_routes_a_1 --out whole"), 1);
+  EXPECT_EQ(Run("table --scenarios scenarios --scenario three_routes_a_1 --out whole").code, 1);
   EXPECT_NE(Errors().find("another experiment"), std::string::npos) << Errors();
 }
 
@@ -268,19 +224,21 @@ TEST_F(ExperimentProgram, WrongInputsGiveOneLineAndExitCode1) {
       "plan scenarios/three_routes_a.yaml --preset both",
   };
   for (const std::string& arguments : cases) {
-    EXPECT_EQ(Run(arguments), 1) << arguments << "\n" << Errors();
-    const std::string errors = Errors();
-    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << arguments << "\n" << errors;
-    EXPECT_EQ(Output(), "") << arguments;
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << "\n"
+                                                                           << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
   }
 }
 
 TEST_F(ExperimentProgram, PlanKnowsThePresets) {
-  ASSERT_EQ(Run("plan scenarios/three_routes_a.yaml --preset paper --threads 1 --out paper --json"),
-            0)
+  ASSERT_EQ(
+      Run("plan scenarios/three_routes_a.yaml --preset paper --threads 1 --out paper --json").code,
+      0)
       << Errors();
   const auto paper = nlohmann::ordered_json::parse(Output());
-  ASSERT_EQ(Run("plan scenarios/three_routes_a.yaml --threads 1 --out default --json"), 0);
+  ASSERT_EQ(Run("plan scenarios/three_routes_a.yaml --threads 1 --out default --json").code, 0);
   const auto best = nlohmann::ordered_json::parse(Output());
   // What is found is refined only by the default planner.
   EXPECT_LT(best["plan_duration_s"].get<double>(), paper["plan_duration_s"].get<double>());

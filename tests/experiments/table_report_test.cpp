@@ -14,6 +14,7 @@
 #include "experiments/table_rows.h"
 #include "experiments/text_table.h"
 #include "experiments/trial_run.h"
+#include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_plan.h"
 #include "tests/experiments/sample_records.h"
 #include "tests/experiments/well_formed.h"
@@ -24,14 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::FailedRecord;
 using testing::IsWellFormed;
+using testing::ReadText;
 using testing::SampleRecord;
 using testing::SweepRecord;
-
-std::string ReadText(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// Two presets of one row of the paper, four trials each, one of them without a plan; a twin.
 TableReport SampleReport() {

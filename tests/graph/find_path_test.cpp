@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/graph/path_checks.h"
 #include "tests/graph/scripted_job.h"
 #include "tests/graph/stick_figure.h"
 
@@ -16,6 +17,9 @@ namespace {
 
 using test::BandAction;
 using test::Ending;
+using test::ExpectPath;
+using test::ExpectSamePath;
+using test::ExpectSameResult;
 using test::Goal;
 using test::Interval;
 using test::MakeCrawl;
@@ -31,15 +35,9 @@ const test::Room kRoom;
 void ExpectValidPath(const PathResult& result, const Point& start, const std::vector<Point>& goals,
                      const Actions& actions) {
   ASSERT_EQ(result.status, PathStatus::kFound);
-  ASSERT_FALSE(result.path.empty());
-  EXPECT_EQ(result.path.front().points.from, start);
-  EXPECT_EQ(result.path.back().points.to, goals.at(result.goal));
-  for (std::size_t i = 0; i < result.path.size(); ++i) {
-    const PathEdge& edge = result.path[i];
+  ExpectPath(result, start, goals.at(result.goal));
+  for (const PathEdge& edge : result.path) {
     EXPECT_TRUE(actions[edge.action]->CS(edge.points));
-    if (i > 0) {
-      EXPECT_EQ(edge.points.from, result.path[i - 1].points.to);
-    }
   }
 }
 
@@ -141,21 +139,7 @@ TEST(StickFigure, TheSameSeedGivesTheSameResult) {
   };
   const PathResult a = run(3);
   const PathResult b = run(3);
-  ASSERT_EQ(a.graph.vertices.size(), b.graph.vertices.size());
-  for (std::size_t i = 0; i < a.graph.vertices.size(); ++i) {
-    EXPECT_EQ(a.graph.vertices[i], b.graph.vertices[i]);
-  }
-  ASSERT_EQ(a.graph.edges.size(), b.graph.edges.size());
-  for (std::size_t i = 0; i < a.graph.edges.size(); ++i) {
-    EXPECT_EQ(a.graph.edges[i].from, b.graph.edges[i].from);
-    EXPECT_EQ(a.graph.edges[i].to, b.graph.edges[i].to);
-    EXPECT_EQ(a.graph.edges[i].action, b.graph.edges[i].action);
-  }
-  ASSERT_EQ(a.path.size(), b.path.size());
-  for (std::size_t i = 0; i < a.path.size(); ++i) {
-    EXPECT_EQ(a.path[i].points.to, b.path[i].points.to);
-  }
-  EXPECT_EQ(a.counters, b.counters);
+  ExpectSameResult(a, b);
   EXPECT_NE(a.graph.vertices.size(), run(4).graph.vertices.size());
 }
 
@@ -467,10 +451,7 @@ TEST(FindPath, JobsWithoutThreadsAreReproducible) {
   ASSERT_EQ(a.status, PathStatus::kFound);
   EXPECT_EQ(a.counters, b.counters);
   EXPECT_GT(a.counters.at("jobs refuted"), 0);
-  ASSERT_EQ(a.path.size(), b.path.size());
-  for (std::size_t i = 0; i < a.path.size(); ++i) {
-    EXPECT_EQ(a.path[i].points.to, b.path[i].points.to);
-  }
+  ExpectSamePath(a, b);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "graph/find_path.h"
 #include "graph/nonholonomic_exploration.h"
 #include "graph/random.h"
+#include "tests/graph/path_checks.h"
 #include "tests/graph/scripted_job.h"
 #include "tests/graph/stick_figure.h"
 #include "tests/graph/stick_jump.h"
@@ -20,6 +21,8 @@ namespace {
 
 using test::BandAction;
 using test::Ending;
+using test::ExpectPath;
+using test::ExpectSameResult;
 using test::Goal;
 using test::Interval;
 using test::JumpAction;
@@ -84,16 +87,9 @@ bool IsConfirmed(const PathResult& result, const PointPair& edge) {
 
 void ExpectPlanWithJump(const PathResult& result, const Point& start, const Point& goal,
                         const World& world) {
-  ASSERT_EQ(result.status, PathStatus::kFound);
-  ASSERT_FALSE(result.path.empty());
-  EXPECT_EQ(result.path.front().points.from, start);
-  EXPECT_EQ(result.path.back().points.to, goal);
+  ExpectPath(result, start, goal);
   int jumps = 0;
-  for (std::size_t i = 0; i < result.path.size(); ++i) {
-    const PathEdge& edge = result.path[i];
-    if (i > 0) {
-      EXPECT_EQ(edge.points.from, result.path[i - 1].points.to);
-    }
+  for (const PathEdge& edge : result.path) {
     if (edge.action == kJump) {
       ++jumps;
       EXPECT_TRUE(world.jump->CN(edge.points));
@@ -245,18 +241,7 @@ TEST(StickFigureJump, TheSameSeedGivesTheSameResult) {
     return FindPath(Start(), {Goal()}, World(kGap).actions(), kRoom, Settings(0, seed));
   };
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const PathResult a = run(seed);
-    const PathResult b = run(seed);
-    EXPECT_EQ(a.counters, b.counters);
-    ASSERT_EQ(a.graph.vertices.size(), b.graph.vertices.size());
-    for (std::size_t i = 0; i < a.graph.vertices.size(); ++i) {
-      EXPECT_EQ(a.graph.vertices[i], b.graph.vertices[i]);
-    }
-    ASSERT_EQ(a.path.size(), b.path.size());
-    for (std::size_t i = 0; i < a.path.size(); ++i) {
-      EXPECT_EQ(a.path[i].action, b.path[i].action);
-      EXPECT_EQ(a.path[i].points.to, b.path[i].points.to);
-    }
+    ExpectSameResult(run(seed), run(seed));
   }
 }
 
