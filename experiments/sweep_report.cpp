@@ -123,7 +123,7 @@ Plot TimePlot(const std::vector<TrialGroup>& groups, const TrialMetric& metric) 
 
 std::vector<Plot> TimePlots(const std::vector<TrialGroup>& groups) {
   std::vector<Plot> plots;
-  for (const char* name : {"graph_s", "motion_s", "preparation_s", "verification_s"}) {
+  for (const char* name : {"graph_s", "motion_s", "preparation_s", "verification_s", "memory_mb"}) {
     plots.push_back(TimePlot(groups, MetricNamed(name)));
   }
   return plots;

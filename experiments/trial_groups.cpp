@@ -18,6 +18,7 @@ const std::vector<TrialMetric>& TrialMetrics() {
       {"confirmation_s", "Confirmation", "s", [](Record r) { return r.timings.confirmation_s; }},
       {"motion_s", "Motion", "s", [](Record r) { return r.timings.motion_s; }},
       {"verification_s", "Verification", "s", [](Record r) { return r.timings.verification_s; }},
+      {"memory_mb", "Memory", "MB", [](Record r) { return r.memory_mb; }},
       {"plan_duration_s", "Plan duration", "s", [](Record r) { return r.plan_duration; }},
       {"real_time_ratio", "Real-time ratio", "",
        [](Record r) { return r.real_time_ratio.value_or(0); }},

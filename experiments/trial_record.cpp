@@ -63,6 +63,7 @@ Json TrialRecord::Json() const {
   json["confirmation_s"] = timings.confirmation_s;
   json["motion_s"] = timings.motion_s;
   json["verification_s"] = timings.verification_s;
+  json["memory_mb"] = memory_mb;
   json["real_time_ratio"] = OrNull(real_time_ratio);
   json["plan_duration_s"] = plan_duration;
   json["length_m"] = length;
@@ -90,6 +91,7 @@ TrialRecord TrialRecord::FromJson(const experiments::Json& json) {
   record.no = Find<std::string>(json, "no").value_or("");
   record.timings = {json.at("preparation_s"), json.at("graph_s"), json.at("confirmation_s"),
                     json.at("motion_s"), json.at("verification_s")};
+  record.memory_mb = json.at("memory_mb");
   record.real_time_ratio = Find<double>(json, "real_time_ratio");
   record.plan_duration = json.at("plan_duration_s");
   record.length = json.at("length_m");

@@ -42,6 +42,7 @@ struct TrialRecord {
   bool verified = false;
   std::string no;  ///< if not: "proven_infeasible", "exhausted" or "time_limit"
   actions::PlanTimings timings;
+  double memory_mb = 0;  ///< the process' peak meanwhile, MB; 0: unknown
   std::optional<double> real_time_ratio;
   std::map<std::string, std::int64_t> counters;
 

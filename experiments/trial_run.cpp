@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "experiments/output_file.h"
+#include "experiments/peak_memory.h"
 #include "experiments/plan_picture.h"
 #include "experiments/plan_summary.h"
 #include "experiments/run_environment.h"
@@ -85,11 +86,14 @@ TrialRecord RunTrial(const TrialTask& task) {
   actions::PlanRequest request = task.request;
   request.seed = task.key.seed;
   request.time_limit = task.time_limit.value_or(scenario->time_limit);
+  const PeakMemory memory;
   const actions::PlanResult result = actions::PlanTraversal(*task.robot, *scenario, request);
   if (!task.picture.empty()) {
     WriteOutput(task.picture, PlanPicture(result.plan, scenario->environment));
   }
-  return RecordOf(task, result);
+  TrialRecord record = RecordOf(task, result);
+  record.memory_mb = memory.megabytes();
+  return record;
 }
 
 void RunTrials(const std::vector<TrialTask>& tasks, int threads, ResultsFile* results,

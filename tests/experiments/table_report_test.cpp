@@ -93,7 +93,7 @@ TEST(TableReportTest, SummaryHoldsEveryFigureOfRowAndPreset) {
   EXPECT_EQ(row["paper"]["graph_s"]["std"], 11.52);
   for (const char* key :
        {"graph_s", "motion_s", "confirmation_s", "plan_duration_s", "real_time_ratio",
-        "verification_s", "preparation_s", "length_m", "speed_m_s"}) {
+        "verification_s", "memory_mb", "preparation_s", "length_m", "speed_m_s"}) {
     for (const char* part : {"mean", "std", "median", "p95", "max"}) {
       EXPECT_TRUE(row[key][part].is_number()) << key << ' ' << part;
     }

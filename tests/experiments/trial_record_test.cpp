@@ -27,8 +27,9 @@ TEST(TrialRecord, ReadsBackToTheSame) {
 
 TEST(TrialRecord, ATableRecordHasEveryTiming) {
   const auto json = SampleRecord("a", "paper", 7).Json();
-  for (const char* key : {"preparation_s", "graph_s", "confirmation_s", "motion_s",
-                          "verification_s", "plan_duration_s", "real_time_ratio", "length_m"}) {
+  for (const char* key :
+       {"preparation_s", "graph_s", "confirmation_s", "motion_s", "verification_s", "memory_mb",
+        "plan_duration_s", "real_time_ratio", "length_m"}) {
     EXPECT_TRUE(json.at(key).is_number()) << key;
   }
   EXPECT_NEAR(json["speed_m_s"].get<double>(), 7.0 / 300, 1e-12);
