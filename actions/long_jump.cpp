@@ -1,17 +1,12 @@
 #include "actions/long_jump.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <condition_variable>
-#include <exception>
-#include <functional>
-#include <thread>
 
 #include "actions/exploration_pose.h"
 #include "actions/jump_reach.h"
+#include "actions/shared_jump_solve.h"
 #include "actions/stance_motion.h"
-#include "collocation/solve_control.h"
 
 namespace possibility::actions {
 namespace {
@@ -50,69 +45,6 @@ std::vector<double> RisesOf(const std::vector<double>& levels) {
 
 }  // namespace
 
-/// The answer to one task, for all jobs that want it. Jobs come and go with the edges that the
-/// search takes an interest in; what is solved so far must not go with them. Works only while some
-/// job asks for it.
-class LongJump::SharedSolve {
- public:
-  SharedSolve(JumpLibrary* library, const JumpTask& task) : task_(task), library_(library) {
-    solve_.Pause();
-    worker_ = std::jthread([this] { Work(); });
-  }
-  ~SharedSolve() { solve_.Cancel(); }
-
-  const JumpTask& task() const { return task_; }
-
-  /// One job more, or one less, wants it now.
-  void Want(int change) {
-    const std::lock_guard lock(mutex_);
-    wanted_ += change;
-    if (wanted_ > 0) {
-      solve_.Resume();
-    } else {
-      solve_.Pause();
-    }
-  }
-
-  /// Waits for the answer; none if `gave_up`, which Wake announces, became true.
-  std::optional<JumpAnswer> Wait(const std::atomic<bool>& gave_up) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return answer_.has_value() || error_ || gave_up; });
-    if (error_ && !gave_up) std::rethrow_exception(error_);
-    return gave_up ? std::nullopt : answer_;
-  }
-  void Wake() {
-    const std::lock_guard lock(mutex_);
-    changed_.notify_all();
-  }
-
- private:
-  void Work() {
-    solve_.WaitWhilePaused();
-    std::optional<JumpAnswer> answer;
-    std::exception_ptr error;
-    try {
-      answer = library_->FindOrSolve(task_, &solve_);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex_);
-    answer_ = std::move(answer);
-    error_ = error;
-    changed_.notify_all();
-  }
-
-  JumpTask task_;
-  JumpLibrary* library_;
-  collocation::SolveControl solve_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int wanted_ = 0;
-  std::optional<JumpAnswer> answer_;
-  std::exception_ptr error_;
-  std::jthread worker_;
-};
-
 LongJump::~LongJump() = default;
 
 /// Solves the jump unless it is known, then looks for collisions where it is to happen.
@@ -122,7 +54,7 @@ class LongJump::Job : public graph::ConfirmationJob {
       : action_(action), edge_(std::move(edge)), leap_(leap) {}
 
   graph::JobVerdict Run(graph::JobControl* control) override {
-    const std::optional<JumpAnswer> answer = Solve(control);
+    const std::optional<JumpAnswer> answer = action_.SolveOf(leap_.task)->Await(control);
     if (!answer || answer->cancelled) return graph::JobVerdict::kUndecided;
     if (answer->jump) return Place(answer->jump, control);
     action_.RecordImpossible(leap_.task);
@@ -132,34 +64,6 @@ class LongJump::Job : public graph::ConfirmationJob {
   std::string reason() const override { return reason_; }
 
  private:
-  std::optional<JumpAnswer> Solve(graph::JobControl* control) {
-    const std::shared_ptr<SharedSolve> solve = action_.SolveOf(leap_.task);
-    std::atomic<bool> gave_up = false;
-    std::optional<JumpAnswer> answer;
-    std::mutex mutex;
-    bool wants = false;
-    // Pauses and their ends may come in any number and order.
-    const auto want = [&](bool wish) {
-      const std::lock_guard lock(mutex);
-      if (wants != wish) solve->Want(wish ? 1 : -1);
-      wants = wish;
-    };
-    struct Farewell {
-      std::function<void()> leave;
-      ~Farewell() { leave(); }
-    } farewell{[&] { want(false); }};
-    want(true);
-    const bool go_on = control->RunSteered({.pause = [&] { want(false); },
-                                            .resume = [&] { want(true); },
-                                            .cancel =
-                                                [&] {
-                                                  gave_up = true;
-                                                  solve->Wake();
-                                                }},
-                                           [&] { answer = solve->Wait(gave_up); });
-    return go_on ? answer : std::nullopt;
-  }
-
   graph::JobVerdict Place(std::shared_ptr<const SolvedJump> jump, graph::JobControl* control) {
     const Solved solved = action_.Examined(std::move(jump));
     if (!solved.hit.empty()) {
@@ -437,12 +341,12 @@ bool LongJump::IsImpossible(const JumpTask& task) const {
                      [&](const JumpTask& other) { return SameTask(task, other); });
 }
 
-std::shared_ptr<LongJump::SharedSolve> LongJump::SolveOf(const JumpTask& task) const {
+std::shared_ptr<SharedJumpSolve> LongJump::SolveOf(const JumpTask& task) const {
   const std::lock_guard lock(mutex_);
   for (const auto& solve : solves_) {
     if (SameTask(solve->task(), task)) return solve;
   }
-  return solves_.emplace_back(std::make_shared<SharedSolve>(library_.get(), task));
+  return solves_.emplace_back(std::make_shared<SharedJumpSolve>(library_.get(), task));
 }
 
 LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) const {

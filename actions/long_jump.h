@@ -14,6 +14,8 @@
 
 namespace possibility::actions {
 
+class SharedJumpSolve;
+
 /// The standing long jump (paper, section "Standing Long Jump"): nonholonomic, from a stance of
 /// one gait straight ahead into a stance of another, by distances on the jump library's grid. Its
 /// necessary conditions are those of the paper; what they leave open costs a confirmation job. One
@@ -65,7 +67,6 @@ class LongJump : public Manoeuvre {
 
  private:
   class Job;
-  class SharedSolve;
 
   /// An edge, understood.
   struct Leap {
@@ -96,7 +97,7 @@ class LongJump : public Manoeuvre {
     std::shared_ptr<const MotionPoses> poses;
     std::string hit;
   };
-  std::shared_ptr<SharedSolve> SolveOf(const JumpTask& task) const;
+  std::shared_ptr<SharedJumpSolve> SolveOf(const JumpTask& task) const;
   Solved Examined(std::shared_ptr<const SolvedJump> jump) const;
 
   std::unique_ptr<JumpSolver> solver_;
@@ -113,7 +114,7 @@ class LongJump : public Manoeuvre {
   mutable std::mutex mutex_;
   mutable std::vector<JumpTask> impossible_;
   mutable std::vector<Solved> solved_;
-  mutable std::vector<std::shared_ptr<SharedSolve>> solves_;
+  mutable std::vector<std::shared_ptr<SharedJumpSolve>> solves_;
 };
 
 /// How the planner comes by the jumps of a robot's file.

@@ -12,17 +12,11 @@
 #include <vector>
 
 #include "graph/confirmation_job.h"
-#include "graph/confirmation_report.h"
 #include "graph/deadline.h"
+#include "graph/job_rotation.h"
+#include "graph/queued_job.h"
 
 namespace possibility::graph {
-
-struct JobResult {
-  int tag = 0;  ///< as given to Insert
-  JobOutcome outcome = JobOutcome::kFailed;
-  std::string reason;  ///< as in ConfirmationReport
-  double seconds = 0;  ///< time it ran, pauses left out
-};
 
 /// Q_Confirmation: runs jobs in rotation, a slice of time each, so that easy ones finish promptly
 /// and difficult ones hold up nobody. Every job that has begun has a thread; the queue pauses and
@@ -38,14 +32,7 @@ struct JobResult {
 /// All functions are called from one thread.
 class ConfirmationQueue {
  public:
-  struct Settings {
-    std::chrono::milliseconds slice{40};
-    int slices_per_turn = 75;
-    int rotating_jobs_per_worker = 2;
-    int slices_per_fair_slice = 8;
-    int max_threads = 32;        ///< jobs begun and not ended; the slowest gives way to new ones
-    double job_time_limit = 30;  ///< s of its own time, after which a job has failed
-  };
+  using Settings = RotationSettings;
 
   ConfirmationQueue();
   /// @throws std::invalid_argument unless every setting is positive.
@@ -83,50 +70,18 @@ class ConfirmationQueue {
   void CancelAll(const std::string& reason);
 
  private:
-  using Clock = std::chrono::steady_clock;
-  enum class State { kWaiting, kRunning, kPausing, kPaused, kEnded };
-
-  /// A verdict of the queue that overrules whatever the job may still say.
-  struct Overruling {
-    JobOutcome outcome = JobOutcome::kCancelled;
-    std::string reason;
-  };
-
-  struct Entry {
-    Entry(ConfirmationQueue* queue, int tag, std::unique_ptr<ConfirmationJob> job, double cost);
-
-    int tag;
-    double cost;
-    std::unique_ptr<ConfirmationJob> job;
-    JobControl control;
-    State state = State::kWaiting;
-    std::optional<Overruling> overruling;
-    JobResult result;
-    std::int64_t slices = 0;
-    double seconds = 0;
-    std::int64_t last_served = 0;  ///< when it was inserted or last ran, on the clock of grants
-    Clock::time_point slice_begin;
-    std::thread thread;
-  };
-
-  void RunJob(Entry* entry);
-  void OnHeld(Entry* entry);
+  void RunJob(QueuedJob* job);
+  void OnHeld(QueuedJob* job);
   // The rest is called under mutex_.
   void Dispatch(const std::stop_token& stop, std::unique_lock<std::mutex>* lock);
   void EndSlices();
-  void EndSlice(Entry* entry);
+  void EndSlice(QueuedJob* job);
   void GrantPermits();
-  bool Grant(Entry* entry);
-  void AddUp(Entry* entry);
-  void Overrule(Entry* entry, JobOutcome outcome, const std::string& reason);
+  bool Grant(QueuedJob* job);
   void Reap();
-  void MakeRoom();
-  Entry* PickNext(int num_rotating);
-  std::vector<Entry*> Ranked() const;
-  static bool HasThread(const Entry& entry);
-  int NumWithState(State a, State b) const;
-  std::optional<Clock::time_point> NextSliceEnd() const;
-  Entry* Find(int tag) const;
+  int NumWithState(QueuedJob::State a, QueuedJob::State b) const;
+  std::optional<QueuedJob::Clock::time_point> NextSliceEnd() const;
+  QueuedJob* Find(int tag) const;
   void Notify();
 
   Settings settings_;
@@ -139,7 +94,7 @@ class ConfirmationQueue {
   bool news_ = false;
   int workers_ = 0;
   std::int64_t grants_ = 0;
-  std::vector<std::unique_ptr<Entry>> entries_;
+  std::vector<std::unique_ptr<QueuedJob>> jobs_;
   std::vector<JobResult> finished_;
 
   std::jthread dispatcher_;

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 #include "collocation/optimal_control.h"
+#include "tests/message_of.h"
 
 namespace possibility::collocation {
 namespace {
@@ -29,17 +29,8 @@ bool Contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-std::string Refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "not refused";
-}
-
 std::string Refusal(const OptimalControlProblem& problem) {
-  return Refusal([&] { SolveOptimalControl(problem); });
+  return MessageOf([&] { SolveOptimalControl(problem); });
 }
 
 TEST(Culprits, InfeasibleNamesTheWorstConstraintItsKnotAndHowFar) {
@@ -166,18 +157,18 @@ TEST(Culprits, AGuessThatIsNoNumberNamesItsKnot) {
 TEST(Culprits, PhasesWithoutLength) {
   Mass mass;
   EXPECT_EQ(Refusal(mass.problem), "mass: phase 'lift': no duration was set");
-  EXPECT_EQ(Refusal([&] { mass.phase.SetDuration(0); }),
+  EXPECT_EQ(MessageOf([&] { mass.phase.SetDuration(0); }),
             "mass: phase 'lift': expected a duration within finite bounds above 0, got [0, 0]");
-  EXPECT_EQ(Refusal([&] {
+  EXPECT_EQ(MessageOf([&] {
               mass.phase.SetDuration({0, 1});
             }),
             "mass: phase 'lift': expected a duration within finite bounds above 0, got [0, 1]");
-  EXPECT_EQ(Refusal([&] { mass.phase.SetDuration(std::nan("")); }),
+  EXPECT_EQ(MessageOf([&] { mass.phase.SetDuration(std::nan("")); }),
             "mass: phase 'lift': expected a duration within finite bounds above 0, got [nan, nan]");
   mass.phase.SetDuration(1);
   OptimalControlOptions options;
   options.meshes = {{0, 0.5, 0.5, 1}};
-  EXPECT_EQ(Refusal([&] { SolveOptimalControl(mass.problem, options); }),
+  EXPECT_EQ(MessageOf([&] { SolveOptimalControl(mass.problem, options); }),
             "mass: phase 'lift': the mesh must ascend from 0 to 1");
 }
 
@@ -187,12 +178,12 @@ TEST(Culprits, ContradictoryBounds) {
   mass.phase.Fix(mass.u, 2, At::kEnd);
   EXPECT_EQ(Refusal(mass.problem),
             "mass: lift, knot 20 (t = 1 of the duration): force: contradictory bounds [2, 1]");
-  EXPECT_EQ(Refusal([&] {
+  EXPECT_EQ(MessageOf([&] {
               mass.phase.Constrain("narrow", Differentiated<1, 1>([](const auto&, auto*) {}),
                                    {mass.q}, {{1, -1}});
             }),
             "mass: phase 'lift': 'narrow': contradictory bounds [1, -1]");
-  EXPECT_EQ(Refusal([&] {
+  EXPECT_EQ(MessageOf([&] {
               mass.problem.AddParameter("gain", {std::nan(""), 1});
             }),
             "mass: parameter 'gain': contradictory bounds [nan, 1]");
@@ -225,10 +216,10 @@ TEST(Culprits, MeshesThatDoNotFit) {
   mass.phase.SetDuration(1);
   OptimalControlOptions options;
   options.intervals = {3, 4};
-  EXPECT_EQ(Refusal([&] { SolveOptimalControl(mass.problem, options); }),
+  EXPECT_EQ(MessageOf([&] { SolveOptimalControl(mass.problem, options); }),
             "mass: 2 numbers of intervals for 1 phases");
   options.intervals = {0};
-  EXPECT_EQ(Refusal([&] { SolveOptimalControl(mass.problem, options); }),
+  EXPECT_EQ(MessageOf([&] { SolveOptimalControl(mass.problem, options); }),
             "a mesh has 0 intervals, expected 1 or more");
 }
 

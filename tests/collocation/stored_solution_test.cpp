@@ -12,6 +12,7 @@
 #include "collocation/optimal_control.h"
 #include "models/input_error.h"
 #include "tests/collocation/neighbouring_problems.h"
+#include "tests/message_of.h"
 #include "tests/models/temporary_folder.h"
 
 namespace possibility::collocation {
@@ -156,12 +157,7 @@ TEST(StoredSolution, MultipliersAreCostatesInTheProblemsUnits) {
 }
 
 std::string Difference(const OptimalControlProblem& problem, const StoredSolution& solution) {
-  try {
-    SolveOptimalControl(problem, solution);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no difference";
+  return MessageOf([&] { SolveOptimalControl(problem, solution); });
 }
 
 TEST(StoredSolution, OfAnotherProblemIsRefusedByTheFirstDifference) {

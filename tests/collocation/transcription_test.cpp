@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/dynamics/richardson.h"
+#include "tests/message_of.h"
 
 namespace possibility::collocation {
 namespace {
@@ -194,48 +195,39 @@ TEST(TranscriptionTest, NamesSayWhereAndWhat) {
   EXPECT_EQ(program.ConstraintName(program.num_constraints() - 1), "jump[1]");
 }
 
-std::string Message(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no exception";
-}
-
 TEST(TranscriptionTest, SaysWhatContradictsItself) {
   const auto transcribe = [](const OptimalControlProblem& problem) {
     Transcription(problem, HermiteSimpson(), {UniformMesh(2)});
   };
   OptimalControlProblem problem("task");
-  EXPECT_EQ(Message([&] { transcribe(problem); }), "task: the problem has no phase");
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }), "task: the problem has no phase");
   Phase& phase = problem.AddPhase("go");
-  EXPECT_EQ(Message([&] { transcribe(problem); }),
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }),
             "task: phase 'go': the phase has no coordinates");
   const Variable x = phase.AddCoordinate("x", {0, 1});
-  EXPECT_EQ(Message([&] { transcribe(problem); }), "task: phase 'go': no duration was set");
-  EXPECT_EQ(Message([&] { phase.SetDuration(0); }),
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }), "task: phase 'go': no duration was set");
+  EXPECT_EQ(MessageOf([&] { phase.SetDuration(0); }),
             "task: phase 'go': expected a duration within finite bounds above 0, got [0, 0]");
   phase.SetDuration(1);
-  EXPECT_EQ(Message([&] {
+  EXPECT_EQ(MessageOf([&] {
               phase.Bound(x, {2, 1});
             }),
             "task: phase 'go': 'x': contradictory bounds [2, 1]");
-  EXPECT_EQ(Message([&] { phase.Rate(x, 2); }),
+  EXPECT_EQ(MessageOf([&] { phase.Rate(x, 2); }),
             "task: phase 'go': 'x' has no derivative of order 2");
-  EXPECT_EQ(Message([&] {
+  EXPECT_EQ(MessageOf([&] {
               phase.Constrain("c", Differentiated<2, 1>([](const auto&, auto*) {}), {x}, {{0, 0}});
             }),
             "task: phase 'go': 'c' takes 2 arguments, got 1");
   phase.Fix(x, 3, At::kEnd);
-  EXPECT_EQ(Message([&] { transcribe(problem); }),
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }),
             "task: go, knot 2 (t = 1 of the duration): x: contradictory bounds [3, 1]");
-  EXPECT_EQ(Message([&] {
+  EXPECT_EQ(MessageOf([&] {
               Transcription(problem, HermiteSimpson(), {{0, 0.5, 0.5, 1}});
             }),
             "task: phase 'go': the mesh must ascend from 0 to 1");
-  EXPECT_EQ(Message([&] { UniformMesh(0); }), "a mesh has 0 intervals, expected 1 or more");
-  EXPECT_EQ(Message([&] { problem.AddPhase("go"); }), "task: two phases are named 'go'");
+  EXPECT_EQ(MessageOf([&] { UniformMesh(0); }), "a mesh has 0 intervals, expected 1 or more");
+  EXPECT_EQ(MessageOf([&] { problem.AddPhase("go"); }), "task: two phases are named 'go'");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/dynamics/random_robot.h"
+#include "tests/message_of.h"
 
 namespace possibility::dynamics {
 namespace {
@@ -343,18 +344,9 @@ TEST(ImpulseFeasibility, FramesTurnTogether) {
   }
 }
 
-std::string Failure(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(ContactFeasibility, RefusesMalformedArgumentsByName) {
   const auto mentions = [](const std::function<void()>& call, const std::string& word) {
-    return Failure(call).find(word) != std::string::npos;
+    return MessageOf(call).find(word) != std::string::npos;
   };
   MultibodyDynamics block(MultibodyModel::Spatial(Block()));
   block.SetState(VectorXd::Unit(7, 0), VectorXd::Zero(6));

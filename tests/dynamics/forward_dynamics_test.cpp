@@ -4,7 +4,6 @@
 
 #include <Eigen/QR>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 
 #include "dynamics/simbody_dynamics.h"
 #include "tests/dynamics/random_robot.h"
+#include "tests/message_of.h"
 
 namespace possibility::dynamics {
 namespace {
@@ -401,46 +401,39 @@ TEST(ForwardDynamics, NamesTheJointThatMovesNoMass) {
   }
 }
 
-std::string Failure(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(ForwardDynamics, RefusesMalformedArgumentsByName) {
   const auto model = MultibodyModel::Spatial(Body(1, Vector3d(1, 1.5, 2)));
   ForwardDynamics dynamics(model);
   const VectorXd six = VectorXd::Zero(6);
-  EXPECT_NE(Failure([&] { dynamics.Free(six); }).find("SetState"), std::string::npos);
+  EXPECT_NE(MessageOf([&] { dynamics.Free(six); }).find("SetState"), std::string::npos);
   dynamics.SetState(VectorXd::Unit(7, 0), six);
-  EXPECT_NE(Failure([&] { dynamics.Free(VectorXd::Zero(5)); }).find("forces has 5"),
+  EXPECT_NE(MessageOf([&] { dynamics.Free(VectorXd::Zero(5)); }).find("forces has 5"),
             std::string::npos);
-  EXPECT_NE(Failure([&] { dynamics.Free(VectorXd::Constant(6, NAN)); }).find("forces"),
+  EXPECT_NE(MessageOf([&] { dynamics.Free(VectorXd::Constant(6, NAN)); }).find("forces"),
             std::string::npos);
   const ContactPoint good{0, Vector3d::Zero()};
-  EXPECT_NE(Failure([&] {
+  EXPECT_NE(MessageOf([&] {
               dynamics.Hit({good, {3, Vector3d::Zero()}});
             }).find("point 1 is on"),
             std::string::npos);
-  EXPECT_NE(Failure([&] {
+  EXPECT_NE(MessageOf([&] {
               dynamics.Hit({{0, Vector3d(0, kInfinity, 0)}});
             }).find("point 0"),
             std::string::npos);
-  EXPECT_NE(Failure([&] {
+  EXPECT_NE(MessageOf([&] {
               dynamics.Held(six, {{good, Vector3d(NAN, 0, 0)}});
             }).find("anchor"),
             std::string::npos);
-  EXPECT_NE(Failure([&] { ForwardDynamics(model, {0.0}); }).find("drift time"), std::string::npos);
-  EXPECT_NE(Failure([&] { ForwardDynamics(model, {NAN}); }).find("drift time"), std::string::npos);
+  EXPECT_NE(MessageOf([&] { ForwardDynamics(model, {0.0}); }).find("drift time"),
+            std::string::npos);
+  EXPECT_NE(MessageOf([&] { ForwardDynamics(model, {NAN}); }).find("drift time"),
+            std::string::npos);
   VectorXd huge = six;
   huge.head<2>().setConstant(1e200);
-  EXPECT_NE(Failure([&] { dynamics.SetState(VectorXd::Unit(7, 0), huge); }).find("v is so large"),
+  EXPECT_NE(MessageOf([&] { dynamics.SetState(VectorXd::Unit(7, 0), huge); }).find("v is so large"),
             std::string::npos);
   // A failed SetState leaves no state behind.
-  EXPECT_NE(Failure([&] { dynamics.Free(six); }).find("SetState"), std::string::npos);
+  EXPECT_NE(MessageOf([&] { dynamics.Free(six); }).find("SetState"), std::string::npos);
 }
 
 }  // namespace

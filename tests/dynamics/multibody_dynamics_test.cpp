@@ -12,6 +12,7 @@
 #include "dynamics/simbody_dynamics.h"
 #include "tests/dynamics/random_robot.h"
 #include "tests/dynamics/richardson.h"
+#include "tests/message_of.h"
 
 namespace possibility::dynamics {
 namespace {
@@ -405,26 +406,19 @@ TEST(MultibodyDynamicsTest, OneWorkspaceGivesTheSameAfterOtherCalls) {
 TEST(MultibodyDynamicsTest, NamesTheArgumentThatIsBad) {
   const ModelPtr model = MultibodyModel::Spatial(Hubo());
   MultibodyDynamics dynamics(model);
-  const auto message = [](const auto& call) -> std::string {
-    try {
-      call();
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "no exception";
-  };
   VectorXd q = VectorXd::Zero(model->nq());
   q[0] = 1;
   const VectorXd v = VectorXd::Zero(model->nv());
   VectorXd bad = v;
   bad[7] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(message([&] { dynamics.SetState(v, v); }),
+  EXPECT_EQ(MessageOf([&] { dynamics.SetState(v, v); }),
             "MultibodyDynamics: q has 33 elements, expected 34");
-  EXPECT_EQ(message([&] { dynamics.SetState(q, bad); }), "MultibodyDynamics: v is not finite");
+  EXPECT_EQ(MessageOf([&] { dynamics.SetState(q, bad); }), "MultibodyDynamics: v is not finite");
   dynamics.SetState(q, v);
-  EXPECT_EQ(message([&] { dynamics.SetAcceleration(bad); }), "MultibodyDynamics: a is not finite");
-  EXPECT_EQ(message([&] { dynamics.Hessian(bad); }), "MultibodyDynamics: lambda is not finite");
-  EXPECT_EQ(message([&] {
+  EXPECT_EQ(MessageOf([&] { dynamics.SetAcceleration(bad); }),
+            "MultibodyDynamics: a is not finite");
+  EXPECT_EQ(MessageOf([&] { dynamics.Hessian(bad); }), "MultibodyDynamics: lambda is not finite");
+  EXPECT_EQ(MessageOf([&] {
               dynamics.Position({99, Vector3d::Zero()});
             }),
             "MultibodyDynamics: a point names link 99, the robot has 28");

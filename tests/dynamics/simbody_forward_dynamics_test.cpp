@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include "dynamics/simbody_dynamics.h"
 #include "dynamics/tree_kinematics.h"
 #include "tests/dynamics/random_robot.h"
+#include "tests/message_of.h"
 
 namespace possibility::dynamics {
 namespace {
@@ -222,15 +222,6 @@ TEST(SimbodyForwardDynamics, ThreadsDoNotDisturbEachOther) {
   }
   EXPECT_EQ(together[0], alone);
   EXPECT_EQ(together[1], alone);
-}
-
-std::string MessageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(SimbodyForwardDynamics, RefusesWhatDoesNotFit) {

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -50,6 +51,17 @@ class ProgramRun : public ::testing::Test {
   Outcome Run(const std::string& arguments) const {
     const int code = Wait(Start(arguments));
     return {code, Output(), Errors()};
+  }
+
+  /// A run with wrong input: exit code 1 and one line on stderr, which is returned; on stdout
+  /// nothing.
+  std::string ExpectRefused(const std::string& arguments) const {
+    const Outcome outcome = Run(arguments);
+    EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_GT(outcome.err.size(), 10u) << arguments;
+    return outcome.err;
   }
 
   /// Of the last run.

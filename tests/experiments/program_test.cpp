@@ -118,13 +118,7 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "bench",
       "bench collocation --robot no_such_robot.yaml",
   };
-  for (const std::string& arguments : cases) {
-    const Outcome outcome = Run(arguments);
-    EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.err;
-    EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_GT(outcome.err.size(), 10u) << arguments;
-  }
+  for (const std::string& arguments : cases) ExpectRefused(arguments);
 }
 
 TEST_F(Program, JsonErrorsAreOneObject) {
@@ -174,10 +168,8 @@ TEST_F(Program, ViewRefusesWhatIsNeitherPlanNorJump) {
       {". --robot '" + robot + "'", "--robot"},
   };
   for (const auto& [arguments, words] : cases) {
-    const Outcome outcome = Run("view " + arguments + " --out page.html");
-    EXPECT_EQ(outcome.code, 1) << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    const std::string line = ExpectRefused("view " + arguments + " --out page.html");
+    EXPECT_NE(line.find(words), std::string::npos) << line;
     EXPECT_FALSE(fs::exists(folder_ / "page.html")) << arguments;
   }
 }
@@ -190,12 +182,9 @@ TEST_F(Program, ViewNeedsToKnowTheRobotOfAJump) {
   }
   ASSERT_FALSE(jump.empty());
   fs::copy_file(jump, folder_ / "jump.json");
-  for (const char* arguments : {"view jump.json", "view jump.json --robot none.yaml"}) {
-    const Outcome outcome = Run(arguments);
-    EXPECT_EQ(outcome.code, 1) << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  }
-  EXPECT_NE(Run("view jump.json").err.find("expected --robot ROBOT.yaml"), std::string::npos);
+  const std::string line = ExpectRefused("view jump.json");
+  EXPECT_NE(line.find("expected --robot ROBOT.yaml"), std::string::npos) << line;
+  ExpectRefused("view jump.json --robot none.yaml");
 }
 
 TEST_F(Program, ExportWritesBothTables) {
@@ -214,9 +203,7 @@ TEST_F(Program, APlanForAnotherRobotIsRefusedByView) {
   auto json = nlohmann::json::parse(ReadText(folder_ / "plan.json"));
   json["segments"][0]["phases"][0]["contacts"][0] = "third_foot";
   std::ofstream(folder_ / "plan.json") << json;
-  const Outcome outcome = Run("view plan.json");
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  ExpectRefused("view plan.json");
 }
 
 TEST_F(Program, BenchDynamicsPrintsRowsAndRatios) {

@@ -11,6 +11,7 @@
 #include "models/input_error.h"
 #include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_records.h"
+#include "tests/message_of.h"
 
 namespace possibility::experiments {
 namespace {
@@ -19,15 +20,6 @@ namespace fs = std::filesystem;
 using testing::FailedRecord;
 using testing::ReadText;
 using testing::SampleRecord;
-
-std::string ErrorOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class Results : public ::testing::Test {
  protected:
@@ -82,7 +74,7 @@ TEST_F(Results, DamageElsewhereIsAnErrorThatNamesTheLine) {
   for (const std::string& bad : {std::string("{\"row\": \"a\"}\n"), std::string("[]\n"),
                                  std::string("{half\n"), std::string("\n"), good}) {
     Write(good + bad + other);
-    const std::string error = ErrorOf([&] { ResultsFile results(file_); });
+    const std::string error = MessageOf<InputError>([&] { ResultsFile results(file_); });
     EXPECT_EQ(error.rfind(file_.string() + ":2: ", 0), 0u) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos);
     EXPECT_EQ(ReadText(file_), good + bad + other) << "nothing is thrown away";
@@ -91,8 +83,10 @@ TEST_F(Results, DamageElsewhereIsAnErrorThatNamesTheLine) {
 
 TEST_F(Results, TwoProgramsDoNotWriteTheSameFile) {
   ResultsFile results(file_);
-  EXPECT_NE(ErrorOf([&] { ResultsFile second(file_); }).find("another program"), std::string::npos);
-  EXPECT_NE(ErrorOf([&] { ResultsFile second(folder_ / "none" / "file"); }), "");
+  EXPECT_NE(MessageOf<InputError>([&] { ResultsFile second(file_); }).find("another program"),
+            std::string::npos);
+  EXPECT_NE(MessageOf<InputError>([&] { ResultsFile second(folder_ / "none" / "file"); }),
+            "no error");
 }
 
 TEST_F(Results, ForeignResultsAreRefused) {
@@ -109,7 +103,7 @@ TEST_F(Results, ForeignResultsAreRefused) {
     for (auto& [name, identity] : changed) {
       if (*row == '\0' || name == row) identity.*member += "x";
     }
-    return ErrorOf([&] { results.RequireSame(changed); });
+    return MessageOf<InputError>([&] { results.RequireSame(changed); });
   };
   EXPECT_NE(error("", &TrialIdentity::experiment).find(":1: "), std::string::npos);
   EXPECT_NE(error("", &TrialIdentity::settings_hash).find("settings"), std::string::npos);
@@ -164,9 +158,9 @@ TEST_F(Results, MergingRefusesWhatDoesNotBelongTogether) {
   const auto error = [&](auto change) {
     TrialRecord other = SampleRecord("a", "default", 2);
     change(&other);
-    return ErrorOf([&] { MergeRecords({{"one", {records_[0]}}, {"two", {other}}}); });
+    return MessageOf<InputError>([&] { MergeRecords({{"one", {records_[0]}}, {"two", {other}}}); });
   };
-  EXPECT_EQ(error([](TrialRecord*) {}), "");
+  EXPECT_EQ(error([](TrialRecord*) {}), "no error");
   EXPECT_EQ(error([](TrialRecord* r) { r->identity.settings_hash = "x"; }),
             "two: row 'a', preset 'default', seed 2: another experiment or other settings than in "
             "one");

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "graph/confirmation_job.h"
+#include "graph/confirmation_report.h"
+#include "graph/job_control.h"
+
+namespace possibility::graph {
+
+struct JobResult {
+  int tag = 0;  ///< as given to ConfirmationQueue::Insert
+  JobOutcome outcome = JobOutcome::kFailed;
+  std::string reason;  ///< as in ConfirmationReport
+  double seconds = 0;  ///< time it ran, pauses left out
+};
+
+/// A job of a ConfirmationQueue and, once it has begun, its thread. All under the queue's mutex.
+struct QueuedJob {
+  using Clock = std::chrono::steady_clock;
+  enum class State { kWaiting, kRunning, kPausing, kPaused, kEnded };
+
+  /// A verdict of the queue that overrules whatever the job may still say.
+  struct Overruling {
+    JobOutcome outcome = JobOutcome::kCancelled;
+    std::string reason;
+  };
+
+  /// `on_held` is called by the job's thread, without the mutex, when a pause begins to hold it.
+  QueuedJob(int tag, std::unique_ptr<ConfirmationJob> job, double cost,
+            std::function<void(QueuedJob*)> on_held);
+
+  bool HasThread() const { return thread.joinable(); }
+  /// Adds what has passed of its slice to its seconds.
+  void AddUp();
+  /// Cancels it, unless it has ended or was overruled before.
+  void Overrule(JobOutcome outcome, const std::string& reason);
+  /// Of a job that has ended; waits for its thread.
+  JobResult TakeResult();
+
+  int tag;
+  double cost;
+  std::unique_ptr<ConfirmationJob> job;
+  JobControl control;
+  State state = State::kWaiting;
+  std::optional<Overruling> overruling;
+  JobResult result;
+  std::int64_t slices = 0;
+  double seconds = 0;
+  std::int64_t last_served = 0;  ///< when it was inserted or last ran, on the clock of grants
+  Clock::time_point slice_begin;
+  std::thread thread;
+};
+
+/// Runs a job to its end: its verdict, or why there is none. (In the job's thread, without mutex.)
+JobResult Examine(ConfirmationJob* job, JobControl* control);
+
+/// "no verdict after 30 s" and `why`.
+std::string NoVerdictAfter(double seconds, const std::string& why);
+
+}  // namespace possibility::graph
