@@ -57,6 +57,7 @@ std::vector<ContactPatchBalance> RolloutDynamics::PatchesOf(const std::vector<in
 
 const Impact& RolloutDynamics::Hit(const std::vector<int>& contacts) {
   std::vector<ContactPoint> points;
+  points.reserve(contacts.size());
   for (const int contact : contacts) points.push_back(contacts_[contact].point);
   return forward_.Hit(points);
 }

@@ -32,6 +32,7 @@ std::vector<int> Without(const std::vector<int>& indices, const std::vector<int>
 
 std::vector<int> Picked(const std::vector<int>& indices, const std::vector<int>& picks) {
   std::vector<int> picked;
+  picked.reserve(picks.size());
   for (const int pick : picks) picked.push_back(indices[pick]);
   return picked;
 }
@@ -103,7 +104,7 @@ std::vector<int> RolloutEvents::PassImpact(const std::vector<int>& touching,
       contacts.unconstrained.lpNorm<Eigen::Infinity>() <= kAtRest) {
     return touching;
   }
-  const std::vector<int> bearing = Picked(touching, SelectBearingPoints(contacts).points);
+  std::vector<int> bearing = Picked(touching, SelectBearingPoints(contacts).points);
   const Impact& impact = robot_->Hit(bearing);
   event->energy_lost = impact.energy_lost;
   for (size_t i = 0; i < bearing.size(); ++i) {

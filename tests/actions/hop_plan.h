@@ -192,16 +192,8 @@ class Hop {
 };
 
 inline VerifierSubject HopPlan(const std::string& robot_yaml) {
-  VerifierSubject subject;
-  subject.robot = models::LoadRobotModel(robot_yaml);
-  subject.scenario = FlatScenario();
-  Plan& plan = subject.plan;
-  plan.robot_file = subject.robot.file;
-  plan.robot_hash = subject.robot.content_hash;
-  plan.scenario_file = "flat.yaml";
-  plan.scenario_hash = subject.scenario.content_hash;
-  for (const models::Joint& joint : subject.robot.joints) plan.joints.push_back(joint.name);
-  plan.segments = {Hop(subject.robot).Build()};
+  VerifierSubject subject = PlanWithoutMotion(robot_yaml);
+  subject.plan.segments = {Hop(subject.robot).Build()};
   return subject;
 }
 

@@ -11,15 +11,8 @@ namespace {
 
 using testing::PlanMutation;
 using testing::PlanMutations;
-using testing::StandingPlan;
+using testing::ValidSubject;
 using testing::VerifierSubject;
-
-/// Shared by all mutations, which work on copies.
-const VerifierSubject& ValidSubject() {
-  static const VerifierSubject subject =
-      StandingPlan(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
-  return subject;
-}
 
 /// A stride of walking, the transition, a stride of crawling and the transition back, as the
 /// planner generates them.

@@ -57,24 +57,37 @@ inline MotionPhase PelvisShift(const NominalStance& stance, const Eigen::Vector3
   return phase;
 }
 
-/// A robot that stands on both feet, shifts its pelvis by a few centimetres, and back again.
-inline VerifierSubject StandingPlan(const std::string& robot_yaml) {
+/// A plan for the flat scenario that has no segment yet.
+inline VerifierSubject PlanWithoutMotion(const std::string& robot_yaml) {
   VerifierSubject subject;
   subject.robot = models::LoadRobotModel(robot_yaml);
   subject.scenario = FlatScenario();
-  const NominalStance stance = SolveNominalStance(subject.robot, subject.robot.GaitNamed("walk"));
-  const Eigen::Vector3d shift(0.02, 0.03, -0.02);
-  MotionBuilder builder(subject.robot);
-  const std::vector<Phase> phases = builder.Build(
-      {PelvisShift(stance, shift, false, 0.8), PelvisShift(stance, shift, true, 0.8)}, stance.q);
-
   Plan& plan = subject.plan;
   plan.robot_file = subject.robot.file;
   plan.robot_hash = subject.robot.content_hash;
   plan.scenario_file = "flat.yaml";
   plan.scenario_hash = subject.scenario.content_hash;
   for (const models::Joint& joint : subject.robot.joints) plan.joints.push_back(joint.name);
-  for (const Phase& phase : phases) plan.segments.push_back({"walk", {phase}});
+  return subject;
+}
+
+/// A robot that stands on both feet, shifts its pelvis by a few centimetres, and back again.
+inline VerifierSubject StandingPlan(const std::string& robot_yaml) {
+  VerifierSubject subject = PlanWithoutMotion(robot_yaml);
+  const NominalStance stance = SolveNominalStance(subject.robot, subject.robot.GaitNamed("walk"));
+  const Eigen::Vector3d shift(0.02, 0.03, -0.02);
+  MotionBuilder builder(subject.robot);
+  const std::vector<Phase> phases = builder.Build(
+      {PelvisShift(stance, shift, false, 0.8), PelvisShift(stance, shift, true, 0.8)}, stance.q);
+
+  for (const Phase& phase : phases) subject.plan.segments.push_back({"walk", {phase}});
+  return subject;
+}
+
+/// DRC-HUBO1's, for tests that work on copies.
+inline const VerifierSubject& ValidSubject() {
+  static const VerifierSubject subject =
+      StandingPlan(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
   return subject;
 }
 

@@ -19,14 +19,8 @@ namespace {
 
 using testing::CoupleLastJoint;
 using testing::KnotsOf;
-using testing::StandingPlan;
+using testing::ValidSubject;
 using testing::VerifierSubject;
-
-const VerifierSubject& ValidSubject() {
-  static const VerifierSubject subject =
-      StandingPlan(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
-  return subject;
-}
 
 VerificationReport Verified(const VerifierSubject& subject, const VerifierSettings& settings = {}) {
   return Verify(subject.plan, subject.robot, subject.scenario, settings);
