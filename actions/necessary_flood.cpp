@@ -90,7 +90,8 @@ class NecessaryFlood {
         &grid_, CellOf(BallAt(start)), goal_cells, goals, keep_going,
         [this](const Cell& cell) { return Eigen::Vector2d(Centre(cell).head<2>()); },
         [this](const Cell& cell) { OfferNeighbours(cell); },
-        [&](const Cell& cell) { return Barrier(cell, goals); });
+        [&](const Cell& cell) { return ClosedBy(cell, goals); },
+        [&] { return std::vector<ReachedRegion>{Reached(start.z)}; });
   }
 
  private:
@@ -163,7 +164,7 @@ class NecessaryFlood {
     }
   }
 
-  std::vector<std::string> Barrier(const Cell& cell, const std::vector<GroundedStance>& goals) {
+  std::vector<std::string> ClosedBy(const Cell& cell, const std::vector<GroundedStance>& goals) {
     std::set<std::string> names;
     const Vector3d p = Centre(cell);
     for (const GroundedStance& goal : goals) {
@@ -176,6 +177,18 @@ class NecessaryFlood {
       }
     }
     return {names.begin(), names.end()};
+  }
+
+  ReachedRegion Reached(double z) const {
+    CellMask mask(grid_.size()[1], grid_.size()[2]);
+    for (int x = 0; x < grid_.size()[1]; ++x) {
+      for (int y = 0; y < grid_.size()[2]; ++y) {
+        for (int height = 0; height < grid_.size()[3]; ++height) {
+          if (grid_.IsReached({0, x, y, height})) mask.Add(x, y);
+        }
+      }
+    }
+    return {"", z, OutlinesOf(mask, Origin().head<2>(), Vector2d::Constant(resolution_))};
   }
 
   const LocomotionModel& model_;

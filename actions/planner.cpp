@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -74,6 +75,22 @@ void RequireNewNames(const models::RobotModel& robot, const models::Scenario& sc
   }
 }
 
+void FillHeader(const models::RobotModel& robot, const models::Scenario& scenario,
+                const PlanRequest& request, Plan* plan) {
+  plan->robot_file = robot.file;
+  plan->robot_hash = robot.content_hash;
+  plan->scenario_file = scenario.file;
+  plan->scenario_hash = scenario.content_hash;
+  plan->seed = request.seed;
+  for (const models::Joint& joint : robot.joints) plan->joints.push_back(joint.name);
+}
+
+void SayNo(PlanStatus status, const std::string& explanation, PlanResult* result) {
+  result->status = status;
+  result->explanation = explanation;
+  result->plan.no = NoPlan{ToString(status), explanation, {}};
+}
+
 /// Fast ones first; what they miss is left to the random search, or proven not to be there.
 constexpr RouteSearchSettings kSuggestions[] = {
     {.step = 0.2, .headings = 8, .greed = 4, .most_stances = 20000},
@@ -113,7 +130,7 @@ class TraversalPlanner {
 
   PlanResult Plan() {
     PlanResult result;
-    FillHeader(&result.plan);
+    FillHeader(robot_, scenario_, request_, &result.plan);
     result.plan.timings.preparation_s = preparation_s_;
     for (std::uint64_t attempt = 0;; ++attempt) {
       const graph::PathResult path = Explore(attempt);
@@ -129,11 +146,12 @@ class TraversalPlanner {
       try {
         if (Realise(path, &result)) return result;
       } catch (const Abandoned&) {
-        result.status = PlanStatus::kTimeLimit;
         result.plan.segments.clear();
-        result.explanation = fmt::format(
-            "a route was found in {:.2f} s, but time ran out before its motion was verified.",
-            result.plan.timings.graph_s);
+        SayNo(PlanStatus::kTimeLimit,
+              fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
+                          "verified.",
+                          result.plan.timings.graph_s),
+              &result);
         return result;
       }
     }
@@ -221,15 +239,6 @@ class TraversalPlanner {
     }
   }
 
-  void FillHeader(actions::Plan* plan) const {
-    plan->robot_file = robot_.file;
-    plan->robot_hash = robot_.content_hash;
-    plan->scenario_file = scenario_.file;
-    plan->scenario_hash = scenario_.content_hash;
-    plan->seed = request_.seed;
-    for (const models::Joint& joint : robot_.joints) plan->joints.push_back(joint.name);
-  }
-
   graph::Point PointOf(const GroundedStance& stance) const {
     return ToPoint(model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
   }
@@ -300,6 +309,10 @@ class TraversalPlanner {
     FloodResult necessary =
         FloodNecessary(model_, world_, start_, goals_, resolution, keep_going, *flights);
     if (necessary.route_may_exist) return otherwise;
+    if (flood_) {
+      std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
+                std::back_inserter(necessary.barrier.reached));
+    }
     flood_ = std::move(necessary);
     return graph::RouteOracleAnswer::kProvenInfeasible;
   }
@@ -350,44 +363,50 @@ class TraversalPlanner {
     for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {
       explored.edges.push_back({edge.from, edge.to, all[edge.action]->name()});
     }
-    switch (path.status) {
+    result->status = StatusOf(path.status);
+    if (path.status == graph::PathStatus::kFound) return;
+    SayNo(result->status, Explain(*result), result);
+    if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = flood_->barrier;
+  }
+
+  static PlanStatus StatusOf(graph::PathStatus status) {
+    switch (status) {
       case graph::PathStatus::kFound:
-        result->status = PlanStatus::kFound;
-        break;
+        return PlanStatus::kFound;
       case graph::PathStatus::kProvenInfeasible:
-        result->status = PlanStatus::kProvenInfeasible;
-        break;
+        return PlanStatus::kProvenInfeasible;
       case graph::PathStatus::kExhausted:
-        result->status = PlanStatus::kExhausted;
-        break;
+        return PlanStatus::kExhausted;
       case graph::PathStatus::kTimeLimit:
-        result->status = PlanStatus::kTimeLimit;
         break;
     }
-    if (path.status != graph::PathStatus::kFound) result->explanation = Explain(*result);
+    return PlanStatus::kTimeLimit;
   }
 
   std::string Explain(const PlanResult& result) const {
-    std::string text;
-    if (result.status == PlanStatus::kTimeLimit) {
-      text = fmt::format("no route found within {:.1f} s.", request_.time_limit);
-    } else {
-      text = fmt::format(
-          "{}: the search came within {:.2f} m of a goal, at ({:.2f}, {:.2f}); the way on is "
-          "closed by {}.",
-          result.status == PlanStatus::kProvenInfeasible
-              ? "no route exists within the scenario's bounds, not even for the pelvis alone"
-              : "no route exists that these actions could confirm",
-          flood_->distance, flood_->closest.x(), flood_->closest.y(),
-          flood_->barrier.empty() ? "the bounds"
-                                  : fmt::format("{}", fmt::join(flood_->barrier, ", ")));
+    std::string text = result.status == PlanStatus::kTimeLimit
+                           ? fmt::format("no route found within {:.1f} s.", request_.time_limit)
+                           : ExplainBarrier(result.status, flood_->barrier);
+    if (result.plan.statistics.at("cycles") > 0) {
+      text += " Tried:";
+      for (const auto& [name, count] : result.plan.statistics) {
+        if (count != 0) text += fmt::format(" {} {};", name, count);
+      }
+      text.back() = '.';
     }
-    text += " Tried:";
-    for (const auto& [name, count] : result.plan.statistics) {
-      text += fmt::format(" {} {};", name, count);
-    }
-    text.back() = '.';
     return text + ExplainManoeuvres();
+  }
+
+  static std::string ExplainBarrier(PlanStatus status, const Barrier& barrier) {
+    return fmt::format(
+        "{}: the search came within {:.2f} m of a goal, at ({:.2f}, {:.2f}); the way on is closed "
+        "by {}.",
+        status == PlanStatus::kProvenInfeasible
+            ? "no route exists within the scenario's bounds, not even for the pelvis alone"
+            : "no route exists that these actions could confirm",
+        barrier.distance, barrier.closest.x(), barrier.closest.y(),
+        barrier.closed_by.empty() ? "the bounds"
+                                  : fmt::format("{}", fmt::join(barrier.closed_by, ", ")));
   }
 
   /// What came of manoeuvres that are no part of the answer.
@@ -543,7 +562,9 @@ PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario
     return TraversalPlanner(robot, scenario, request).Plan();
   } catch (const Abandoned&) {
     PlanResult result;
-    result.explanation = "time ran out while the robot's swept volumes were computed.";
+    FillHeader(robot, scenario, request, &result.plan);
+    SayNo(PlanStatus::kTimeLimit, "time ran out while the robot's swept volumes were computed.",
+          &result);
     return result;
   }
 }

@@ -41,7 +41,7 @@ struct PlanRequest {
 
 struct PlanResult {
   PlanStatus status = PlanStatus::kTimeLimit;
-  Plan plan;                        ///< segments only if kFound; graph and statistics always
+  Plan plan;  ///< segments if kFound, otherwise `no`; graph and statistics always
   VerificationReport verification;  ///< accepted if kFound
   /// One paragraph: which conditions rejected what, and where. If kFound: which manoeuvres were
   /// refuted and which jobs failed on the way; empty if none.
