@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "actions/exploration_pose.h"
+#include "actions/guarded_manoeuvre.h"
 #include "actions/locomotion_model.h"
 #include "actions/long_jump.h"
 #include "actions/quasi_static_action.h"
@@ -192,13 +193,16 @@ class TraversalPlanner {
     context.settings.skip_jumps = switches_.skip_jumps.value_or(scenario_.planner.skip_jumps);
     context.library = Library();
     context.keep_going = [this] { return Remaining() > 0; };
-    manoeuvres_ =
-        MakeManoeuvres(factories_, ActionNames(), context, scenario_.file.string() + ": actions");
+    const std::string where = scenario_.file.string() + ": actions";
+    manoeuvres_ = MakeManoeuvres(factories_, ActionNames(), context, where);
+    for (const auto& manoeuvre : manoeuvres_) {
+      guarded_.push_back(Guarded(context, manoeuvre, where));
+    }
   }
 
   std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
     std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
-    all.insert(all.end(), manoeuvres_.begin(), manoeuvres_.end());
+    all.insert(all.end(), guarded_.begin(), guarded_.end());
     return all;
   }
 
@@ -267,7 +271,7 @@ class TraversalPlanner {
 
   /// At one resolution after the other, until there is a route.
   std::vector<graph::PathEdge> SuggestRoute() const {
-    const RouteSearchSpace space{&model_, &actions_, &manoeuvres_};
+    const RouteSearchSpace space{&model_, &actions_, &guarded_};
     const auto keep_going = [this] { return Remaining() > 0; };
     for (const RouteSearchSettings& settings : kSuggestions) {
       std::vector<graph::PathEdge> route = SearchRoute(space, start_, goals_, settings, keep_going);
@@ -529,6 +533,7 @@ class TraversalPlanner {
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
+  std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< these, for the search
   /// Jobs that failed, by the name of their action.
   std::map<std::string, std::vector<Manoeuvre::Refusal>> failures_;
   GroundedStance start_;
