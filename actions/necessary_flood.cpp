@@ -80,12 +80,12 @@ double LegReach(const LocomotionModel& model) {
 }
 
 /// How often a cell is halved along every axis before it counts as open.
-constexpr int kHalvings = 1;
+constexpr int kHalvings = 3;
 
 /// The flood over C_N. Cells: (unused), x, y, z of the ball's centre. The root keeps within the
 /// bounds, the ball as far from it as it is, whatever the orientation: so far do cells reach, and
-/// no farther. A wall as long as the bounds is a barrier because the cells at its ends are halved:
-/// where a whole cell might hold a free ball, none of its parts does.
+/// no farther. A wall or a floor as long as the bounds is a barrier because the cells at its ends
+/// are halved: where a whole cell might hold a free ball, none of its parts does.
 class NecessaryFlood {
  public:
   NecessaryFlood(const LocomotionModel& model, const World& world, double resolution,
@@ -186,8 +186,16 @@ class NecessaryFlood {
     return false;
   }
 
+  /// Whether the root may be within the bounds while the ball's centre is within `half` of `p`.
+  bool IsWithinBounds(const Vector2d& p, const Vector2d& half) const {
+    constexpr double kRounding = 1e-9;
+    const Eigen::AlignedBox2d part(p - half, p + half);
+    return world_.environment->bounds.exteriorDistance(part) <= ball_.centre_R.norm() + kRounding;
+  }
+
   /// Whether the ball may be free with its centre in the box about `p`, halved so often already.
   bool MayBeFree(const Vector3d& p, int halvings) {
+    if (!IsWithinBounds(p.head<2>(), size_.head<2>() / (2 << halvings))) return false;
     if (checker_.IsFree(prepared_whole_, At(p), 0)) return true;
     if (!checker_.IsFree(shrunk_[halvings], At(p), 0)) return false;
     if (halvings == kHalvings) return true;

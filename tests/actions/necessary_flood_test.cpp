@@ -74,6 +74,18 @@ TEST_F(NecessaryFloodTest, AWallAsLongAsTheBoundsIsAProof) {
   }
 }
 
+/// Neither over the floor's corners nor under it.
+TEST_F(NecessaryFloodTest, NoWayLeadsAroundAFloorAsLongAsTheBounds) {
+  const Vector2d low(-2.5, -2), high(2.5, 2);
+  models::Environment environment;
+  environment.bounds = Eigen::AlignedBox2d(low, high);
+  Add("floor", {low.x(), low.y(), -0.5}, {high.x(), high.y(), 0}, true, &environment);
+  Add("wall", {-0.1, low.y(), 0}, {0.1, high.y(), 2.2}, false, &environment);
+  EXPECT_FALSE(Flood(environment, {-1.4, 0, 0}, {1.4, 0, 0}).route_may_exist);
+  environment.obstacles.back().shape.size.z() -= 0.5;  // of which half at the foot
+  EXPECT_TRUE(Flood(environment, {-1.4, 0, 0}, {1.4, 0, 0}).route_may_exist);
+}
+
 TEST_F(NecessaryFloodTest, StancesOnTheBoundsAreReached) {
   const models::Environment environment = Floor({-1, -1}, {1, 1});
   for (const double yaw : {0.0, 1.6, 3.1, -1.6}) {
