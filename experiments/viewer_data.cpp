@@ -176,7 +176,9 @@ PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot
   add("Robot", robot.name);
   if (plan.no) {
     add("Answer", fmt::format("no plan ({})", plan.no->status));
-    add("Answered in", fmt::format("{:.2f} s", PlanningSeconds(plan)));
+    if (const double seconds = PlanningSeconds(plan); seconds > 0) {
+      add("Answered in", fmt::format("{:.2f} s", seconds));
+    }
   }
   if (plan.segments.empty()) return heading;
   add("Duration", fmt::format("{:.1f} s", plan.duration()));
