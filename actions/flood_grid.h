@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "actions/cell_grid.h"
+#include "actions/cell_outline.h"
 #include "actions/locomotion_model.h"
 #include "actions/route_flood.h"
 
@@ -40,14 +41,14 @@ class ClosestApproach {
 };
 
 /// Floods `grid` from `start` until it reaches one of `goal_cells`. `centre(cell)`: seen from
-/// above; `expand(cell)`: offers the cell's neighbours; `barrier(cell)`: what closes the way on
-/// from there.
-template <typename Centre, typename Expand, typename Barrier>
+/// above; `expand(cell)`: offers the cell's neighbours; `closed_by(cell)`: what closes the way on
+/// from there; `reached()`: the cells reached, as regions.
+template <typename Centre, typename Expand, typename ClosedBy, typename Reached>
 FloodResult FloodGrid(CellGrid* grid, const CellGrid::Cell& start,
                       const std::set<CellGrid::Cell>& goal_cells,
                       const std::vector<GroundedStance>& goals,
                       const std::function<bool()>& keep_going, const Centre& centre,
-                      const Expand& expand, const Barrier& barrier) {
+                      const Expand& expand, const ClosedBy& closed_by, const Reached& reached) {
   FloodResult result;
   ClosestApproach closest(goals);
   grid->Seed(start);
@@ -59,11 +60,23 @@ FloodResult FloodGrid(CellGrid* grid, const CellGrid::Cell& start,
     expand(cell);
   }
   result.route_may_exist = false;
-  result.closest = closest.point();
-  result.distance = closest.distance();
   result.cells = grid->tested();
-  result.barrier = barrier(closest.cell());
+  result.barrier = {closest.point(), closest.distance(), closed_by(closest.cell()), reached()};
   return result;
+}
+
+/// The outlines of `mask` in the world: its cells are of `size` (m), the first begins at `origin`.
+inline std::vector<std::vector<Eigen::Vector2d>> OutlinesOf(const CellMask& mask,
+                                                            const Eigen::Vector2d& origin,
+                                                            const Eigen::Vector2d& size) {
+  std::vector<std::vector<Eigen::Vector2d>> outlines;
+  for (const std::vector<Eigen::Vector2i>& corners : mask.Outlines()) {
+    outlines.emplace_back();
+    for (const Eigen::Vector2i& corner : corners) {
+      outlines.back().emplace_back(origin + size.cwiseProduct(corner.cast<double>()));
+    }
+  }
+  return outlines;
 }
 
 }  // namespace possibility::actions

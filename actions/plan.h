@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,30 @@ struct ExploredGraph {
   std::vector<Edge> edges;
 };
 
+/// Where an action may get to from the start, seen from above: no way leads farther than this.
+struct ReachedRegion {
+  std::string action;  ///< empty: the pelvis alone, whatever the robot does
+  double z = 0;        ///< of the ground, m
+  /// Polygons, m: around every part counter-clockwise, around every hole in it clockwise.
+  std::vector<std::vector<Eigen::Vector2d>> outlines;
+};
+
+/// What lies between the start and all goals.
+struct Barrier {
+  Eigen::Vector2d closest = Eigen::Vector2d::Zero();  ///< reached, to any goal, m
+  double distance = 0;                                ///< of `closest` from that goal, m
+  /// Names of the shapes that close the way on from there, or "no ground"; none: the bounds.
+  std::vector<std::string> closed_by;
+  std::vector<ReachedRegion> reached;
+};
+
+/// The answer "no", with what there is to say for it.
+struct NoPlan {
+  std::string status;       ///< "proven_infeasible", "exhausted" or "time_limit"
+  std::string explanation;  ///< one paragraph
+  std::optional<Barrier> barrier;
+};
+
 struct PlanTimings {
   double preparation_s = 0;   ///< nominal stances, swept volumes, ground map
   double graph_s = 0;         ///< until every edge of the route was confirmed
@@ -74,6 +99,7 @@ struct Plan {
   std::vector<std::string> joints;  ///< names, in the order of q[7...], v[6...] and tau
   std::vector<Segment> segments;
   ExploredGraph explored;
+  std::optional<NoPlan> no;  ///< instead of segments
 
   double duration() const;  ///< s
 };

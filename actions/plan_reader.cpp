@@ -232,10 +232,59 @@ ExploredGraph ReadExplored(const JsonCursor& cursor) {
   return graph;
 }
 
+ReachedRegion ReadRegion(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"action", "z", "outlines"});
+  ReachedRegion region;
+  region.action = cursor["action"].String();
+  region.z = cursor["z"].Number();
+  const JsonCursor outlines = cursor["outlines"];
+  for (std::size_t i = 0, n = outlines.ArraySize(); i < n; ++i) {
+    const JsonCursor outline = outlines[i];
+    if (outline.ArraySize() < 3) outline.Fail("expected at least 3 corners");
+    region.outlines.emplace_back(outline.ArraySize());
+    for (std::size_t k = 0; k < outline.ArraySize(); ++k) {
+      ReadNumbers(outline[k], &region.outlines.back()[k]);
+    }
+  }
+  return region;
+}
+
+Barrier ReadBarrier(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"closest", "distance", "closed_by", "reached"});
+  Barrier barrier;
+  ReadNumbers(cursor["closest"], &barrier.closest);
+  barrier.distance = cursor["distance"].Number();
+  barrier.closed_by = ReadStrings(cursor["closed_by"]);
+  const JsonCursor reached = cursor["reached"];
+  for (std::size_t i = 0, n = reached.ArraySize(); i < n; ++i) {
+    barrier.reached.push_back(ReadRegion(reached[i]));
+  }
+  return barrier;
+}
+
+NoPlan ReadNo(const JsonCursor& cursor) {
+  NoPlan no;
+  if (cursor.value().is_object() && cursor.value().contains("barrier")) {
+    cursor.ExpectKeys({"status", "explanation", "barrier"});
+    no.barrier = ReadBarrier(cursor["barrier"]);
+  } else {
+    cursor.ExpectKeys({"status", "explanation"});
+  }
+  no.status = cursor["status"].String();
+  no.explanation = cursor["explanation"].String();
+  return no;
+}
+
 Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   root.ExpectFormat(kFormat);
-  root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
-                   "segments", "explored"});
+  const bool is_no = root.value().contains("no");
+  if (is_no) {
+    root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics",
+                     "joints", "segments", "explored", "no"});
+  } else {
+    root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics",
+                     "joints", "segments", "explored"});
+  }
   Plan plan;
   const JsonCursor robot = root["robot"];
   robot.ExpectKeys({"file", "hash"});
@@ -257,6 +306,10 @@ Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   const JsonCursor timings = root["timings"];
   ExpectTime(timings["plan_duration_s"], plan.duration());
   plan.explored = ReadExplored(root["explored"]);
+  if (is_no) plan.no = ReadNo(root["no"]);
+  if (plan.no && !plan.segments.empty()) {
+    root["no"].Fail("expected none where there are segments");
+  }
   return plan;
 }
 

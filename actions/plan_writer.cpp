@@ -119,6 +119,35 @@ Json ToJson(const ExploredGraph& graph) {
   return json;
 }
 
+Json ToJson(const ReachedRegion& region) {
+  Json json;
+  json["action"] = region.action;
+  json["z"] = Rounded(region.z);
+  json["outlines"] = Json::array();
+  for (const std::vector<Eigen::Vector2d>& outline : region.outlines) {
+    Json corners = Json::array();
+    for (const Eigen::Vector2d& corner : outline) corners.push_back(Numbers(corner.data(), 2));
+    json["outlines"].push_back(std::move(corners));
+  }
+  return json;
+}
+
+Json ToJson(const NoPlan& no) {
+  Json json;
+  json["status"] = no.status;
+  json["explanation"] = no.explanation;
+  if (!no.barrier) return json;
+  Json& barrier = json["barrier"];
+  barrier["closest"] = Numbers(no.barrier->closest.data(), 2);
+  barrier["distance"] = Rounded(no.barrier->distance);
+  barrier["closed_by"] = no.barrier->closed_by;
+  barrier["reached"] = Json::array();
+  for (const ReachedRegion& region : no.barrier->reached) {
+    barrier["reached"].push_back(ToJson(region));
+  }
+  return json;
+}
+
 /// `file` as seen from `folder` if there is a relative path between them, else absolute.
 std::string PathFrom(const std::filesystem::path& folder, const std::filesystem::path& file) {
   if (file.empty()) return {};
@@ -141,6 +170,7 @@ Json ToJson(const Plan& plan, const std::filesystem::path& folder) {
   json["segments"] = Json::array();
   for (const Segment& segment : plan.segments) json["segments"].push_back(ToJson(segment));
   json["explored"] = ToJson(plan.explored);
+  if (plan.no) json["no"] = ToJson(*plan.no);
   return json;
 }
 

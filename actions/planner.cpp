@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "actions/exploration_pose.h"
+#include "actions/guarded_manoeuvre.h"
 #include "actions/locomotion_model.h"
 #include "actions/long_jump.h"
 #include "actions/quasi_static_action.h"
@@ -74,6 +76,22 @@ void RequireNewNames(const models::RobotModel& robot, const models::Scenario& sc
   }
 }
 
+void FillHeader(const models::RobotModel& robot, const models::Scenario& scenario,
+                const PlanRequest& request, Plan* plan) {
+  plan->robot_file = robot.file;
+  plan->robot_hash = robot.content_hash;
+  plan->scenario_file = scenario.file;
+  plan->scenario_hash = scenario.content_hash;
+  plan->seed = request.seed;
+  for (const models::Joint& joint : robot.joints) plan->joints.push_back(joint.name);
+}
+
+void SayNo(PlanStatus status, const std::string& explanation, PlanResult* result) {
+  result->status = status;
+  result->explanation = explanation;
+  result->plan.no = NoPlan{ToString(status), explanation, {}};
+}
+
 /// Fast ones first; what they miss is left to the random search, or proven not to be there.
 constexpr RouteSearchSettings kSuggestions[] = {
     {.step = 0.2, .headings = 8, .greed = 4, .most_stances = 20000},
@@ -113,7 +131,7 @@ class TraversalPlanner {
 
   PlanResult Plan() {
     PlanResult result;
-    FillHeader(&result.plan);
+    FillHeader(robot_, scenario_, request_, &result.plan);
     result.plan.timings.preparation_s = preparation_s_;
     for (std::uint64_t attempt = 0;; ++attempt) {
       const graph::PathResult path = Explore(attempt);
@@ -129,11 +147,12 @@ class TraversalPlanner {
       try {
         if (Realise(path, &result)) return result;
       } catch (const Abandoned&) {
-        result.status = PlanStatus::kTimeLimit;
         result.plan.segments.clear();
-        result.explanation = fmt::format(
-            "a route was found in {:.2f} s, but time ran out before its motion was verified.",
-            result.plan.timings.graph_s);
+        SayNo(PlanStatus::kTimeLimit,
+              fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
+                          "verified.",
+                          result.plan.timings.graph_s),
+              &result);
         return result;
       }
     }
@@ -175,13 +194,16 @@ class TraversalPlanner {
     context.library = request_.library;
     context.solved_motions = switches_.solved_motions;
     context.keep_going = [this] { return Remaining() > 0; };
-    manoeuvres_ =
-        MakeManoeuvres(factories_, ActionNames(), context, scenario_.file.string() + ": actions");
+    const std::string where = scenario_.file.string() + ": actions";
+    manoeuvres_ = MakeManoeuvres(factories_, ActionNames(), context, where);
+    for (const auto& manoeuvre : manoeuvres_) {
+      guarded_.push_back(Guarded(context, manoeuvre, where));
+    }
   }
 
   std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
     std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
-    all.insert(all.end(), manoeuvres_.begin(), manoeuvres_.end());
+    all.insert(all.end(), guarded_.begin(), guarded_.end());
     return all;
   }
 
@@ -222,15 +244,6 @@ class TraversalPlanner {
     }
   }
 
-  void FillHeader(actions::Plan* plan) const {
-    plan->robot_file = robot_.file;
-    plan->robot_hash = robot_.content_hash;
-    plan->scenario_file = scenario_.file;
-    plan->scenario_hash = scenario_.content_hash;
-    plan->seed = request_.seed;
-    for (const models::Joint& joint : robot_.joints) plan->joints.push_back(joint.name);
-  }
-
   graph::Point PointOf(const GroundedStance& stance) const {
     return ToPoint(model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
   }
@@ -259,7 +272,7 @@ class TraversalPlanner {
 
   /// At one resolution after the other, until there is a route.
   std::vector<graph::PathEdge> SuggestRoute() const {
-    const RouteSearchSpace space{&model_, &actions_, &manoeuvres_};
+    const RouteSearchSpace space{&model_, &actions_, &guarded_};
     const auto keep_going = [this] { return Remaining() > 0; };
     for (const RouteSearchSettings& settings : kSuggestions) {
       std::vector<graph::PathEdge> route = SearchRoute(space, start_, goals_, settings, keep_going);
@@ -301,6 +314,10 @@ class TraversalPlanner {
     FloodResult necessary =
         FloodNecessary(model_, world_, start_, goals_, resolution, keep_going, *flights);
     if (necessary.route_may_exist) return otherwise;
+    if (flood_) {
+      std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
+                std::back_inserter(necessary.barrier.reached));
+    }
     flood_ = std::move(necessary);
     return graph::RouteOracleAnswer::kProvenInfeasible;
   }
@@ -351,44 +368,50 @@ class TraversalPlanner {
     for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {
       explored.edges.push_back({edge.from, edge.to, all[edge.action]->name()});
     }
-    switch (path.status) {
+    result->status = StatusOf(path.status);
+    if (path.status == graph::PathStatus::kFound) return;
+    SayNo(result->status, Explain(*result), result);
+    if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = flood_->barrier;
+  }
+
+  static PlanStatus StatusOf(graph::PathStatus status) {
+    switch (status) {
       case graph::PathStatus::kFound:
-        result->status = PlanStatus::kFound;
-        break;
+        return PlanStatus::kFound;
       case graph::PathStatus::kProvenInfeasible:
-        result->status = PlanStatus::kProvenInfeasible;
-        break;
+        return PlanStatus::kProvenInfeasible;
       case graph::PathStatus::kExhausted:
-        result->status = PlanStatus::kExhausted;
-        break;
+        return PlanStatus::kExhausted;
       case graph::PathStatus::kTimeLimit:
-        result->status = PlanStatus::kTimeLimit;
         break;
     }
-    if (path.status != graph::PathStatus::kFound) result->explanation = Explain(*result);
+    return PlanStatus::kTimeLimit;
   }
 
   std::string Explain(const PlanResult& result) const {
-    std::string text;
-    if (result.status == PlanStatus::kTimeLimit) {
-      text = fmt::format("no route found within {:.1f} s.", request_.time_limit);
-    } else {
-      text = fmt::format(
-          "{}: the search came within {:.2f} m of a goal, at ({:.2f}, {:.2f}); the way on is "
-          "closed by {}.",
-          result.status == PlanStatus::kProvenInfeasible
-              ? "no route exists within the scenario's bounds, not even for the pelvis alone"
-              : "no route exists that these actions could confirm",
-          flood_->distance, flood_->closest.x(), flood_->closest.y(),
-          flood_->barrier.empty() ? "the bounds"
-                                  : fmt::format("{}", fmt::join(flood_->barrier, ", ")));
+    std::string text = result.status == PlanStatus::kTimeLimit
+                           ? fmt::format("no route found within {:.1f} s.", request_.time_limit)
+                           : ExplainBarrier(result.status, flood_->barrier);
+    if (result.plan.statistics.at("cycles") > 0) {
+      text += " Tried:";
+      for (const auto& [name, count] : result.plan.statistics) {
+        if (count != 0) text += fmt::format(" {} {};", name, count);
+      }
+      text.back() = '.';
     }
-    text += " Tried:";
-    for (const auto& [name, count] : result.plan.statistics) {
-      text += fmt::format(" {} {};", name, count);
-    }
-    text.back() = '.';
     return text + ExplainManoeuvres();
+  }
+
+  static std::string ExplainBarrier(PlanStatus status, const Barrier& barrier) {
+    return fmt::format(
+        "{}: the search came within {:.2f} m of a goal, at ({:.2f}, {:.2f}); the way on is closed "
+        "by {}.",
+        status == PlanStatus::kProvenInfeasible
+            ? "no route exists within the scenario's bounds, not even for the pelvis alone"
+            : "no route exists that these actions could confirm",
+        barrier.distance, barrier.closest.x(), barrier.closest.y(),
+        barrier.closed_by.empty() ? "the bounds"
+                                  : fmt::format("{}", fmt::join(barrier.closed_by, ", ")));
   }
 
   /// What came of manoeuvres that are no part of the answer.
@@ -511,6 +534,7 @@ class TraversalPlanner {
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
+  std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< these, for the search
   /// Jobs that failed, by the name of their action.
   std::map<std::string, std::vector<Manoeuvre::Refusal>> failures_;
   GroundedStance start_;
@@ -544,7 +568,9 @@ PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario
     return TraversalPlanner(robot, scenario, request).Plan();
   } catch (const Abandoned&) {
     PlanResult result;
-    result.explanation = "time ran out while the robot's swept volumes were computed.";
+    FillHeader(robot, scenario, request, &result.plan);
+    SayNo(PlanStatus::kTimeLimit, "time ran out while the robot's swept volumes were computed.",
+          &result);
     return result;
   }
 }

@@ -41,7 +41,7 @@ struct PlanRequest {
 
 struct PlanResult {
   PlanStatus status = PlanStatus::kTimeLimit;
-  Plan plan;                        ///< segments only if kFound; graph and statistics always
+  Plan plan;  ///< segments if kFound, otherwise `no`; graph and statistics always
   VerificationReport verification;  ///< accepted if kFound
   /// One paragraph: which conditions rejected what, and where. If kFound: which manoeuvres were
   /// refuted and which jobs failed on the way; empty if none.
@@ -51,7 +51,8 @@ struct PlanResult {
 /// Plans, generates the motion and verifies it. A plan that fails verification is never
 /// returned: its edge is marked impossible and the search goes on until the time limit.
 /// @throws InputError if start or goal is in collision, off the ground, an action is unknown, or a
-/// manoeuvre's name is taken or its factory makes none; whatever a factory throws.
+/// manoeuvre's name is taken, its factory makes none or one of its conditions throws (action,
+/// function and pose are named); whatever a factory throws.
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request);
 

@@ -7,6 +7,7 @@
 
 #include "actions/locomotion_model.h"
 #include "actions/manoeuvre_bounds.h"
+#include "actions/plan.h"
 #include "actions/quasi_static_action.h"
 
 namespace possibility::actions {
@@ -15,11 +16,8 @@ struct FloodResult {
   /// False is a proof at any resolution: every cell errs towards open, so no continuous path
   /// crosses a closed barrier of cells. True only says that this resolution finds no barrier.
   bool route_may_exist = true;
-  /// Where the flood came closest to a goal, seen from above, and how far that is, m.
-  Eigen::Vector2d closest = Eigen::Vector2d::Zero();
-  double distance = 0;
-  /// Obstacles that close the cells just beyond `closest`, or "no ground".
-  std::vector<std::string> barrier;
+  /// If there is none: what the flood filled, and what closes the cells just beyond the closest.
+  Barrier barrier;
   std::int64_t cells = 0;  ///< tested
 };
 

@@ -53,7 +53,7 @@ class SufficientFlood {
         &grid_, CellOf(*first, start.pose), goal_cells, goals, keep_going,
         [this](const Cell& cell) { return Centre(cell).position(); },
         [this](const Cell& cell) { OfferNeighbours(cell); },
-        [&](const Cell& cell) { return Barrier(cell, goals); });
+        [&](const Cell& cell) { return ClosedBy(cell, goals); }, [this] { return Reached(); });
   }
 
  private:
@@ -223,7 +223,7 @@ class SufficientFlood {
   }
 
   /// What closes the cells next to `cell` in the direction of the goals.
-  std::vector<std::string> Barrier(const Cell& cell, const std::vector<GroundedStance>& goals) {
+  std::vector<std::string> ClosedBy(const Cell& cell, const std::vector<GroundedStance>& goals) {
     std::set<std::string> names;
     const PlanarPose centre = Centre(cell);
     for (const GroundedStance& goal : goals) {
@@ -241,6 +241,26 @@ class SufficientFlood {
       for (std::string& name : Blockers(*world_.environment, posed)) names.insert(std::move(name));
     }
     return {names.begin(), names.end()};
+  }
+
+  std::vector<ReachedRegion> Reached() const {
+    std::vector<ReachedRegion> regions;
+    for (int layer = 0; layer < grid_.size()[0]; ++layer) {
+      CellMask mask(grid_.size()[1], grid_.size()[2]);
+      for (int x = 0; x < grid_.size()[1]; ++x) {
+        for (int y = 0; y < grid_.size()[2]; ++y) {
+          for (int heading = 0; heading < kHeadings; ++heading) {
+            if (grid_.IsReached({layer, x, y, heading})) mask.Add(x, y);
+          }
+        }
+      }
+      ReachedRegion region;
+      region.action = model_.gaits[GaitOf({layer})]->stance.gait->name;
+      region.z = HeightOf({layer});
+      region.outlines = OutlinesOf(mask, origin_, Vector2d::Constant(resolution_));
+      if (!region.outlines.empty()) regions.push_back(std::move(region));
+    }
+    return regions;
   }
 
   const LocomotionModel& model_;

@@ -25,6 +25,7 @@ ExitCode RunExport(const ExportOptions& options) {
   std::optional<double> step;
   if (!options.step.empty()) step = ParseSeconds("--step", options.step);
   const LoadedPlan loaded = LoadPlan(options.plan);
+  RequireMotion(loaded);
   RequireFit(loaded);
   const std::vector<PlanSample> samples =
       step ? SamplesEvery(loaded.plan, *step) : SamplesAtKnots(loaded.plan);

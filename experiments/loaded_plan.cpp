@@ -56,4 +56,11 @@ void RequireFit(const LoadedPlan& loaded) {
   }
 }
 
+void RequireMotion(const LoadedPlan& loaded) {
+  if (!loaded.plan.no) return;
+  throw InputError(
+      fmt::format("{}: no: the answer is \"no plan\" ({}), expected a plan with motion",
+                  loaded.file.string(), loaded.plan.no->status));
+}
+
 }  // namespace possibility::experiments

@@ -28,4 +28,8 @@ LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory);
 /// @throws InputError naming the file and the segment.
 void RequireFit(const LoadedPlan& loaded);
 
+/// Makes sure that the plan is no "no", which has no motion to verify or export.
+/// @throws InputError naming the file and the answer.
+void RequireMotion(const LoadedPlan& loaded);
+
 }  // namespace possibility::experiments

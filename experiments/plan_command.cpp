@@ -103,14 +103,12 @@ ExitCode RunPlan(const PlanOptions& options) {
 
   const PlanFiles files{folder / "plan.json", folder / "plan.html"};
   const actions::PlanResult result = PlanWithProgress(robot, scenario, request);
-  if (result.status == actions::PlanStatus::kFound) {
-    if (!result.verification.accepted()) {
-      fmt::print(stderr, "{}", actions::FormatText(result.verification));
-      return kVerificationFailed;
-    }
-    actions::WritePlan(result.plan, files.plan);
-    WriteOutput(files.page, ViewerPage(result.plan, robot, scenario));
+  if (result.status == actions::PlanStatus::kFound && !result.verification.accepted()) {
+    fmt::print(stderr, "{}", actions::FormatText(result.verification));
+    return kVerificationFailed;
   }
+  actions::WritePlan(result.plan, files.plan);
+  WriteOutput(files.page, ViewerPage(result.plan, robot, scenario));
   return Report(result, files, options.json);
 }
 

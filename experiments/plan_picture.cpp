@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,40 @@ std::string Obstacles(const models::Environment& environment, bool ground) {
                        ground ? "ground" : "obstacle");
   }
   return svg;
+}
+
+/// A part's holes are clockwise, so they stay open under either fill rule.
+std::string Reached(const actions::Barrier& barrier) {
+  std::string svg;
+  for (const actions::ReachedRegion& region : barrier.reached) {
+    std::string path;
+    for (const std::vector<Vector2d>& outline : region.outlines) {
+      path += fmt::format("M{}Z", Points(outline));
+    }
+    const std::string color = region.action.empty() ? "#868e96" : ActionColor(region.action);
+    svg += fmt::format("<path d=\"{}\" class=\"reached\" fill=\"{}\" stroke=\"{}\"/>\n", path,
+                       color, color);
+  }
+  return svg;
+}
+
+/// The shapes that close the way on, and the point where they do.
+std::string Closed(const actions::Barrier& barrier, const models::Environment& environment,
+                   double dot) {
+  std::string svg;
+  for (const models::Obstacle& obstacle : environment.obstacles) {
+    const auto& names = barrier.closed_by;
+    if (std::find(names.begin(), names.end(), obstacle.name) == names.end()) continue;
+    svg += fmt::format("<polygon points=\"{}\" class=\"barrier\"/>\n", Points(Shadow(obstacle)));
+  }
+  return svg + fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.3f}\" class=\"closest\"/>\n",
+                           barrier.closest.x(), -barrier.closest.y(), dot);
+}
+
+std::string No(const std::optional<actions::NoPlan>& no, const models::Environment& environment,
+               double dot) {
+  if (!no || !no->barrier) return {};
+  return Reached(*no->barrier) + Closed(*no->barrier, environment, dot);
 }
 
 std::string Graph(const actions::ExploredGraph& graph) {
@@ -129,13 +164,15 @@ std::string PlanPicture(const actions::Plan& plan, const models::Environment& en
       "<style>.ground{{fill:#f1f3f5}}.obstacle{{fill:#495057;fill-opacity:.75}}"
       ".edge{{fill:none;stroke-width:{:.4f};stroke-opacity:.45}}"
       ".route{{fill:none;stroke-width:{:.4f};stroke-linejoin:round;stroke-linecap:round}}"
-      ".goal{{fill:white;stroke:#212529;stroke-width:{:.4f}}}</style>\n"
+      ".goal{{fill:white;stroke:#212529;stroke-width:{:.4f}}}"
+      ".reached{{fill-opacity:.2;stroke-width:{:.4f}}}.barrier{{fill:#e03131;fill-opacity:.85}}"
+      ".closest{{fill:none;stroke:#e03131;stroke-width:{:.4f}}}</style>\n"
       "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"#dee2e6\"/>\n"
-      "{}{}{}{}</svg>\n",
+      "{}{}{}{}{}</svg>\n",
       width, width * extent.y() / extent.x(), low.x(), -low.y() - extent.y(), extent.x(),
-      extent.y(), 0.3 * line, 2 * line, line, low.x(), -low.y() - extent.y(), extent.x(),
-      extent.y(), Obstacles(environment, true), Obstacles(environment, false), Graph(plan.explored),
-      Route(plan, 2.5 * line));
+      extent.y(), 0.3 * line, 2 * line, line, 0.5 * line, line, low.x(), -low.y() - extent.y(),
+      extent.x(), extent.y(), Obstacles(environment, true), Obstacles(environment, false),
+      Graph(plan.explored), No(plan.no, environment, 2.5 * line), Route(plan, 2.5 * line));
 }
 
 }  // namespace possibility::experiments

@@ -68,8 +68,7 @@ std::string SummaryText(const actions::PlanResult& result, const PlanFiles& file
   text += Row("graph", Seconds(plan.timings.graph_s));
   text += Row("motion", Seconds(plan.timings.motion_s));
   text += Row("verification", Seconds(plan.timings.verification_s));
-  if (!Found(result)) return text;
-  if (const auto ratio = RealTimeRatio(plan)) {
+  if (const auto ratio = RealTimeRatio(plan); ratio && Found(result)) {
     text += Row("real-time ratio", fmt::format("{:.1f}", *ratio));
   }
   text += Row("plan", files.plan.string());
@@ -102,9 +101,9 @@ std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& file
           {{"action", leg.action}, {"begin_s", leg.begin}, {"duration_s", leg.duration}});
     }
     json["verification"] = Json::parse(actions::FormatJson(result.verification));
-    json["plan"] = files.plan.string();
-    json["page"] = files.page.string();
   }
+  json["plan"] = files.plan.string();
+  json["page"] = files.page.string();
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

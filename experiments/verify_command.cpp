@@ -20,6 +20,7 @@ struct VerifyOptions {
 
 ExitCode RunVerify(const VerifyOptions& options) {
   const LoadedPlan loaded = LoadPlan(options.plan);
+  RequireMotion(loaded);
   actions::VerifierSettings settings;
   settings.threads = HardwareThreads();
   const actions::VerificationReport report =

@@ -129,6 +129,27 @@ Json ExploredJson(const actions::ExploredGraph& explored) {
   return {{"vertices", Packed(vertices)}, {"edges", Packed(edges)}, {"actions", names}};
 }
 
+Json NoJson(const actions::NoPlan& no) {
+  Json json = {{"status", no.status}, {"explanation", no.explanation}, {"barrier", Json()}};
+  if (!no.barrier) return json;
+  Json reached = Json::array();
+  for (const actions::ReachedRegion& region : no.barrier->reached) {
+    Json outlines = Json::array();
+    for (const std::vector<Eigen::Vector2d>& outline : region.outlines) {
+      Json corners = Json::array();
+      for (const Eigen::Vector2d& corner : outline) corners.push_back(Numbers(corner));
+      outlines.push_back(corners);
+    }
+    reached.push_back(
+        {{"action", region.action}, {"z", Rounded(region.z)}, {"outlines", outlines}});
+  }
+  json["barrier"] = {{"closest", Numbers(no.barrier->closest)},
+                     {"distance", Rounded(no.barrier->distance)},
+                     {"closed_by", no.barrier->closed_by},
+                     {"reached", reached}};
+  return json;
+}
+
 /// No '<' or '&', so that nothing inside can end the element; text that is not UTF-8 is replaced.
 std::string ScriptSafe(const Json& json) {
   std::string safe;
@@ -153,6 +174,12 @@ PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot
   };
   add("Scenario", scenario.name);
   add("Robot", robot.name);
+  if (plan.no) {
+    add("Answer", fmt::format("no plan ({})", plan.no->status));
+    if (const double seconds = PlanningSeconds(plan); seconds > 0) {
+      add("Answered in", fmt::format("{:.2f} s", seconds));
+    }
+  }
   if (plan.segments.empty()) return heading;
   add("Duration", fmt::format("{:.1f} s", plan.duration()));
   add("Planned in", fmt::format("{:.2f} s", PlanningSeconds(plan)));
@@ -191,6 +218,7 @@ std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& 
   json["segments"] = segments;
   motion.WriteTo(&json);
   json["explored"] = ExploredJson(plan.explored);
+  json["no"] = plan.no ? NoJson(*plan.no) : Json();
   return ScriptSafe(json);
 }
 

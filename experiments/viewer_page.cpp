@@ -63,6 +63,7 @@ std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robo
                                          {"convex_geometry", viewer_resources::convex_geometry},
                                          {"orbit_controls", viewer_resources::orbit_controls},
                                          {"kinematics", viewer_resources::kinematics},
+                                         {"barrier", viewer_resources::barrier},
                                          {"drawing", viewer_resources::drawing},
                                          {"jumps", viewer_resources::jumps},
                                          {"timeline", viewer_resources::timeline},

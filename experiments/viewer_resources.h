@@ -9,6 +9,7 @@ namespace possibility::experiments::viewer_resources {
 extern const std::string_view page;
 extern const std::string_view style;
 extern const std::string_view kinematics;
+extern const std::string_view barrier;
 extern const std::string_view drawing;
 extern const std::string_view jumps;
 extern const std::string_view timeline;

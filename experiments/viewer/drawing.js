@@ -88,19 +88,21 @@ function footprint(points, colour) {
   return group;
 }
 
-function obstacleMesh(obstacle) {
+/* One that closes the way is red. */
+function obstacleMesh(obstacle, closes) {
   const group = new THREE.Group();
-  const material = obstacle.ground
+  const material = obstacle.ground && !closes
       ? new THREE.MeshLambertMaterial({color: '#d0d3d8'})
       : new THREE.MeshLambertMaterial(
-            {color: '#d9a066', transparent: true, opacity: 0.45, depthWrite: false});
+            {color: closes ? kBarrierColour : '#d9a066', transparent: true,
+             opacity: closes ? 0.7 : 0.45, depthWrite: false});
   for (const geometry of shapeGeometries(obstacle.shape)) {
     const mesh = new THREE.Mesh(geometry, material);
     mesh.receiveShadow = true;
     group.add(mesh);
     group.add(new THREE.LineSegments(
         new THREE.EdgesGeometry(geometry, 30),
-        lineMaterial(obstacle.ground ? '#aab1ba' : '#9a6a35', 0.8)));
+        lineMaterial(closes ? '#8f1d1d' : obstacle.ground ? '#aab1ba' : '#9a6a35', 0.8)));
   }
   group.applyMatrix(poseMatrix(obstacle.pose));
   return group;
@@ -222,7 +224,10 @@ class Drawing {
 
   addWorld(data) {
     const world = new THREE.Group();
-    data.obstacles.forEach((obstacle) => world.add(obstacleMesh(obstacle)));
+    const closedBy = data.no && data.no.barrier ? data.no.barrier.closed_by : [];
+    data.obstacles.forEach((obstacle) => {
+      world.add(obstacleMesh(obstacle, closedBy.includes(obstacle.name)));
+    });
     this.scene.add(world);
     const [x0, y0, x1, y1] = data.bounds;
     const size = Math.min(1, Math.max(0.55, Math.hypot(x1 - x0, y1 - y0) / 8));  // of words
@@ -230,7 +235,8 @@ class Drawing {
     data.goals.forEach((goal) => this.scene.add(stanceMarker(goal, 'goal', '#c2182b', size)));
     this.graph = exploredGraph(data.explored);
     this.route = routeTubes(this.motion);
-    this.scene.add(this.graph, this.route, flightArcs(this.motion));
+    this.barrier = barrierGroup(data);
+    this.scene.add(this.graph, this.route, this.barrier, flightArcs(this.motion));
     this.centre = new CentreOfMass(this.motion);
     this.com = this.centre.group;
     this.scene.add(this.com);
@@ -262,7 +268,9 @@ class Drawing {
     this.forces.visible = false;
     this.impulses = new THREE.Group();
     this.scene.add(this.forces, this.impulses);
-    if (!this.motion.phases.length) this.links.forEach((link) => { link.visible = false; });
+    if (this.motion.phases.length) return;
+    this.links.forEach((link) => { link.visible = false; });
+    this.shineOn(this.bounds.getCenter(new THREE.Vector3()));
   }
 
   /* Moves the robot to where it is at time t. */
@@ -279,9 +287,13 @@ class Drawing {
     this.updateImpulses(t, phase);
     this.centre.update(t, phase);
     const root = new THREE.Vector3().setFromMatrixPosition(this.motion.linkPoses[0]);
-    this.sun.position.copy(root).add(new THREE.Vector3(1.5, -2, 5));
-    this.sun.target.position.copy(root);
+    this.shineOn(root);
     if (this.follow) this.moveTarget(root);
+  }
+
+  shineOn(point) {
+    this.sun.position.copy(point).add(new THREE.Vector3(1.5, -2, 5));
+    this.sun.target.position.copy(point);
   }
 
   updateForces(t, phase) {

@@ -5,6 +5,7 @@ set(resources
     page ${CMAKE_CURRENT_LIST_DIR}/page.html
     style ${CMAKE_CURRENT_LIST_DIR}/style.css
     kinematics ${CMAKE_CURRENT_LIST_DIR}/kinematics.js
+    barrier ${CMAKE_CURRENT_LIST_DIR}/barrier.js
     drawing ${CMAKE_CURRENT_LIST_DIR}/drawing.js
     jumps ${CMAKE_CURRENT_LIST_DIR}/jumps.js
     timeline ${CMAKE_CURRENT_LIST_DIR}/timeline.js

@@ -19,7 +19,7 @@ function addKey(text, colour, kind) {
   key.style.setProperty('--colour', colour);
 }
 
-const kParts = ['graph', 'route', 'footprints', 'com', 'forces'];  // that can be switched
+const kParts = ['graph', 'route', 'footprints', 'com', 'forces', 'barrier'];  // that can be switched
 
 class Player {
   constructor(data, motion, drawing) {
@@ -62,7 +62,9 @@ class Player {
     const actions = new Set(
         this.data.segments.map((s) => s.action).concat(this.data.explored.actions));
     for (const action of actions) addKey(action, actionColour(action), 'action');
-    this.data.contacts.forEach((contact, i) => addKey(contact.name, limbColour(i), 'limb'));
+    if (this.motion.phases.length) {
+      this.data.contacts.forEach((contact, i) => addKey(contact.name, limbColour(i), 'limb'));
+    }
     if (this.motion.phases.length) addKey('centre of mass', kCentreColour, 'line');
     if (this.motion.flights().length) {
       addKey('its flight', kArcColour, 'line');
@@ -75,6 +77,7 @@ class Player {
     if (this.motion.phases.some((phase) => phase.impulses.length)) {
       addKey('impact', kImpulseColour, 'line');
     }
+    this.describeNo();
     element('graph').parentElement.hidden = !this.data.explored.actions.length;
     element('legs').hidden = this.motion.legs.length < 2;
     for (const speed of kSpeeds) {
@@ -82,6 +85,26 @@ class Player {
       option.value = speed;
       option.selected = speed === 1;
     }
+  }
+
+  /* Why there is no plan. */
+  describeNo() {
+    const {no} = this.data;
+    const barrier = no && no.barrier;
+    element('no').hidden = !no;
+    element('barrier').parentElement.hidden = !barrier;
+    if (!no) return;
+    element('no').textContent = no.explanation;
+    document.body.classList.add('no-motion');
+    for (const part of ['follow', 'route', 'footprints', 'com', 'forces']) {
+      element(part).parentElement.hidden = true;
+    }
+    if (!barrier) return;
+    const actions = new Set(barrier.reached.map((region) => region.action));
+    for (const action of actions) {
+      addKey('reached: ' + (action || 'the pelvis alone'), regionColour(action), 'action');
+    }
+    addKey('closes the way', kBarrierColour, 'action');
   }
 
   connectButtons() {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "actions/planner.h"
 #include "actions/route_motion.h"
 #include "actions/verification_report.h"
+#include "models/input_error.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/leap.h"
 
@@ -171,6 +173,52 @@ TEST(FaultInjectionTest, JobsThatNeverEndAreCancelledAtTheTimeLimit) {
     RecordProperty("seconds_over_the_limit_with_" + std::to_string(threads) + "_threads",
                    std::to_string(passed.count() - kLimit));
   }
+}
+
+/// A plan that would be found all the same is not worth a fault that nobody hears of.
+TEST(FaultInjectionTest, AConditionThatThrowsIsNamedWithActionFunctionAndPose) {
+  for (const std::string function : {"CN", "Explorable", "ExtendTowards", "FindLaunchPoint",
+                                     "ExpectedDuration", "SpawnConfirmationJob"}) {
+    for (const int threads : {1, 2}) {
+      PlanRequest request = Request(Confirms, Slides);
+      request.threads = threads;
+      const auto on_asked = [&](const std::string& asked) {
+        if (asked == function) throw std::logic_error("the condition's\nfuse blew");
+      };
+      request.manoeuvres = {{"leap", [&](const PlanningContext& context) {
+                               return std::make_shared<Leap>(context, Confirms, Slides, on_asked);
+                             }}};
+      try {
+        PlanTraversal(DrcHubo1(), PitScene(false), request);
+        ADD_FAILURE() << function << ": nothing thrown";
+      } catch (const InputError& error) {
+        const std::string message = error.what();
+        for (const char* part : {"pit.yaml: actions: action 'leap': ", " failed for ",
+                                 "the pelvis at (", "the condition's fuse blew"}) {
+          EXPECT_NE(message.find(part), std::string::npos) << message;
+        }
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      }
+    }
+  }
+}
+
+/// Jobs that run meanwhile are cancelled, not waited for.
+TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsThePlan) {
+  std::atomic<bool> is_running = false;
+  const Leap::RunJob sleeps = [&](graph::JobControl* control) {
+    is_running = true;
+    return Sleeps(kForEver)(control);
+  };
+  PlanRequest request = Request(sleeps, Slides);
+  request.threads = 2;
+  const auto on_asked = [&](const std::string&) {
+    if (is_running) throw std::logic_error("the condition's fuse blew");
+  };
+  request.manoeuvres = {{"leap", [&](const PlanningContext& context) {
+                           return std::make_shared<Leap>(context, sleeps, Slides, on_asked);
+                         }}};
+  EXPECT_THROW(PlanTraversal(DrcHubo1(), PitScene(false), request), InputError);
 }
 
 /// It declares no bounds, so a closed flood is no proof.

@@ -70,20 +70,32 @@ class Leap : public Manoeuvre {
  public:
   using RunJob = std::function<graph::JobVerdict(graph::JobControl*)>;
   using MakeMotion = std::function<std::vector<Phase>(const Leap&)>;
+  /// Called with the name of every condition or extension that is asked for.
+  using OnAsked = std::function<void(const std::string&)>;
   static constexpr double kHalf = 0.6;  ///< m, of its length
 
-  Leap(const PlanningContext& context, RunJob run_job, MakeMotion make_motion)
+  Leap(
+      const PlanningContext& context, RunJob run_job, MakeMotion make_motion,
+      OnAsked on_asked = [](const std::string&) {})
       : Manoeuvre(context, "leap", context.model->GaitIndex("walk"),
                   context.model->GaitIndex("walk")),
         run_job_(std::move(run_job)),
         make_motion_(std::move(make_motion)),
+        on_asked_(std::move(on_asked)),
         edge_{At(-kHalf), At(kHalf)} {}
 
   using Manoeuvre::CN;
+  using Manoeuvre::Explorable;
   bool CN(const graph::PointPair& edge) const override {
+    on_asked_("CN");
     return edge.from.isApprox(edge_.from, 1e-9) && edge.to.isApprox(edge_.to, 1e-9);
   }
+  bool Explorable(const graph::PointPair& edge) const override {
+    on_asked_("Explorable");
+    return Manoeuvre::Explorable(edge);
+  }
   graph::Point ExtendTowards(const graph::Point& v0, const graph::Point&) const override {
+    on_asked_("ExtendTowards");
     return v0.isApprox(edge_.from, 1e-9) ? edge_.to : v0;
   }
   graph::Point ReverseExtend(const graph::Point& v0, const graph::Point&) const override {
@@ -91,15 +103,21 @@ class Leap : public Manoeuvre {
   }
   std::optional<graph::Point> FindLaunchPoint(const graph::Point& v,
                                               const graph::Point&) const override {
+    on_asked_("FindLaunchPoint");
     return v.x() < 0 ? std::optional(edge_.from) : std::nullopt;
   }
   std::optional<graph::Point> FindLandingPoint(const graph::Point& v,
                                                const graph::Point&) const override {
+    on_asked_("FindLandingPoint");
     return v.x() > 0 ? std::optional(edge_.to) : std::nullopt;
   }
-  double ExpectedDuration(const graph::PointPair&) const override { return 1; }
+  double ExpectedDuration(const graph::PointPair&) const override {
+    on_asked_("ExpectedDuration");
+    return 1;
+  }
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
       const graph::PointPair& edge) const override {
+    on_asked_("SpawnConfirmationJob");
     return std::make_unique<Job>(*this, edge);
   }
   std::vector<Phase> Motion(const graph::PointPair&, const std::function<bool()>&) const override {
@@ -149,6 +167,7 @@ class Leap : public Manoeuvre {
 
   RunJob run_job_;
   MakeMotion make_motion_;
+  OnAsked on_asked_;
   graph::PointPair edge_;
 };
 

@@ -131,6 +131,68 @@ TEST_F(PlanFile, MayHoldNoMotion) {
   EXPECT_EQ(read.duration(), 0);
 }
 
+NoPlan ClosedRoom() {
+  Barrier barrier;
+  barrier.closest = {4.9, 1.0 / 3};
+  barrier.distance = 4.1;
+  barrier.closed_by = {"wall", "no ground"};
+  barrier.reached = {{"walk", 0.1, {{{0, 0}, {4.9, 0}, {4.9, 2}, {0, 2}}}}, {"", 0, {}}};
+  return {"proven_infeasible", "no route exists: \"wall\"", barrier};
+}
+
+TEST_F(PlanFile, ANoComesBackAsWritten) {
+  plan_.segments.clear();
+  plan_.no = ClosedRoom();
+  const Plan read = ParsePlan(Written(plan_), file());
+  ASSERT_TRUE(read.no.has_value());
+  EXPECT_EQ(read.no->status, plan_.no->status);
+  EXPECT_EQ(read.no->explanation, plan_.no->explanation);
+  ASSERT_TRUE(read.no->barrier.has_value());
+  EXPECT_TRUE(read.no->barrier->closest.isApprox(plan_.no->barrier->closest, 1e-11));
+  EXPECT_EQ(read.no->barrier->distance, 4.1);
+  EXPECT_EQ(read.no->barrier->closed_by, plan_.no->barrier->closed_by);
+  ASSERT_EQ(read.no->barrier->reached.size(), 2u);
+  EXPECT_EQ(read.no->barrier->reached[0].action, "walk");
+  EXPECT_EQ(read.no->barrier->reached[0].z, 0.1);
+  EXPECT_EQ(read.no->barrier->reached[0].outlines, plan_.no->barrier->reached[0].outlines);
+  EXPECT_TRUE(read.no->barrier->reached[1].outlines.empty());
+  const std::string first = Written(read);
+  EXPECT_EQ(Written(ReadPlan(file())), first);
+
+  plan_.no->barrier.reset();
+  EXPECT_FALSE(ParsePlan(Written(plan_), file()).no->barrier.has_value());
+  plan_.no.reset();
+  EXPECT_EQ(Written(plan_).find("\"no\""), std::string::npos);
+}
+
+TEST_F(PlanFile, RefusesANoThatIsNone) {
+  ExpectRefused(
+      [](json* d) {
+        (*d)["no"] = {{"status", "exhausted"}, {"explanation", ""}};
+      },
+      "no: expected none where there are segments");
+  plan_.segments.clear();
+  plan_.no = ClosedRoom();
+  ExpectRefused([](json* d) { (*d)["no"] = 1; }, "no");
+  ExpectRefused([](json* d) { (*d)["no"].erase("status"); }, "no");
+  ExpectRefused([](json* d) { (*d)["no"]["reason"] = ""; }, "no");
+  ExpectRefused([](json* d) { (*d)["no"]["barrier"] = nullptr; }, "no.barrier");
+  ExpectRefused(
+      [](json* d) {
+        (*d)["no"]["barrier"]["closest"] = {1, 2, 3};
+      },
+      "no.barrier.closest: expected 2 numbers");
+  ExpectRefused([](json* d) { (*d)["no"]["barrier"]["closed_by"] = {1}; },
+                "no.barrier.closed_by[0]");
+  ExpectRefused([](json* d) { (*d)["no"]["barrier"]["reached"][0].erase("z"); },
+                "no.barrier.reached[0]");
+  ExpectRefused(
+      [](json* d) {
+        (*d)["no"]["barrier"]["reached"][0]["outlines"][0] = {{1, 2}};
+      },
+      "no.barrier.reached[0].outlines[0]: expected at least 3 corners");
+}
+
 TEST_F(PlanFile, LeavesNothingElseBehind) {
   WritePlan(plan_, file());
   const auto files = std::filesystem::directory_iterator(folder_);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "actions/route_motion.h"
 #include "actions/verification_report.h"
@@ -59,6 +60,32 @@ TEST(PlannerTest, ASolidWallIsProvenInfeasible) {
   EXPECT_NE(result.explanation.find("dividing_wall"), std::string::npos) << result.explanation;
 }
 
+/// The barrier stands where it should, and what each gait reached ends before it.
+TEST(PlannerTest, ANoHoldsWhatItIsSaidFor) {
+  const models::Scenario scenario = ShippedScenario("closed_room");
+  PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(1, {}));
+  ASSERT_TRUE(result.plan.no.has_value());
+  EXPECT_EQ(result.plan.no->status, "proven_infeasible");
+  EXPECT_EQ(result.plan.no->explanation, result.explanation);
+  ASSERT_TRUE(result.plan.no->barrier.has_value());
+  const Barrier& barrier = *result.plan.no->barrier;
+  EXPECT_EQ(barrier.closed_by, std::vector<std::string>{"dividing_wall"});
+  EXPECT_NEAR(barrier.closest.x(), 4.9, 0.1);
+  std::set<std::string> actions;
+  for (const ReachedRegion& region : barrier.reached) {
+    actions.insert(region.action);
+    EXPECT_FALSE(region.outlines.empty());
+    for (const auto& outline : region.outlines) {
+      for (const Eigen::Vector2d& corner : outline) EXPECT_LT(corner.x(), 5) << region.action;
+    }
+  }
+  EXPECT_EQ(actions, (std::set<std::string>{"", "crawl", "walk"}));
+  result = PlanTraversal(DrcHubo1(), ShippedScenario("three_routes_b"), Request(1, {"walk"}));
+  ASSERT_TRUE(result.plan.no && result.plan.no->barrier);
+  ASSERT_EQ(result.plan.no->barrier->reached.size(), 1u);
+  EXPECT_EQ(result.plan.no->barrier->reached[0].action, "walk");
+}
+
 /// Whatever stage the limit cuts: no plan, in words, and never a segment that was not verified.
 TEST(PlannerTest, TheTimeLimitEndsEveryStageWithoutAPlan) {
   const models::Scenario scenario = ShippedScenario("three_routes_b");
@@ -68,9 +95,13 @@ TEST(PlannerTest, TheTimeLimitEndsEveryStageWithoutAPlan) {
     const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
     if (result.status == PlanStatus::kFound) {
       EXPECT_TRUE(result.verification.accepted());
+      EXPECT_FALSE(result.plan.no.has_value());
       continue;
     }
     EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
+    ASSERT_TRUE(result.plan.no.has_value());
+    EXPECT_EQ(result.plan.no->status, "time_limit");
+    EXPECT_EQ(result.plan.scenario_file, scenario.file) << "a page of it can be made";
     EXPECT_TRUE(result.plan.segments.empty());
     EXPECT_FALSE(result.explanation.empty());
   }

@@ -100,8 +100,8 @@ TEST_F(RouteTest, ABarTooLowForWalkingClosesWalkingOnlyAndIsNamed) {
   const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
   const FloodResult flood = FloodSufficient(walking, world_, start, {goal}, 0.1);
   EXPECT_FALSE(flood.route_may_exist);
-  ASSERT_FALSE(flood.barrier.empty());
-  EXPECT_NE(flood.barrier.front().find("bar"), std::string::npos);
+  ASSERT_FALSE(flood.barrier.closed_by.empty());
+  EXPECT_NE(flood.barrier.closed_by.front().find("bar"), std::string::npos);
   EXPECT_TRUE(FloodNecessary(walking, world_, start, {goal}, 0.1).route_may_exist);
 }
 

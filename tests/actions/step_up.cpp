@@ -117,8 +117,9 @@ std::optional<graph::Point> StepUp::FindLandingPoint(const graph::Point& v,
   return StanceAtAnEdge(v, v1);
 }
 
-double StepUp::ExpectedDuration(const graph::PointPair&) const {
-  return motion_.ExpectedDuration();
+double StepUp::ExpectedDuration(const graph::PointPair& edge) const {
+  const std::optional<Step> step = AsStep(edge);
+  return motion_.ExpectedDuration(step ? step->low.pose : PlanarPose());
 }
 
 std::vector<Phase> StepUp::Motion(const graph::PointPair& edge,

@@ -10,12 +10,6 @@ namespace possibility::actions {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-namespace {
-
-constexpr double kStretch = 1.4;
-
-}  // namespace
-
 /// The robot at rest, in the world.
 struct StepUpMotion::State {
   PlanarPose before;           ///< stance that the step starts in
@@ -23,43 +17,34 @@ struct StepUpMotion::State {
   Vector2d centre_of_mass;
   double root_height = 0;
   double lean = 0;
-  double time_scale = 1;
 };
 
 StepUpMotion::StepUpMotion(const models::RobotModel& robot, const LocomotionModel::GaitEntry& gait,
                            const StepUpSettings& settings)
     : robot_(&robot), gait_(&gait), settings_(settings) {}
 
-double StepUpMotion::ExpectedDuration() const {
-  const int strides =
-      static_cast<int>(
-          PlanStrides(gait_->stance.gait->parameters, {}, {settings_.approach, 0, 0}).size()) -
-      1;
-  return gait_->motion->ExpectedDuration(strides) + 3 * settings_.shift_time +
-         2 * (1.5 * settings_.lift_time + settings_.carry_time);
+double StepUpMotion::ExpectedDuration(const PlanarPose& from) const {
+  const double any_rise = settings_.clearance;  // it takes no longer to step higher
+  double duration = 0;
+  for (const MotionPhase& phase : Phases(from, 0, any_rise)) duration += phase.duration;
+  return duration;
 }
 
 std::vector<Phase> StepUpMotion::Generate(const PlanarPose& from, double z, double rise,
                                           const std::function<bool()>& keep_going) const {
   Eigen::VectorXd guess = gait_->stance.q;
   guess.segment<2>(4) = from.position();
-  MotionBuilder builder(*robot_);
-  try {
-    return builder.Build(Phases(from, z, rise, 1), guess, keep_going);
-  } catch (const MotionError&) {
-    return builder.Build(Phases(from, z, rise, kStretch), guess, keep_going);
-  }
+  return MotionBuilder(*robot_).Build(Phases(from, z, rise), guess, keep_going);
 }
 
-std::vector<MotionPhase> StepUpMotion::Phases(const PlanarPose& from, double z, double rise,
-                                              double time_scale) const {
+std::vector<MotionPhase> StepUpMotion::Phases(const PlanarPose& from, double z, double rise) const {
   const NominalStance& stance = gait_->stance;
   const double nominal_height = z + stance.gait->posture.root_height;
   const PlanarPose before = from * PlanarPose{settings_.approach, 0, 0};
-  std::vector<MotionPhase> phases =
-      gait_->motion->Phases(PlanStrides(stance.gait->parameters, from, before), z, time_scale);
+  std::vector<MotionPhase> phases = gait_->motion->Phases(
+      PlanStrides(stance.gait->parameters, from, before), z, settings_.time_scale);
 
-  State state{before, {}, before * stance.centre_of_mass, nominal_height, 0, time_scale};
+  State state{before, {}, before * stance.centre_of_mass, nominal_height, 0};
   for (const Vector3d& p_SF : stance.patch_centres) state.feet.push_back(before.At(z) * p_SF);
   const auto posture = [&](int bearing, const StepPosture& wanted, double ground) {
     State target = state;
@@ -123,7 +108,7 @@ std::vector<int> StepUpMotion::ContactsBut(int limb) const {
 void StepUpMotion::Shift(const State& target, State* state,
                          std::vector<MotionPhase>* phases) const {
   MotionPhase phase;
-  phase.duration = state->time_scale * settings_.shift_time;
+  phase.duration = settings_.time_scale * settings_.shift_time;
   phase.contacts = ContactsBut(-1);
   phase.task = [=, a = *state, duration = phase.duration, task = TaskOf(*state),
                 pitch = gait_->stance.gait->posture.root_pitch](double t) mutable {
@@ -151,7 +136,7 @@ void StepUpMotion::Swing(int limb, double rise, const State& target, State* stat
 void StepUpMotion::MoveFoot(int limb, const Vector3d& p_WF, const State& target, double duration,
                             State* state, std::vector<MotionPhase>* phases) const {
   MotionPhase phase;
-  phase.duration = state->time_scale * duration;
+  phase.duration = settings_.time_scale * duration;
   phase.contacts = ContactsBut(limb);
   phase.task = [=, a = *state, length = phase.duration, task = TaskOf(*state),
                 pitch = gait_->stance.gait->posture.root_pitch](double t) mutable {

@@ -25,6 +25,7 @@ struct StepUpSettings {
   double shift_time = 1.2;  ///< s
   double lift_time = 0.8;   ///< s, from ground to above the edge; lowering takes half of it
   double carry_time = 0.8;  ///< s, over the edge
+  double time_scale = 1.4;  ///< of all times, those of the strides included
   StepPosture first_foot_up{0.114, -0.138, 0.054};  ///< bearing on the lower foot
   /// Bearing on the upper foot, the other one still on the lower ground.
   StepPosture second_foot_leaves{-0.041, 0.236, 0.014};
@@ -41,18 +42,17 @@ class StepUpMotion {
 
   /// Of the higher stance, ahead of the lower one.
   double distance() const { return settings_.approach + settings_.step; }
-  double ExpectedDuration() const;  ///< s
+  /// Of a step from `from`, s.
+  double ExpectedDuration(const PlanarPose& from) const;
 
   /// From `from` on ground of height `z` to distance() ahead on ground `rise` (m, > 0) higher.
-  /// A motion that is too fast for the limits is stretched.
   /// @throws MotionError naming the limit that the robot would break; Abandoned.
   std::vector<Phase> Generate(const PlanarPose& from, double z, double rise,
                               const std::function<bool()>& keep_going) const;
 
  private:
   struct State;
-  std::vector<MotionPhase> Phases(const PlanarPose& from, double z, double rise,
-                                  double time_scale) const;
+  std::vector<MotionPhase> Phases(const PlanarPose& from, double z, double rise) const;
   WholeBodyTask TaskOf(const State& state) const;
   std::vector<int> ContactsBut(int limb) const;
   Eigen::Vector2d Over(int limb, const State& state, double ahead) const;

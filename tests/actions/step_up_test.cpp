@@ -123,6 +123,24 @@ TEST_F(StepUpScene, NecessaryConditionsAreRefusedOneByOne) {
       << "too close to walk there";
 }
 
+TEST_F(StepUpScene, TheExpectedDurationIsThatOfTheMotion) {
+  for (const double y : {0.0, 0.3, -0.123}) {
+    const graph::Point low = At(-0.02, y, 0, 0);
+    const graph::Point high = At(0.48, y, 0, 0.1);
+    for (const graph::PointPair& edge :
+         {graph::PointPair{low, high}, graph::PointPair{high, low}}) {
+      const double duration = step_up_->Motion(edge, {}).back().knots.back().t;
+      EXPECT_NEAR(step_up_->ExpectedDuration(edge), duration, 1e-9) << y;
+    }
+  }
+  const StepUpMotion motion(DrcHubo1(), *DrcHubo1Locomotion().gaits[0]);
+  for (const double rise : {StepUp::kLowest, 0.06, StepUp::kHighest}) {
+    const PlanarPose from{0.3, -0.2, rise};
+    const double duration = motion.Generate(from, 0.4, rise, {}).back().knots.back().t;
+    EXPECT_NEAR(motion.ExpectedDuration(from), duration, 1e-9) << rise;
+  }
+}
+
 TEST_F(StepUpScene, StancesAtAnEdgeAreFoundFromBothSides) {
   const graph::Point target = At(1.5, 0.3, 0, 0.1);
   const auto launch = step_up_->FindLaunchPoint(At(-1, 0.2, 2, 0), target);

@@ -43,7 +43,7 @@ TEST(PlanSummary, JsonOfAPlanNamesRouteAndFiles) {
   EXPECT_TRUE(json["verification"]["accepted"]);
 }
 
-TEST(PlanSummary, JsonWithoutAPlanSaysWhyAndNamesNoFiles) {
+TEST(PlanSummary, JsonWithoutAPlanSaysWhyAndNamesTheFilesThatDo) {
   actions::PlanResult result;
   result.status = actions::PlanStatus::kExhausted;
   result.explanation = "the bars are too low";
@@ -51,7 +51,9 @@ TEST(PlanSummary, JsonWithoutAPlanSaysWhyAndNamesNoFiles) {
   EXPECT_EQ(json["status"], "no_plan");
   EXPECT_EQ(json["no"], "exhausted");
   EXPECT_EQ(json["explanation"], "the bars are too low");
-  EXPECT_FALSE(json.contains("plan"));
+  EXPECT_EQ(json["plan"], "a/plan.json");
+  EXPECT_EQ(json["page"], "a/plan.html");
+  EXPECT_FALSE(json.contains("route"));
 }
 
 }  // namespace

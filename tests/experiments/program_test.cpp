@@ -64,6 +64,27 @@ TEST_F(Program, HelpIsNoError) {
   }
 }
 
+TEST_F(Program, ANoLeavesAPlanFileAndAPageThatSayWhy) {
+  const std::string room = POSSIBILITY_SOURCE_DIR "/experiments/scenarios/closed_room.yaml";
+  fs::create_directories(folder_ / "out");
+  std::ofstream(folder_ / "out" / "plan.json") << "an older plan";
+  const Outcome outcome = Run("plan '" + room + "' --out out --json");
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["no"], "proven_infeasible");
+  const nlohmann::json plan = nlohmann::json::parse(ReadText(folder_ / "out" / "plan.json"));
+  EXPECT_TRUE(plan["segments"].empty());
+  EXPECT_EQ(plan["no"]["barrier"]["closed_by"][0], "dividing_wall");
+  EXPECT_LT(fs::file_size(folder_ / "out" / "plan.json"), 100000u);
+  const std::string page = ReadText(folder_ / "out" / "plan.html");
+  EXPECT_NE(page.find("dividing_wall"), std::string::npos);
+  EXPECT_EQ(Run("view out --out again.html").code, 0);
+  EXPECT_TRUE(ReadText(folder_ / "again.html") == page);
+  const Outcome verified = Run("verify out");
+  EXPECT_EQ(verified.code, 1) << verified.out;
+  EXPECT_NE(verified.err.find("proven_infeasible"), std::string::npos) << verified.err;
+  EXPECT_EQ(Run("export out --csv tables").code, 1);
+}
+
 TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
   const std::string scenario = scenario_file_.string();
   std::ofstream(folder_ / "broken.yaml") << "name: [unclosed\n";

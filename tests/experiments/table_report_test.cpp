@@ -214,6 +214,22 @@ TEST(PlanPictureTest, ShowsObstaclesGraphAndTheRouteByAction) {
   EXPECT_TRUE(IsWellFormed(PlanPicture({}, testing::SampleScenario().environment)));
 }
 
+TEST(PlanPictureTest, ShowsTheBarrierOfANo) {
+  actions::Plan plan;
+  plan.no = {"exhausted", "", {}};
+  const models::Environment& environment = testing::SampleScenario().environment;
+  EXPECT_EQ(PlanPicture(plan, environment).find("class=\"barrier\""), std::string::npos);
+  plan.no->barrier = {{1, 0.5}, 2, {"bar"}, {{"walk", 0, {{{0, 0}, {1, 0}, {1, 1}}}}, {"", 0, {}}}};
+  const std::string svg = PlanPicture(plan, environment);
+  EXPECT_TRUE(IsWellFormed(svg));
+  EXPECT_NE(svg.find("class=\"barrier\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"closest\""), std::string::npos);
+  EXPECT_NE(svg.find("M0.000,-0.000 1.000,-0.000 1.000,-1.000 Z\" class=\"reached\" fill=\"" +
+                     ActionColor("walk")),
+            std::string::npos)
+      << svg;
+}
+
 TEST(TextTableTest, EscapesWhatWouldBreakIt) {
   TextTable table;
   table.header = {"a|b", "n"};

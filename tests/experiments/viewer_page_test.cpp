@@ -254,6 +254,23 @@ TEST_F(ViewerPageTest, DrawsAPlanWithoutSegments) {
   EXPECT_TRUE(EmbeddedData(Page())["segments"].empty());
 }
 
+TEST_F(ViewerPageTest, DrawsABarrierAndSaysWhy) {
+  EXPECT_TRUE(EmbeddedData(Page())["no"].is_null());
+  plan_.segments.clear();
+  plan_.no = {"exhausted", kNasty, {}};
+  EXPECT_TRUE(EmbeddedData(Page())["no"]["barrier"].is_null());
+  plan_.no->barrier = {{1, 0.5}, 2, {"bar", kNasty}, {{"walk", 0.25, {{{0, 0}, {1, 0}, {1, 1}}}}}};
+  const nlohmann::json data = EmbeddedData(Page());
+  EXPECT_EQ(data["facts"][2], (std::vector<std::string>{"Answer", "no plan (exhausted)"}));
+  EXPECT_EQ(data["no"]["explanation"], kNasty);
+  const nlohmann::json& barrier = data["no"]["barrier"];
+  EXPECT_EQ(barrier["closest"], (std::vector<double>{1, 0.5}));
+  EXPECT_EQ(barrier["closed_by"], (std::vector<std::string>{"bar", kNasty}));
+  EXPECT_EQ(barrier["reached"][0]["action"], "walk");
+  EXPECT_EQ(barrier["reached"][0]["z"], 0.25);
+  EXPECT_EQ(barrier["reached"][0]["outlines"][0].size(), 3u);
+}
+
 TEST_F(ViewerPageTest, FiveMinutesOfAHumanoidStayUnderSixMegabytes) {
   const models::Joint hinge = robot_.joints[0];
   for (int i = 0; i < 26; ++i) {
