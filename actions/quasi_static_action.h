@@ -60,6 +60,8 @@ class QuasiStaticAction : public graph::HolonomicAction {
   /// Name of the first obstacle in the swept volume at `stance`; empty if none.
   std::string FirstBlocker(const GroundedStance& stance) const;
   bool IsClear(const GroundedStance& from, const GroundedStance& to) const;
+  /// C_S of the straight way between two stances of this gait, and of these.
+  bool CS(const GroundedStance& from, const GroundedStance& to) const;
   /// Every bearing point of the stance, of whatever gait, is on ground, `clearance` (m) from its
   /// edge.
   bool GroundHolds(const GroundedStance& stance, double clearance) const;
@@ -80,7 +82,11 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool BoxesFree(const models::UprightBoxes& boxes, const GroundedStance& stance) const {
     return checker_.AreFree(boxes, stance.pose.At(stance.z));
   }
+  bool StraightWayHolds(const GroundedStance& from, const GroundedStance& to) const;
   StraightWay WayBetween(const GroundedStance& from, const GroundedStance& to) const;
+  std::optional<bool> FacesHold(int level, const GroundedStance& stance, double clearance) const;
+  bool OneFaceHoldsPart(const StraightWay& way, int level, int first, int last,
+                        double half_turn) const;
   bool SampleIsClear(const StraightWay& way, int sample) const;
   bool PartIsCertainlyClear(const StraightWay& way, int first, int last) const;
   bool PartIsOverGround(const StraightWay& way, int level, int first, int last) const;
