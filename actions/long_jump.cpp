@@ -130,7 +130,14 @@ bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double e
 }
 
 bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
-  if (!GroundIsWide(launch, -kWideGround, distance + kWideGround)) return false;
+  const double begin = -kWideGround;
+  const double end = distance + kWideGround;
+  const std::optional<int> level =
+      world().ground->LevelAt(launch.pose.position(), launch.z, kSamePlace);
+  if (!level) return false;
+  const bool one_face_holds = world().ground->OneFaceHolds(
+      *level, launch.pose * Vector2d(begin, 0), launch.pose * Vector2d(end, 0), kWideGround);
+  if (!one_face_holds && !GroundIsWide(launch, begin, end)) return false;
   Eigen::AlignedBox3d box = room_;
   box.extend(room_.translated(Eigen::Vector3d(distance, 0, 0)));
   Isometry3d X_SB = Isometry3d::Identity();

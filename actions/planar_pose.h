@@ -8,6 +8,7 @@ namespace possibility::actions {
 
 /// Angle wrapped to (-pi, pi].
 inline double WrapAngle(double angle) {
+  if (angle > -std::numbers::pi && angle <= std::numbers::pi) return angle;
   const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? wrapped + 2 * std::numbers::pi : wrapped;
 }

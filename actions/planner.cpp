@@ -21,7 +21,7 @@
 #include "actions/route_flood.h"
 #include "actions/route_motion.h"
 #include "actions/route_refinement.h"
-#include "actions/route_search.h"
+#include "actions/route_suggestion.h"
 #include "models/ground_map.h"
 #include "models/input_error.h"
 
@@ -91,11 +91,6 @@ void SayNo(PlanStatus status, const std::string& explanation, PlanResult* result
   result->explanation = explanation;
   result->plan.no = NoPlan{ToString(status), explanation, {}};
 }
-
-/// Fast ones first; what they miss is left to the random search, or proven not to be there.
-constexpr RouteSearchSettings kSuggestions[] = {
-    {.step = 0.2, .headings = 8, .greed = 4, .most_stances = 20000},
-    {.step = 0.2, .headings = 16, .greed = 4, .most_stances = 20000}};
 
 /// One request, from the checked scenario to a verified plan.
 class TraversalPlanner {
@@ -230,6 +225,10 @@ class TraversalPlanner {
     switch (actions_[gait]->Examine(grounded)) {
       case StanceFault::kNone:
         return grounded;
+      case StanceFault::kOutOfBounds:
+        throw InputError(
+            fmt::format("{}: {}: the pelvis of {} at {} lies outside environment.bounds",
+                        scenario_.file.string(), key, stance.action, Describe(stance)));
       case StanceFault::kOffGround:
         throw InputError(fmt::format(
             "{}: {}: the {} stance at {} is off the ground; every contact point must be on ground "
@@ -255,7 +254,8 @@ class TraversalPlanner {
     settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
     settings.confirmation_threads = std::max(0, request_.threads - 1);
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
-    if (switches_.suggestions) settings.suggestion = [this] { return SuggestRoute(); };
+    settings.straight_first = switches_.suggestions;
+    if (switches_.suggestions) settings.suggestion = [this] { return Suggestion(); };
     if (switches_.floods) settings.oracle = [this] { return AskFloods(); };
     if (request_.progress) {
       settings.progress = [this](const graph::FindPathProgress& progress) {
@@ -270,15 +270,9 @@ class TraversalPlanner {
     return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
   }
 
-  /// At one resolution after the other, until there is a route.
-  std::vector<graph::PathEdge> SuggestRoute() const {
-    const RouteSearchSpace space{&model_, &actions_, &guarded_};
-    const auto keep_going = [this] { return Remaining() > 0; };
-    for (const RouteSearchSettings& settings : kSuggestions) {
-      std::vector<graph::PathEdge> route = SearchRoute(space, start_, goals_, settings, keep_going);
-      if (!route.empty()) return route;
-    }
-    return {};
+  std::vector<graph::PathEdge> Suggestion() const {
+    return SuggestRoute({&model_, &actions_, &guarded_}, start_, goals_,
+                        [this] { return Remaining() > 0; });
   }
 
   graph::RouteOracleAnswer AskFloods() {

@@ -149,14 +149,31 @@ std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {
   return only;
 }
 
+/// Whether one face of a level holds every bearing point; nothing if that takes a closer look.
+std::optional<bool> QuasiStaticAction::FacesHold(int level, const GroundedStance& stance,
+                                                 double clearance) const {
+  bool all_hold = true;
+  for (const std::vector<Vector2d>& points : model_->gaits[stance.gait]->stance.bearing_points) {
+    for (const Vector2d& p_S : points) {
+      const Vector2d p = stance.pose * p_S;
+      if (world_.ground->OneFaceHolds(level, p, p, clearance + kGroundError)) continue;
+      if (!world_.ground->LevelAt(p, stance.z, kSamePlace)) return false;
+      all_hold = false;
+    }
+  }
+  return all_hold ? std::optional(true) : std::nullopt;
+}
+
 bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearance) const {
   const Vector2d centre = stance.pose.position();
   const double all_round = bearing_radii_[stance.gait] + clearance + kSamePlace;
   std::optional<int> level = OnlyLevelAt(stance.z);
-  if (level && world_.ground->OneFaceHolds(*level, centre, centre, all_round + kGroundError)) {
-    return true;
+  if (level) {
+    if (world_.ground->OneFaceHolds(*level, centre, centre, all_round + kGroundError)) return true;
+    if (const std::optional<bool> hold = FacesHold(*level, stance, clearance)) return *hold;
+  } else {
+    level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
   }
-  if (!level) level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
   if (level && world_.ground->Clearance(*level, centre) >= all_round) return true;
   const NominalStance& nominal = model_->gaits[stance.gait]->stance;
   for (const std::vector<Vector2d>& points : nominal.bearing_points) {
@@ -169,7 +186,15 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
   return true;
 }
 
+bool QuasiStaticAction::IsWithinBounds(const GroundedStance& stance) const {
+  const Eigen::AlignedBox2d& bounds = world_.environment->bounds;
+  const Vector2d root =
+      stance.pose * model_->gaits[stance.gait]->stance.X_SR.translation().head<2>();
+  return bounds.isEmpty() || bounds.squaredExteriorDistance(root) <= kSamePlace * kSamePlace;
+}
+
 StanceFault QuasiStaticAction::Examine(const GroundedStance& stance) const {
+  if (!IsWithinBounds(stance)) return StanceFault::kOutOfBounds;
   if (!GroundHolds(stance, 0)) return StanceFault::kOffGround;
   if (!BoxesFree(sweep_, stance)) return StanceFault::kCollision;
   return StanceFault::kNone;
@@ -234,6 +259,22 @@ bool QuasiStaticAction::PartIsOverGround(const StraightWay& way, int level, int 
          PartIsOverGround(way, level, split, last);
 }
 
+/// True only if one face holds all bearing points on their ways from the one end of a part of the
+/// way to the other: they go straight but for what turning bends their ways.
+bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int first, int last,
+                                         double half_turn) const {
+  const PlanarPose from = way.At(first).pose;
+  const PlanarPose to = way.At(last).pose;
+  const double bend = bearing_radii_[gait_] * (1 - std::cos(half_turn));
+  const double radius = way.TravelOfSample() + bend + kSamePlace + kGroundError;
+  for (const std::vector<Vector2d>& points : model_->gaits[gait_]->stance.bearing_points) {
+    for (const Vector2d& p_S : points) {
+      if (!world_.ground->OneFaceHolds(level, from * p_S, to * p_S, radius)) return false;
+    }
+  }
+  return true;
+}
+
 /// True only if the samples `first` to `last` - 1 are clear, and the ends of their part of the way
 /// as well: what the boxes cover between its ends lies in larger boxes around its middle.
 bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, int last) const {
@@ -245,7 +286,10 @@ bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, 
   const double all_round = bearing_radii_[gait_] + way.TravelOfSample() + kSamePlace + kGroundError;
   const bool one_face_holds = world_.ground->OneFaceHolds(*level, way.At(first).pose.position(),
                                                           way.At(last).pose.position(), all_round);
-  if (!one_face_holds && !PartIsOverGround(way, *level, first, last)) return false;
+  if (!one_face_holds && !OneFaceHoldsPart(way, *level, first, last, half_turn) &&
+      !PartIsOverGround(way, *level, first, last)) {
+    return false;
+  }
   const GroundedStance middle = way.At((first + last) / 2.0);
   const Vector2d half_way = middle.pose.rotation().inverse() * way.HalfWay(first, last);
   const Isometry3d X_WS = middle.pose.At(middle.z);
@@ -300,12 +344,25 @@ bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
   }
   const std::optional<GroundedStance> from = AsStance(*model_, gait_, ToPose(edge.from));
   const std::optional<GroundedStance> to = AsStance(*model_, gait_, ToPose(edge.to));
-  if (!from || !to || std::abs(from->z - to->z) > kSamePlace) return false;
-  const StraightWay way = WayBetween(*from, *to);
-  const bool is_level = std::abs(from->z - to->z) <= kSamePlace / 4;
+  return from && to && StraightWayHolds(*from, *to);
+}
+
+bool QuasiStaticAction::CS(const GroundedStance& from, const GroundedStance& to) const {
+  const auto point = [&](const GroundedStance& stance) {
+    return ToPoint(model_->gaits[gait_]->stance.RootPose(stance.pose, stance.z));
+  };
+  if (!forbidden_.empty() && IsForbidden({point(from), point(to)})) return false;
+  return StraightWayHolds(from, to);
+}
+
+bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
+                                         const GroundedStance& to) const {
+  if (std::abs(from.z - to.z) > kSamePlace) return false;
+  const StraightWay way = WayBetween(from, to);
+  const bool is_level = std::abs(from.z - to.z) <= kSamePlace / 4;
   // The whole way includes its ends.
   if (is_level && PartIsCertainlyClear(way, 0, way.samples)) return true;
-  return Examine(*from) == StanceFault::kNone && Examine(*to) == StanceFault::kNone &&
+  return Examine(to) == StanceFault::kNone && Examine(from) == StanceFault::kNone &&
          SamplesAreClear(way);
 }
 

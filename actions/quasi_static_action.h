@@ -21,7 +21,7 @@ struct World {
 };
 
 /// Where the conditions of a quasi-static action fail, for messages.
-enum class StanceFault { kNone, kNotNominal, kOffGround, kCollision };
+enum class StanceFault { kNone, kOutOfBounds, kOffGround, kCollision };
 
 /// Walking and crawling (paper, section "Walk and Crawl"): holonomic, with sufficient conditions
 /// on a swept volume and flat ground in the nominal orientation, and necessary conditions on the
@@ -60,6 +60,8 @@ class QuasiStaticAction : public graph::HolonomicAction {
   /// Name of the first obstacle in the swept volume at `stance`; empty if none.
   std::string FirstBlocker(const GroundedStance& stance) const;
   bool IsClear(const GroundedStance& from, const GroundedStance& to) const;
+  /// C_S of the straight way between two stances of this gait, and of these.
+  bool CS(const GroundedStance& from, const GroundedStance& to) const;
   /// Every bearing point of the stance, of whatever gait, is on ground, `clearance` (m) from its
   /// edge.
   bool GroundHolds(const GroundedStance& stance, double clearance) const;
@@ -80,7 +82,13 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool BoxesFree(const models::UprightBoxes& boxes, const GroundedStance& stance) const {
     return checker_.AreFree(boxes, stance.pose.At(stance.z));
   }
+  bool StraightWayHolds(const GroundedStance& from, const GroundedStance& to) const;
   StraightWay WayBetween(const GroundedStance& from, const GroundedStance& to) const;
+  /// The pelvis; bounds that are empty bound nothing.
+  bool IsWithinBounds(const GroundedStance& stance) const;
+  std::optional<bool> FacesHold(int level, const GroundedStance& stance, double clearance) const;
+  bool OneFaceHoldsPart(const StraightWay& way, int level, int first, int last,
+                        double half_turn) const;
   bool SampleIsClear(const StraightWay& way, int sample) const;
   bool PartIsCertainlyClear(const StraightWay& way, int first, int last) const;
   bool PartIsOverGround(const StraightWay& way, int level, int first, int last) const;

@@ -21,6 +21,9 @@ constexpr double kLeastAhead = 0.2;
 constexpr double kMostAhead = 2;
 constexpr double kAheadStep = 0.05;
 
+/// Of strides ahead that are blocked.
+constexpr int kMostHalvings = 3;
+
 constexpr double kSamePoint = 1e-9;
 
 class RouteSearch {
@@ -38,16 +41,23 @@ class RouteSearch {
   }
 
   std::vector<graph::PathEdge> Run(const GroundedStance& start) {
-    Push({start, -1, 0, 0});
-    if (const int last = StraightOn(start); last >= 0) return EdgesTo(last);
+    Push({.stance = start});
     while (!open_.empty()) {
       if (examined_ > settings_.most_stances || (keep_going_ && !keep_going_())) return {};
-      const int node = open_.top().node;
+      const Candidate next = open_.top();
       open_.pop();
-      if (!IsReached(node)) continue;
-      if (nodes_[node].is_goal) return EdgesTo(node);
-      if (!closed_.insert(CellOf(nodes_[node].stance)).second) continue;
-      Expand(node);
+      if (next.launches) {
+        Manoeuvres(next.node);
+      } else if (!nodes_[next.node].is_goal && closed_.contains(CellOf(nodes_[next.node]))) {
+        continue;
+      } else if (!IsReached(next.node)) {
+        Halve(next.node);
+      } else if (nodes_[next.node].is_goal) {
+        return EdgesTo(next.node);
+      } else {
+        closed_.insert(CellOf(nodes_[next.node]));
+        Expand(next.node);
+      }
     }
     return {};
   }
@@ -56,89 +66,129 @@ class RouteSearch {
   struct Node {
     GroundedStance stance;
     int parent = -1;
-    int action = 0;   ///< that leads here from the parent
-    double cost = 0;  ///< s
+    int action = 0;    ///< that leads here from the parent
+    double cost = 0;   ///< s
+    int halvings = 0;  ///< of the stride that leads here
     bool is_goal = false;
+    bool is_ahead = false;  ///< reached by a stride forward
   };
   struct Candidate {
     double priority = 0;
     int node = 0;
+    bool launches = false;  ///< whether it is the manoeuvres' turn there
     bool operator<(const Candidate& other) const {
       return priority != other.priority ? priority > other.priority : node > other.node;
     }
   };
 
-  const PlanarPose& PoseOf(int node) const { return nodes_[node].stance.pose; }
-
   graph::Point PointOf(const GroundedStance& stance) const {
     return ToPoint(space_.model->gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
   }
+  int num_gaits() const { return static_cast<int>(space_.gaits->size()); }
+  const Manoeuvre& ManoeuvreOf(int action) const {
+    return *(*space_.manoeuvres)[action - num_gaits()];
+  }
+  double turn() const { return 2 * std::numbers::pi / settings_.headings; }
 
-  std::int64_t CellOf(const GroundedStance& stance) const {
-    const double turn = 2 * std::numbers::pi / settings_.headings;
-    const auto heading = static_cast<std::int64_t>(std::llround(stance.pose.yaw / turn));
+  std::int64_t CellOf(const Node& node) const {
+    const GroundedStance& stance = node.stance;
+    const auto heading = static_cast<std::int64_t>(std::llround(stance.pose.yaw / turn()));
     const std::int64_t wrapped =
         ((heading % settings_.headings) + settings_.headings) % settings_.headings;
-    const std::int64_t x = std::llround(stance.pose.x / settings_.step) + (1 << 15);
-    const std::int64_t y = std::llround(stance.pose.y / settings_.step) + (1 << 15);
+    const double size = settings_.step / (1 << node.halvings);
+    const std::int64_t x = std::llround(stance.pose.x / size) + (1 << 15);
+    const std::int64_t y = std::llround(stance.pose.y / size) + (1 << 15);
     const std::int64_t z = std::llround(stance.z * 100) + (1 << 12);
-    return (((z << 16 | x) << 16 | y) << 8 | wrapped) << 4 | stance.gait;
+    return ((((z << 16 | x) << 16 | y) << 8 | wrapped) << 2 | node.halvings) << 3 | stance.gait;
   }
 
-  double LeftFrom(const GroundedStance& stance) const {
+  double LeftFrom(const PlanarPose& pose) const {
     double least = std::numeric_limits<double>::infinity();
     for (const GroundedStance& goal : goals_) {
-      least = std::min(least, (goal.pose.position() - stance.pose.position()).norm());
+      least = std::min(least, (goal.pose.position() - pose.position()).norm());
     }
-    return least * least_seconds_per_metre_;
+    return settings_.greed * least * least_seconds_per_metre_;
   }
 
   void Push(const Node& node) {
     nodes_.push_back(node);
-    open_.push(
-        {node.cost + settings_.greed * LeftFrom(node.stance), static_cast<int>(nodes_.size()) - 1});
+    open_.push({node.cost + LeftFrom(node.stance.pose), static_cast<int>(nodes_.size()) - 1});
   }
 
-  /// Whether the way to a node from its parent is one; asked when its turn has come.
-  bool IsReached(int node) {
-    const Node& reached = nodes_[node];
-    if (reached.parent < 0) return true;
-    if (!reached.is_goal && closed_.contains(CellOf(reached.stance))) return false;
-    const graph::PointPair edge = {PointOf(nodes_[reached.parent].stance), PointOf(reached.stance)};
-    const int num_gaits = static_cast<int>(space_.gaits->size());
-    if (reached.action < num_gaits) return (*space_.gaits)[reached.action]->CS(edge);
-    return (*space_.manoeuvres)[reached.action - num_gaits]->Explorable(edge);
+  /// Whether a node is new, and the way to it from its parent is one; asked when its turn has come.
+  bool IsReached(int index) {
+    const Node node = nodes_[index];
+    if (node.parent < 0) return true;
+    ++examined_;
+    const GroundedStance& from = nodes_[node.parent].stance;
+    if (node.action >= num_gaits()) {
+      return ManoeuvreOf(node.action)
+          .Explorable(graph::PointPair{PointOf(from), PointOf(node.stance)});
+    }
+    const QuasiStaticAction& gait = *(*space_.gaits)[node.action];
+    if (from.gait == node.stance.gait) return gait.CS(from, node.stance);
+    return gait.Examine(node.stance) == StanceFault::kNone &&
+           gait.CS(graph::PointPair{PointOf(from), PointOf(node.stance)});
   }
 
   void Expand(int node) {
     Stride(node);
     Change(node);
     Finish(node);
-    Manoeuvres(node);
+    if (!MayLaunch(nodes_[node].stance.gait)) return;
+    const PlanarPose ahead = nodes_[node].stance.pose * PlanarPose{kMostAhead, 0, 0};
+    open_.push({nodes_[node].cost + LeftFrom(ahead), node, true});
+  }
+
+  bool MayLaunch(int gait) const {
+    return std::any_of(space_.manoeuvres->begin(), space_.manoeuvres->end(),
+                       [gait](const auto& manoeuvre) { return manoeuvre->from() == gait; });
+  }
+
+  /// Where the lattice ends before an edge or a wall, shorter strides lead up to it: manoeuvres
+  /// begin there.
+  void Halve(int blocked) {
+    const Node node = nodes_[blocked];
+    if (!node.is_ahead || node.halvings == kMostHalvings || !MayLaunch(node.stance.gait)) return;
+    StrideAhead(node.parent, node.halvings + 1);
+  }
+
+  void StrideAhead(int node, int halvings) {
+    const GroundedStance& from = nodes_[node].stance;
+    const PlanarPose displacement{settings_.step / (1 << halvings), 0, 0};
+    Node next{.stance = from,
+              .parent = node,
+              .action = from.gait,
+              .cost = nodes_[node].cost + StrideTime(from.gait, displacement),
+              .halvings = halvings,
+              .is_ahead = true};
+    next.stance.pose = from.pose * displacement;
+    Offer(next);
   }
 
   /// To a stance of the same gait, of another, or beyond a manoeuvre.
-  bool Offer(int node, const GroundedStance& next, int action, double duration) {
-    if (closed_.contains(CellOf(next))) return false;
-    ++examined_;
-    if ((*space_.gaits)[next.gait]->Examine(next) != StanceFault::kNone) return false;
-    Push({next, node, action, nodes_[node].cost + duration});
-    return true;
+  void Offer(int node, const GroundedStance& next, int action, double duration) {
+    Offer({.stance = next, .parent = node, .action = action, .cost = nodes_[node].cost + duration});
+  }
+  void Offer(const Node& next) {
+    if (!closed_.contains(CellOf(next))) Push(next);
+  }
+
+  double StrideTime(int gait, const PlanarPose& displacement) const {
+    return StrideEffort(space_.model->gaits[gait]->stance.gait->parameters, displacement) *
+           stride_times_[gait];
   }
 
   void Stride(int node) {
     const GroundedStance from = nodes_[node].stance;
-    const double turn = 2 * std::numbers::pi / settings_.headings;
     const double step = settings_.step;
-    const models::GaitParameters& parameters =
-        space_.model->gaits[from.gait]->stance.gait->parameters;
+    StrideAhead(node, 0);
     for (const PlanarPose& displacement :
-         {PlanarPose{step, 0, 0}, PlanarPose{-step, 0, 0}, PlanarPose{0, step, 0},
-          PlanarPose{0, -step, 0}, PlanarPose{0, 0, turn}, PlanarPose{0, 0, -turn}}) {
+         {PlanarPose{-step, 0, 0}, PlanarPose{0, step, 0}, PlanarPose{0, -step, 0},
+          PlanarPose{0, 0, turn()}, PlanarPose{0, 0, -turn()}}) {
       GroundedStance next = from;
       next.pose = from.pose * displacement;
-      Offer(node, next, from.gait,
-            StrideEffort(parameters, displacement) * stride_times_[from.gait]);
+      Offer(node, next, from.gait, StrideTime(from.gait, displacement));
     }
   }
 
@@ -160,17 +210,6 @@ class RouteSearch {
     }
   }
 
-  /// The node of a goal that the straight way from the start leads to; -1 if there is none.
-  int StraightOn(const GroundedStance& start) {
-    for (const GroundedStance& goal : goals_) {
-      if (goal.gait != start.gait) continue;
-      nodes_.push_back({goal, 0, start.gait, 0, true});
-      const int last = static_cast<int>(nodes_.size()) - 1;
-      if (IsReached(last)) return last;
-    }
-    return -1;
-  }
-
   /// Straight to a goal that is near.
   void Finish(int node) {
     const GroundedStance from = nodes_[node].stance;
@@ -179,11 +218,12 @@ class RouteSearch {
       if (goal.gait != from.gait || std::abs(goal.z - from.z) > 1e-6) continue;
       if (left.position().norm() > 2 * settings_.step) continue;
       const PlanarPose way{left.x, left.y, WrapAngle(left.yaw)};
-      const models::GaitParameters& parameters =
-          space_.model->gaits[from.gait]->stance.gait->parameters;
-      Node last{goal, node, from.gait, nodes_[node].cost, true};
-      last.cost += StrideEffort(parameters, way) * stride_times_[from.gait];
-      Push(last);
+      const double duration = StrideTime(from.gait, way);
+      Push({.stance = goal,
+            .parent = node,
+            .action = from.gait,
+            .cost = nodes_[node].cost + duration,
+            .is_goal = true});
     }
   }
 
@@ -191,43 +231,82 @@ class RouteSearch {
     for (std::size_t i = 0; i < space_.manoeuvres->size(); ++i) {
       const Manoeuvre& manoeuvre = *(*space_.manoeuvres)[i];
       if (manoeuvre.from() != nodes_[node].stance.gait) continue;
-      if (!Landing(node, manoeuvre, kMostAhead)) continue;
-      for (double ahead = kLeastAhead; ahead < kMostAhead; ahead += kAheadStep) {
-        if (Execute(node, manoeuvre, static_cast<int>(space_.gaits->size() + i), ahead)) break;
+      const std::vector<graph::Point> landings = Landings(node, manoeuvre);
+      const graph::Point v = PointOf(nodes_[node].stance);
+      if (landings.empty() || !Launches(manoeuvre, v, landings.front())) continue;
+      for (auto end = landings.rbegin(); end != landings.rend(); ++end) {
+        const auto stance = AsStance(*space_.model, manoeuvre.to(), ToPose(*end));
+        ++examined_;
+        if (!stance || (*space_.gaits)[manoeuvre.to()]->Examine(*stance) != StanceFault::kNone)
+          continue;
+        if (!Launches(manoeuvre, v, *end)) continue;
+        Offer(node, *stance, static_cast<int>(num_gaits() + i),
+              manoeuvre.ExpectedDuration({v, *end}));
+        break;
       }
     }
   }
 
-  bool Execute(int node, const Manoeuvre& manoeuvre, int action, double distance) {
-    const std::optional<GroundedStance> landing = Landing(node, manoeuvre, distance);
-    if (!landing) return false;
-    const graph::PointPair edge = {PointOf(nodes_[node].stance), PointOf(*landing)};
-    return Offer(node, *landing, action, manoeuvre.ExpectedDuration(edge));
+  bool Launches(const Manoeuvre& manoeuvre, const graph::Point& v, const graph::Point& end) const {
+    const std::optional<graph::Point> launch = manoeuvre.FindLaunchPoint(v, end);
+    return launch && (*launch - v).norm() < kSamePoint;
   }
 
-  /// Where a manoeuvre straight ahead from a node, so far at most, would end.
-  std::optional<GroundedStance> Landing(int node, const Manoeuvre& manoeuvre,
-                                        double distance) const {
-    GroundedStance ahead = nodes_[node].stance;
-    ahead.pose = ahead.pose * PlanarPose{distance, 0, 0};
-    const graph::Point v = PointOf(nodes_[node].stance);
-    const graph::Point target = PointOf(ahead);
-    const std::optional<graph::Point> launch = manoeuvre.FindLaunchPoint(v, target);
-    if (!launch || (*launch - v).norm() > kSamePoint) return std::nullopt;
-    const graph::Point end = manoeuvre.ExtendTowards(v, target);
-    if ((end - v).norm() < kSamePoint) return std::nullopt;
-    return AsStance(*space_.model, manoeuvre.to(), ToPose(end));
-  }
-
-  std::vector<graph::PathEdge> EdgesTo(int node) const {
-    std::vector<graph::PathEdge> edges;
-    for (; nodes_[node].parent >= 0; node = nodes_[node].parent) {
-      edges.push_back(
-          {nodes_[node].action,
-           {PointOf(nodes_[nodes_[node].parent].stance), PointOf(nodes_[node].stance)}});
+  /// Where a manoeuvre straight ahead from a node might end, far ones first.
+  std::vector<graph::Point> Landings(int node, const Manoeuvre& manoeuvre) const {
+    std::vector<graph::Point> landings;
+    const GroundedStance& from = nodes_[node].stance;
+    const graph::Point v = PointOf(from);
+    for (double distance = kMostAhead; distance > kLeastAhead - kSamePoint;) {
+      GroundedStance ahead = from;
+      ahead.pose = from.pose * PlanarPose{distance, 0, 0};
+      graph::Point end = manoeuvre.ExtendTowards(v, PointOf(ahead));
+      const double length = (end - v).head<2>().norm();
+      if (length < kSamePoint) break;
+      if (landings.empty() || (landings.back() - end).norm() > kSamePoint) landings.push_back(end);
+      distance = std::min(distance, length) - kAheadStep;
     }
-    std::reverse(edges.begin(), edges.end());
+    return landings;
+  }
+
+  std::vector<graph::PathEdge> EdgesTo(int last) const {
+    std::vector<int> way;
+    for (int node = last; node >= 0; node = nodes_[node].parent) way.push_back(node);
+    std::reverse(way.begin(), way.end());
+    std::vector<graph::PathEdge> edges;
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const std::size_t end = EndOfStraight(way, i);
+      graph::PathEdge edge = EdgeBetween(way[i - 1], way[end]);
+      if (end > i && !(*space_.gaits)[edge.action]->CS(edge.points)) {
+        edge = EdgeBetween(way[i - 1], way[i]);
+      } else {
+        i = end;
+      }
+      edges.push_back(std::move(edge));
+    }
     return edges;
+  }
+
+  /// The last node of a way that is straight on from nodes `first` - 1 and `first`.
+  std::size_t EndOfStraight(const std::vector<int>& way, std::size_t first) const {
+    const auto stance = [&](std::size_t i) { return nodes_[way[i]].stance; };
+    const auto is_stride = [&](std::size_t i) {
+      return nodes_[way[i]].action == stance(i).gait && stance(i).gait == stance(i - 1).gait &&
+             std::abs(stance(i).pose.yaw - stance(i - 1).pose.yaw) < kSamePoint;
+    };
+    const auto direction = [&](std::size_t i) {
+      return (stance(i).pose.position() - stance(i - 1).pose.position()).normalized();
+    };
+    std::size_t last = first;
+    while (last + 1 < way.size() && is_stride(last) && is_stride(last + 1) &&
+           (direction(last + 1) - direction(first)).norm() < kSamePoint) {
+      ++last;
+    }
+    return last;
+  }
+
+  graph::PathEdge EdgeBetween(int from, int to) const {
+    return {nodes_[to].action, {PointOf(nodes_[from].stance), PointOf(nodes_[to].stance)}};
   }
 
   const RouteSearchSpace& space_;

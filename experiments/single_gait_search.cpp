@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "actions/route_search.h"
+#include "actions/route_suggestion.h"
 #include "models/input_error.h"
 
 namespace possibility::experiments {
@@ -13,13 +13,6 @@ namespace {
 
 using actions::GroundedStance;
 using actions::PlanarPose;
-using actions::RouteSearchSettings;
-
-/// Coarse lattices that hurry first.
-constexpr RouteSearchSettings kLattices[] = {
-    {.step = 0.8, .headings = 1, .greed = 5, .most_stances = 100000},
-    {.step = 0.4, .headings = 1, .greed = 5, .most_stances = 100000},
-    {.step = 0.4, .headings = 8, .greed = 5, .most_stances = 100000}};
 
 PlanarPose PoseOf(const models::Stance& stance) { return {stance.x, stance.y, stance.yaw}; }
 
@@ -65,14 +58,8 @@ bool SingleGaitSearch::IsValid(const PlanarPose& from, const PlanarPose& to) con
 
 std::vector<graph::PathEdge> SingleGaitSearch::SuggestRoute() const {
   const std::vector<std::shared_ptr<actions::Manoeuvre>> none;
-  const actions::RouteSearchSpace space{&model_, &gaits_, &none};
   const double z = scenario_.start.z;
-  for (const RouteSearchSettings& lattice : kLattices) {
-    std::vector<graph::PathEdge> route = actions::SearchRoute(
-        space, GroundedStance{0, start_, z}, {GroundedStance{0, goal_, z}}, lattice, {});
-    if (!route.empty()) return route;
-  }
-  return {};
+  return actions::SuggestRoute({&model_, &gaits_, &none}, {0, start_, z}, {{0, goal_, z}}, {});
 }
 
 FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t seed,
@@ -83,6 +70,7 @@ FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t se
   settings.seed = seed;
   settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
   if (actions::SwitchesOf(preset).suggestions) {
+    settings.straight_first = true;
     settings.suggestion = [this] { return SuggestRoute(); };
   }
   const Clock::time_point begin = Clock::now();

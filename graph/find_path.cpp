@@ -15,12 +15,14 @@ namespace {
 
 constexpr int kMostSuggestions = 8;
 
-void CheckPoint(const Point& point, Eigen::Index size, const std::string& what) {
-  if (point.size() != size || size == 0 || !point.allFinite()) {
-    throw std::invalid_argument("FindPath: " + what + " has " + std::to_string(point.size()) +
-                                " numbers, expected " + std::to_string(size) +
-                                " finite ones, at least one, as many as the start");
-  }
+bool IsPoint(const Point& point, Eigen::Index size) {
+  return point.size() == size && size > 0 && point.allFinite();
+}
+
+[[noreturn]] void ThrowNoPoint(const Point& point, Eigen::Index size, const std::string& what) {
+  throw std::invalid_argument("FindPath: " + what + " has " + std::to_string(point.size()) +
+                              " numbers, expected " + std::to_string(size) +
+                              " finite ones, at least one, as many as the start");
 }
 
 void CheckSettings(const FindPathSettings& settings) {
@@ -73,12 +75,48 @@ void CheckArguments(const Point& start, const std::vector<Point>& goals,
                                   " is null, expected an action");
     }
   }
-  CheckPoint(start, start.size(), "the start");
+  if (!IsPoint(start, start.size())) {
+    ThrowNoPoint(start, start.size(), "the start");
+  }
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    CheckPoint(goals[i], start.size(), "goal " + std::to_string(i));
+    if (!IsPoint(goals[i], start.size())) {
+      ThrowNoPoint(goals[i], start.size(), "goal " + std::to_string(i));
+    }
   }
   CheckSettings(settings);
   CheckSkipGrowth(settings, actions);
+}
+
+/// A straight way that some action is sure of, as the answer to everything.
+std::optional<PathResult> StraightOn(const Point& start, const std::vector<Point>& goals,
+                                     const std::vector<std::shared_ptr<const Action>>& actions,
+                                     const Deadline& deadline) {
+  for (std::size_t g = 0; g < goals.size(); ++g) {
+    if (start == goals[g]) {
+      continue;
+    }
+    PathEdge edge{.action = 0, .points = {start, goals[g]}};
+    for (; edge.action < static_cast<int>(actions.size()); ++edge.action) {
+      if (deadline.Passed()) {
+        return std::nullopt;
+      }
+      if (actions[edge.action]->CS(edge.points)) {
+        PathResult result;
+        result.status = PathStatus::kFound;
+        result.goal = static_cast<int>(g);
+        result.counters["edges confirmed by C_S"] = 1;
+        result.graph.vertices = {start, goals[g]};
+        result.graph.edges.push_back({0, 1, edge.action});
+        result.path.push_back(std::move(edge));
+        result.seconds = deadline.Elapsed();
+        result.statistics.seconds = result.seconds;
+        result.statistics.vertices = 2;
+        result.statistics.edges = 1;
+        return result;
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 /// Algorithm 1 at work.
@@ -86,11 +124,12 @@ class PathFinder {
  public:
   PathFinder(const Point& start, const std::vector<Point>& goals,
              const std::vector<std::shared_ptr<const Action>>& actions,
-             const ExplorationSpace& space, const FindPathSettings& settings)
+             const ExplorationSpace& space, const FindPathSettings& settings,
+             const Deadline& deadline)
       : settings_(settings),
         space_(space),
         actions_(actions),
-        deadline_(settings.time_limit),
+        deadline_(deadline),
         generator_(settings.seed),
         master_(actions, &space, start, goals),
         q_confirmation_({.job_time_limit = settings.confirmation_job_limit}),
@@ -181,17 +220,24 @@ class PathFinder {
     nothing_suggested_ = route.empty();
     VertexId v = master_.start();
     for (const PathEdge& step : route) {
+      const std::optional<VertexId> existing = master_.FindVertexAt(step.points.to);
+      const PointPair points = {master_.point(v),
+                                existing ? master_.point(*existing) : step.points.to};
       const Action& action = *actions_[step.action];
-      if (!action.Explorable(step.points.to) || !action.Explorable(step.points)) {
+      const bool is_sure = action.CS(points);
+      if (!is_sure && !(action.Explorable(points.to) && action.Explorable(points))) {
         return;
       }
-      const VertexId next = master_.VertexAt(step.points.to);
+      const VertexId next = existing ? *existing : master_.VertexAt(points.to);
       if (next == v) {
         continue;
       }
       AppendFound(
           step.action,
           {.vertices = {next}, .edges = {{v, next, action.IsReversible()}}, .offered = {next}});
+      if (is_sure) {
+        confirmation_.OnSufficientConditions(step.action, v, next);
+      }
       v = next;
     }
   }
@@ -324,7 +370,7 @@ class PathFinder {
   const FindPathSettings& settings_;
   const ExplorationSpace& space_;
   const std::vector<std::shared_ptr<const Action>>& actions_;
-  Deadline deadline_;
+  const Deadline& deadline_;
   RandomGenerator generator_;
   PathResult result_;
   PossibilityGraph master_;
@@ -347,8 +393,14 @@ class PathFinder {
 PathResult FindPath(const Point& start, const std::vector<Point>& goals,
                     const std::vector<std::shared_ptr<const Action>>& actions,
                     const ExplorationSpace& space, const FindPathSettings& settings) {
+  const Deadline deadline(settings.time_limit);
   CheckArguments(start, goals, actions, settings);
-  return PathFinder(start, goals, actions, space, settings).FindPath();
+  if (settings.straight_first) {
+    if (auto result = StraightOn(start, goals, actions, deadline)) {
+      return *std::move(result);
+    }
+  }
+  return PathFinder(start, goals, actions, space, settings, deadline).FindPath();
 }
 
 }  // namespace possibility::graph

@@ -51,6 +51,9 @@ struct FindPathSettings {
   std::int64_t max_cycles = -1;        ///< -1: until the time limit
   std::int64_t ask_oracle_after = 200;  ///< cycles
   RouteOracle oracle = {};              ///< may be empty
+  /// Before anything else, every action is asked whether C_S lets it go straight from the start to
+  /// a goal; one that does is the path, and nothing is explored.
+  bool straight_first = false;
   /// A route that somebody who knows the space thinks worth exploring first: edges end to end from
   /// the start. What of it the actions accept becomes part of the graph. Asked before the first
   /// cycle, and again, a few times, when jobs have refuted edges since. May be empty, or give

@@ -44,6 +44,15 @@ bool PathConfirmation::ConfirmPath(const std::vector<EdgeId>& path) {
   return path_confirmed;
 }
 
+void PathConfirmation::OnSufficientConditions(int action, VertexId from, VertexId to) {
+  const std::optional<EdgeId> edge = master_->FindEdge(action, from, to);
+  if (!edge || master_->possibility(*edge) != Possibility::kUnexamined) {
+    return;
+  }
+  OnConfirmed(*edge, action);
+  ++(*counters_)["edges confirmed by C_S"];
+}
+
 bool PathConfirmation::Confirm(EdgeId edge, double route_duration) {
   // The opposite of an edge earlier on the same path may have been removed with it.
   if (master_->possibility(edge) != Possibility::kUnexamined) {

@@ -24,6 +24,9 @@ class PathConfirmation {
   /// removed from the graph and handed to a confirmation job. Gives up, false, at the deadline.
   bool ConfirmPath(const std::vector<EdgeId>& path);
 
+  /// An unexamined edge of `action` is known to meet its sufficient conditions.
+  void OnSufficientConditions(int action, VertexId from, VertexId to);
+
   /// Puts edges that were confirmed since the last call back into the graph. Now and then also
   /// revalues the jobs that are under way, by the graph as it is now.
   void CollectResults();

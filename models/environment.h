@@ -20,7 +20,7 @@ struct Obstacle {
 /// A static world. Immutable once loaded.
 struct Environment {
   std::vector<Obstacle> obstacles;
-  /// Where the planner samples and explores: x and y, m.
+  /// Where the pelvis may be at a stance: x and y, m.
   Eigen::AlignedBox2d bounds;
 };
 

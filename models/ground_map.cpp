@@ -166,8 +166,14 @@ class Level {
   }
 
   double Clearance(const Vector2d& p) const {
-    const double distance = DistanceToBoundary(p);
+    const double distance = DistanceToBoundary(p, kInfinity);
     return (IsInside(p) ? distance : -distance) - kGrowth;
+  }
+
+  /// Whether the clearance is more than -kAbutting: the very edge counts as ground.
+  bool Holds(const Vector2d& p) const {
+    return IsInside(p) ||
+           DistanceToBoundary(p, GroundMap::kAbutting) + kGrowth < GroundMap::kAbutting;
   }
 
  private:
@@ -197,8 +203,9 @@ class Level {
     return inside;
   }
 
-  double DistanceToBoundary(const Vector2d& p) const {
-    double nearest = kInfinity;
+  /// `at_most` if nothing of it is nearer.
+  double DistanceToBoundary(const Vector2d& p, double at_most) const {
+    double nearest = at_most;
     boundary_tree_.VisitNear(FlatBounds(p), nearest, [&](int segment) {
       nearest = std::min(nearest, boundary_[segment].Distance(p));
       return nearest;
@@ -218,16 +225,11 @@ struct GroundMap::Impl {
   std::vector<double> heights;
   std::vector<Level> levels;
 
-  /// The very edge counts as ground.
-  bool HasGround(int level, const Vector2d& p) const {
-    return levels[level].Clearance(p) > -kAbutting;
-  }
-
   /// The highest level in [low, high] with ground at p.
   std::optional<int> Highest(const Vector2d& p, double low, double high) const {
     for (int level = static_cast<int>(heights.size()) - 1; level >= 0; --level) {
       const bool in_range = heights[level] >= low && heights[level] <= high;
-      if (in_range && HasGround(level, p)) return level;
+      if (in_range && levels[level].Holds(p)) return level;
     }
     return std::nullopt;
   }

@@ -1,9 +1,11 @@
 #include "actions/route_search.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "actions/exploration_pose.h"
 #include "actions/long_jump.h"
+#include "actions/route_suggestion.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
 
@@ -32,6 +34,22 @@ class Scene {
     std::vector<GroundedStance> goals;
     for (const models::Stance& goal : scenario_.goals) goals.push_back(Grounded(goal));
     return SearchRoute(space, Grounded(scenario_.start), goals, settings, {});
+  }
+
+  std::vector<graph::PathEdge> Suggestion() const {
+    std::vector<GroundedStance> goals;
+    for (const models::Stance& goal : scenario_.goals) goals.push_back(Grounded(goal));
+    return SuggestRoute({&DrcHubo1Locomotion(), &gaits_, &manoeuvres_}, Grounded(scenario_.start),
+                        goals, {});
+  }
+
+  void Block(const graph::PathEdge& edge) {
+    const int gaits = static_cast<int>(gaits_.size());
+    if (edge.action >= gaits) {
+      manoeuvres_[edge.action - gaits]->Forbid(edge.points, "for a test", false);
+    } else {
+      gaits_[edge.action]->Forbid(edge.points);
+    }
   }
 
   graph::Point PointOf(const models::Stance& stance) const {
@@ -103,6 +121,60 @@ TEST(RouteSearch, JumpsWhereNothingElseLeads) {
     for (const graph::PathEdge& edge : route) jumps += edge.action >= scene.num_gaits() ? 1 : 0;
     EXPECT_EQ(jumps, std::string(name) == "double_jump" ? 2 : 1) << name;
     EXPECT_TRUE(Scene(name, false).Search(kFast).empty()) << name;
+  }
+}
+
+TEST(RouteSearch, ShortStridesLeadToWhereManoeuvresBegin) {
+  for (const char* name : {"three_routes_c", "hallway", "double_jump"}) {
+    for (const double step : {0.4, 0.6, 0.8, 1.0}) {
+      const Scene scene(name, true);
+      SCOPED_TRACE(fmt::format("{}, step {}", name, step));
+      ExpectRoute(scene, scene.Search({.step = step, .headings = 1, .greed = 3}));
+    }
+  }
+}
+
+TEST(RouteSearch, GoesStraightOnInOneEdge) {
+  const Scene scene("double_jump", true);
+  const std::vector<graph::PathEdge> route = scene.Search(kFast);
+  ASSERT_FALSE(route.empty());
+  for (std::size_t i = 1; i < route.size(); ++i) {
+    if (route[i].action != 0 || route[i - 1].action != 0) continue;
+    const graph::Point before = route[i - 1].points.to - route[i - 1].points.from;
+    const graph::Point after = route[i].points.to - route[i].points.from;
+    if (before.tail<5>().norm() > 1e-9 || after.tail<5>().norm() > 1e-9) continue;
+    EXPECT_LT(before.head<2>().normalized().dot(after.head<2>().normalized()), 1 - 1e-9) << i;
+  }
+}
+
+TEST(RouteSearch, AvoidsWhatIsForbidden) {
+  for (const char* name : {"three_routes_a", "three_routes_c"}) {
+    Scene scene(name, true);
+    for (int i = 0; i < 5; ++i) {
+      const std::vector<graph::PathEdge> route = scene.Suggestion();
+      ExpectRoute(scene, route);
+      for (const graph::PathEdge& edge : route) scene.Block(edge);
+    }
+  }
+}
+
+TEST(RouteSuggestion, IsThatOfTheFirstSettingsThatFindOne) {
+  for (const char* name : {"three_routes_a", "three_routes_b", "three_routes_c", "hallway",
+                           "double_jump", "hallway_infeasible"}) {
+    const Scene scene(name, true);
+    std::vector<graph::PathEdge> expected;
+    for (const RouteSearchSettings& settings : SuggestionLadder()) {
+      expected = scene.Search(settings);
+      if (!expected.empty()) break;
+    }
+    const std::vector<graph::PathEdge> route = scene.Suggestion();
+    EXPECT_EQ(route.empty(), std::string(name) == "hallway_infeasible");
+    if (!route.empty()) ExpectRoute(scene, route);
+    ASSERT_EQ(route.size(), expected.size()) << name;
+    for (std::size_t i = 0; i < route.size(); ++i) {
+      EXPECT_EQ(route[i].action, expected[i].action);
+      EXPECT_EQ(route[i].points.to, expected[i].points.to);
+    }
   }
 }
 

@@ -221,6 +221,45 @@ TEST(Suggestion, IsAskedForAgainWhenItsEdgesAreRefuted) {
   EXPECT_EQ(asked, 2);
 }
 
+TEST(StraightFirst, IsThePathWhereAnActionIsSureOfIt) {
+  const Actions actions = {MakeCrawl(), MakeWalk()};
+  const Point near = MakePoint(3, 0.85);
+  FindPathSettings settings{.time_limit = 10, .straight_first = true};
+  const PathResult result = FindPath(Start(), {Goal(), near}, actions, kRoom, settings);
+  ExpectValidPath(result, Start(), {Goal(), near}, actions);
+  EXPECT_EQ(result.goal, 1);
+  ASSERT_EQ(result.path.size(), 1);
+  EXPECT_EQ(result.path[0].action, 1);
+  EXPECT_EQ(result.statistics.cycles, 0);
+  EXPECT_EQ(result.statistics.vertices, static_cast<int>(result.graph.vertices.size()));
+  EXPECT_EQ(result.statistics.edges, static_cast<int>(result.graph.edges.size()));
+  EXPECT_EQ(result.counters.at("edges confirmed by C_S"), 1);
+}
+
+TEST(StraightFirst, ChangesNothingWhereNoActionIsSure) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    FindPathSettings settings{.time_limit = 10, .seed = seed};
+    const PathResult without = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+    settings.straight_first = true;
+    const PathResult with = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+    ExpectValidPath(with, Start(), {Goal()}, actions);
+    EXPECT_EQ(with.counters, without.counters);
+    EXPECT_EQ(with.path.size(), without.path.size());
+  }
+}
+
+TEST(StraightFirst, KeepsToTheTimeLimitAndStaysWhereTheGoalIsTheStart) {
+  const Point near = MakePoint(3, 0.85);
+  FindPathSettings settings{.time_limit = 0, .straight_first = true};
+  EXPECT_EQ(FindPath(Start(), {near}, {MakeWalk()}, kRoom, settings).status,
+            PathStatus::kTimeLimit);
+  settings.time_limit = 10;
+  const PathResult result = FindPath(Start(), {Start()}, {MakeWalk()}, kRoom, settings);
+  EXPECT_EQ(result.status, PathStatus::kFound);
+  EXPECT_TRUE(result.path.empty());
+}
+
 TEST(FindPath, AnyReachableGoalWillDo) {
   const Point unreachable = MakePoint(5, 0.05);
   const std::vector<Point> goals = {unreachable, Goal(), MakePoint(3, 0.3)};
