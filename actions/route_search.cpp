@@ -1,7 +1,6 @@
 #include "actions/route_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -167,11 +166,14 @@ class RouteSearch {
   }
 
   /// To a stance of the same gait, of another, or beyond a manoeuvre.
-  void Offer(int node, const GroundedStance& next, int action, double duration) {
-    Offer({.stance = next, .parent = node, .action = action, .cost = nodes_[node].cost + duration});
+  bool Offer(int node, const GroundedStance& next, int action, double duration) {
+    return Offer(
+        {.stance = next, .parent = node, .action = action, .cost = nodes_[node].cost + duration});
   }
-  void Offer(const Node& next) {
-    if (!closed_.contains(CellOf(next))) Push(next);
+  bool Offer(const Node& next) {
+    if (closed_.contains(CellOf(next))) return false;
+    Push(next);
+    return true;
   }
 
   double StrideTime(int gait, const PlanarPose& displacement) const {
@@ -231,20 +233,45 @@ class RouteSearch {
     for (std::size_t i = 0; i < space_.manoeuvres->size(); ++i) {
       const Manoeuvre& manoeuvre = *(*space_.manoeuvres)[i];
       if (manoeuvre.from() != nodes_[node].stance.gait) continue;
-      const std::vector<graph::Point> landings = Landings(node, manoeuvre);
       const graph::Point v = PointOf(nodes_[node].stance);
-      if (landings.empty() || !Launches(manoeuvre, v, landings.front())) continue;
+      const std::optional<graph::Point> launch =
+          manoeuvre.FindLaunchPoint(v, PointAhead(node, kMostAhead));
+      if (!launch) continue;
+      if ((*launch - v).norm() > kSamePoint) {
+        WalkTo(*launch, node);
+        continue;
+      }
+      const std::vector<graph::Point> landings = Landings(node, manoeuvre);
       for (auto end = landings.rbegin(); end != landings.rend(); ++end) {
         const auto stance = AsStance(*space_.model, manoeuvre.to(), ToPose(*end));
         ++examined_;
         if (!stance || (*space_.gaits)[manoeuvre.to()]->Examine(*stance) != StanceFault::kNone)
           continue;
         if (!Launches(manoeuvre, v, *end)) continue;
-        Offer(node, *stance, static_cast<int>(num_gaits() + i),
-              manoeuvre.ExpectedDuration({v, *end}));
-        break;
+        const double duration = manoeuvre.ExpectedDuration({v, *end});
+        if (Offer(node, *stance, static_cast<int>(num_gaits() + i), duration)) break;
       }
     }
+  }
+
+  /// Straight to where a manoeuvre begins.
+  void WalkTo(const graph::Point& launch, int node) {
+    const GroundedStance& from = nodes_[node].stance;
+    const std::optional<GroundedStance> stance = AsStance(*space_.model, from.gait, ToPose(launch));
+    if (!stance) return;
+    PlanarPose way = from.pose.Inverse() * stance->pose;
+    way.yaw = WrapAngle(way.yaw);
+    Offer({.stance = *stance,
+           .parent = node,
+           .action = from.gait,
+           .cost = nodes_[node].cost + StrideTime(from.gait, way),
+           .halvings = kMostHalvings});
+  }
+
+  graph::Point PointAhead(int node, double distance) const {
+    GroundedStance ahead = nodes_[node].stance;
+    ahead.pose = ahead.pose * PlanarPose{distance, 0, 0};
+    return PointOf(ahead);
   }
 
   bool Launches(const Manoeuvre& manoeuvre, const graph::Point& v, const graph::Point& end) const {
@@ -255,12 +282,9 @@ class RouteSearch {
   /// Where a manoeuvre straight ahead from a node might end, far ones first.
   std::vector<graph::Point> Landings(int node, const Manoeuvre& manoeuvre) const {
     std::vector<graph::Point> landings;
-    const GroundedStance& from = nodes_[node].stance;
-    const graph::Point v = PointOf(from);
+    const graph::Point v = PointOf(nodes_[node].stance);
     for (double distance = kMostAhead; distance > kLeastAhead - kSamePoint;) {
-      GroundedStance ahead = from;
-      ahead.pose = from.pose * PlanarPose{distance, 0, 0};
-      graph::Point end = manoeuvre.ExtendTowards(v, PointOf(ahead));
+      graph::Point end = manoeuvre.ExtendTowards(v, PointAhead(node, distance));
       const double length = (end - v).head<2>().norm();
       if (length < kSamePoint) break;
       if (landings.empty() || (landings.back() - end).norm() > kSamePoint) landings.push_back(end);
