@@ -358,6 +358,7 @@ bool QuasiStaticAction::CS(const GroundedStance& from, const GroundedStance& to)
 bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
                                          const GroundedStance& to) const {
   if (std::abs(from.z - to.z) > kSamePlace) return false;
+  if (!IsWithinBounds(from) || !IsWithinBounds(to)) return false;
   const StraightWay way = WayBetween(from, to);
   const bool is_level = std::abs(from.z - to.z) <= kSamePlace / 4;
   // The whole way includes its ends.
@@ -389,8 +390,8 @@ bool QuasiStaticAction::TransitionIsClear(const LocomotionModel::TransitionEntry
                                           const GroundedStance& start) const {
   GroundedStance end{transition.to, start.pose * transition.motion->displacement(), start.z};
   const size_t index = &transition - model_->transitions.data();
-  return GroundHolds(start, 0) && GroundHolds(end, 0) &&
-         BoxesFree(transition_sweeps_[index], start);
+  return IsWithinBounds(start) && IsWithinBounds(end) && GroundHolds(start, 0) &&
+         GroundHolds(end, 0) && BoxesFree(transition_sweeps_[index], start);
 }
 
 std::vector<graph::Point> QuasiStaticAction::TransitionFrom(const graph::Point& v) const {

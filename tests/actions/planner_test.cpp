@@ -86,6 +86,35 @@ TEST(PlannerTest, ANoHoldsWhatItIsSaidFor) {
   EXPECT_EQ(result.plan.no->barrier->reached[0].action, "walk");
 }
 
+/// A wall 4 m long in the middle of a wide floor, and bounds so many metres wide.
+models::Scenario WallScene(double width) {
+  models::Scenario scenario;
+  scenario.name = scenario.file = "wall.yaml";
+  scenario.robot_file = DrcHubo1().file;
+  scenario.actions = {"walk"};
+  scenario.start = {"walk", -1, 0, 0, 0};
+  scenario.goals = {{"walk", 1, 0, 0, 0}};
+  scenario.environment.bounds =
+      Eigen::AlignedBox2d(Eigen::Vector2d(-2.5, -width / 2), Eigen::Vector2d(2.5, width / 2));
+  models::Obstacle floor;
+  floor.name = "floor";
+  floor.shape = models::Shape::Box({8, 8, 0.5});
+  floor.X_WO.translation().z() = -0.25;
+  floor.is_ground = true;
+  models::Obstacle wall;
+  wall.name = "wall";
+  wall.shape = models::Shape::Box({0.2, 4, 2});
+  wall.X_WO.translation().z() = 1;
+  scenario.environment.obstacles = {floor, wall};
+  return scenario;
+}
+
+TEST(PlannerTest, NobodyWalksAroundAWallOutsideTheBounds) {
+  EXPECT_EQ(PlanTraversal(DrcHubo1(), WallScene(7), Request(1, {})).status, PlanStatus::kFound);
+  const PlanResult result = PlanTraversal(DrcHubo1(), WallScene(4), Request(1, {}));
+  EXPECT_EQ(result.status, PlanStatus::kProvenInfeasible) << result.explanation;
+}
+
 /// Whatever stage the limit cuts: no plan, in words, and never a segment that was not verified.
 TEST(PlannerTest, TheTimeLimitEndsEveryStageWithoutAPlan) {
   const models::Scenario scenario = ShippedScenario("three_routes_b");

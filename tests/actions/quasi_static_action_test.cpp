@@ -110,7 +110,9 @@ TEST_P(QuasiStaticActionTest, AForbiddenEdgeStaysForbiddenInBothDirections) {
 }
 
 TEST_P(QuasiStaticActionTest, AStanceOverTheGapIsOffGround) {
+  EXPECT_EQ(action().Examine({GetParam(), {20, 0, 0}, 0}), StanceFault::kOutOfBounds);
   // The floor of the random scene ends beyond |x| = 4.
+  environment_.bounds.extend(Eigen::Vector2d(30, 0));
   const StanceFault fault = action().Examine({GetParam(), {20, 0, 0}, 0});
   EXPECT_EQ(fault, StanceFault::kOffGround);
   EXPECT_FALSE(action().CN(StancePoint(GetParam(), {20, 0, 0})));

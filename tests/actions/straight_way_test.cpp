@@ -52,7 +52,9 @@ class StraightWays {
     return ToPoint(model_.gaits[gait_]->stance.RootPose(pose, 0));
   }
 
-  bool StanceBySample(const PlanarPose& pose) const { return SampleIsClear(pose, 0, 0); }
+  bool StanceBySample(const PlanarPose& pose) const {
+    return environment_.bounds.contains(PointAt(pose).head<2>()) && SampleIsClear(pose, 0, 0);
+  }
 
   /// The rule as it is written: samples in the middle of equal shares, each for what the sweep
   /// moves by within its share.

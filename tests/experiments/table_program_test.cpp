@@ -54,6 +54,7 @@ class ExperimentProgram : public ProgramRun {
     std::vector<std::string> lines;
     for (TrialRecord record : ReadResults(folder_ / folder / "results.jsonl")) {
       record.timings = {};
+      record.memory_mb = 0;
       record.real_time_ratio = {};
       lines.push_back(record.Json().dump());
     }
