@@ -135,8 +135,10 @@ class RouteSearch {
     Change(node);
     Finish(node);
     if (!MayLaunch(nodes_[node].stance.gait)) return;
-    const PlanarPose ahead = nodes_[node].stance.pose * PlanarPose{kMostAhead, 0, 0};
-    open_.push({nodes_[node].cost + LeftFrom(ahead), node, true});
+    // What leads on without a manoeuvre comes first: it costs less to find out.
+    const GroundedStance& stance = nodes_[node].stance;
+    const double stride = StrideTime(stance.gait, {settings_.step, 0, 0});
+    open_.push({nodes_[node].cost + stride + LeftFrom(stance.pose), node, true});
   }
 
   bool MayLaunch(int gait) const {
