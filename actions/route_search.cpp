@@ -111,7 +111,9 @@ class RouteSearch {
 
   void Push(const Node& node) {
     nodes_.push_back(node);
-    open_.push({node.cost + LeftFrom(node.stance.pose), static_cast<int>(nodes_.size()) - 1});
+    const double later = node.halvings > 0 ? Patience(node.stance.gait) : 0;
+    open_.push(
+        {node.cost + later + LeftFrom(node.stance.pose), static_cast<int>(nodes_.size()) - 1});
   }
 
   /// Whether a node is new, and the way to it from its parent is one; asked when its turn has come.
@@ -135,10 +137,9 @@ class RouteSearch {
     Change(node);
     Finish(node);
     if (!MayLaunch(nodes_[node].stance.gait)) return;
-    // What leads on without a manoeuvre comes first: it costs less to find out.
     const GroundedStance& stance = nodes_[node].stance;
-    const double stride = StrideTime(stance.gait, {settings_.step, 0, 0});
-    open_.push({nodes_[node].cost + stride + LeftFrom(stance.pose), node, true});
+    const double later = Patience(stance.gait);
+    open_.push({nodes_[node].cost + later + LeftFrom(stance.pose), node, true});
   }
 
   bool MayLaunch(int gait) const {
@@ -177,6 +178,10 @@ class RouteSearch {
     Push(next);
     return true;
   }
+
+  /// What leads on without a manoeuvre comes first, for it costs less to find out: manoeuvres, and
+  /// the shorter strides to where they begin, wait as if they took so much longer.
+  double Patience(int gait) const { return 2 * StrideTime(gait, {settings_.step, 0, 0}); }
 
   double StrideTime(int gait, const PlanarPose& displacement) const {
     return StrideEffort(space_.model->gaits[gait]->stance.gait->parameters, displacement) *
