@@ -33,6 +33,7 @@ const TableRow* Find(const std::string& name) {
 /// As many digits as tell times of any size apart.
 std::string Number(double value) {
   const double size = std::abs(value);
+  if (size > 0 && size < 0.01) return fmt::format("{:.5f}", value);
   return fmt::format("{:.{}f}", value, size < 10 ? 3 : size < 100 ? 2 : 1);
 }
 

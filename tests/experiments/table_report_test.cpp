@@ -107,6 +107,15 @@ TEST(TableReportTest, SummaryHoldsEveryFigureOfRowAndPreset) {
   EXPECT_NEAR(json["twins"][0]["answer_s"]["max"].get<double>(), 2.5, 1e-12);
 }
 
+TEST(TableReportTest, ShortTimesKeepTheirDigits) {
+  TrialRecord record = SampleRecord("hallway_3", "default", 1);
+  record.timings.graph_s = 0.000154;
+  TableReport report;
+  report.trials = {record};
+  EXPECT_NE(report.Markdown().find("| default | 0.00015 (0.000) |"), std::string::npos)
+      << report.Markdown();
+}
+
 TEST(TableReportTest, ARowWithoutAPlanHasNoFigures) {
   TableReport report;
   report.trials = {FailedRecord("hallway_3", "default", 1)};
