@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
-#include <string>
 
 #include "actions/planner.h"
 #include "actions/verification_report.h"
@@ -40,14 +40,14 @@ models::Scenario JumpScene() {
   return scenario;
 }
 
-void ExpectPlan(const models::Scenario& scenario, const PlanRequest& request,
-                const std::string& last_action) {
+void ExpectPlan(const models::Scenario& scenario, const PlanRequest& request, bool jumps) {
   const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << request.seed << ": " << result.explanation;
   EXPECT_TRUE(result.verification.accepted())
       << request.seed << ": " << FormatText(result.verification);
-  ASSERT_FALSE(result.plan.segments.empty());
-  EXPECT_EQ(result.plan.segments.back().action, last_action);
+  EXPECT_EQ(std::any_of(result.plan.segments.begin(), result.plan.segments.end(),
+                        [](const Segment& segment) { return segment.action == "jump"; }),
+            jumps);
 }
 
 void ExpectJumps(int plans, PlannerPreset preset) {
@@ -55,7 +55,7 @@ void ExpectJumps(int plans, PlannerPreset preset) {
   for (int seed = 1; seed <= plans; ++seed) {
     PlanRequest request = Request(seed);
     request.preset = preset;
-    ExpectPlan(scenario, request, "crawl");
+    ExpectPlan(scenario, request, true);
   }
 }
 
@@ -67,7 +67,7 @@ void ExpectWalks(int plans, const Leap::RunJob& run_job) {
   for (int seed = 1; seed <= plans; ++seed) {
     PlanRequest request = Request(seed);
     request.manoeuvres = {LeapFactory(run_job, [](const Leap& leap) { return leap.Slide(); })};
-    ExpectPlan(scenario, request, "walk");
+    ExpectPlan(scenario, request, false);
   }
 }
 
