@@ -21,8 +21,6 @@ namespace {
 
 constexpr std::uint64_t kFieldSeed = 1;
 constexpr int kFailuresToGiveUp = 3;
-constexpr double kShort = 0.01;  ///< s
-constexpr int kRepetitions = 5;
 
 struct Contender {
   std::string name;
@@ -85,17 +83,6 @@ BenchmarkRow RowOf(const std::string& name, const Standing& standing) {
   return row;
 }
 
-/// A search that is over in no time is repeated, and the median of the repetitions is its time:
-/// once, it would measure how cold the caches are that the search before it has left.
-FoundPath SearchWarm(const Contender& contender, std::uint64_t seed) {
-  FoundPath path = contender.search(seed);
-  if (path.seconds > kShort) return path;
-  std::vector<double> seconds;
-  for (int i = 0; i < kRepetitions; ++i) seconds.push_back(contender.search(seed).seconds);
-  path.seconds = Median(std::move(seconds));
-  return path;
-}
-
 /// Everybody searches with the first seed, then everybody with the next.
 std::vector<Standing> Race(const std::vector<Contender>& contenders,
                            const GraphBenchSettings& settings,
@@ -104,8 +91,7 @@ std::vector<Standing> Race(const std::vector<Contender>& contenders,
   for (int seed = 1; seed <= settings.seeds; ++seed) {
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       if (standings[i].HasGivenUp()) continue;
-      standings[i].Add(SearchWarm(contenders[i], static_cast<std::uint64_t>(seed)),
-                       settings.time_limit);
+      standings[i].Add(contenders[i].search(static_cast<std::uint64_t>(seed)), settings.time_limit);
     }
     on_seed();
   }

@@ -20,9 +20,8 @@ struct GraphBenchSettings {
 /// Times to the first solution of ways by one gait alone, for each of the robot's gaits, on
 /// three_routes_a and a field of obstacles: the possibility graph beside OMPL's planners (left out
 /// of programs that were built without it), all asking the same conditions of the same stances and
-/// ways, in turn, seed by seed; a search of less than 10 ms is repeated five times, and their
-/// median counts. A row's time is the median over seeds; a search without success counts as the
-/// time limit, and who fails at the first three seeds is asked no more. Ratios:
+/// ways, in turn, seed by seed. A row's time is the median over seeds; a search without success
+/// counts as the time limit, and who fails at the first three seeds is asked no more. Ratios:
 /// first_solution_vs_ompl_<gait>, the best median of OMPL's planners over ours, the smaller of the
 /// two scenes (absent without OMPL); default_vs_paper_preset (bench_presets.h).
 /// @throws InputError if a scenario cannot be read.

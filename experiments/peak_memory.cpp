@@ -10,10 +10,13 @@ namespace possibility::experiments {
 PeakMemory::PeakMemory() {
   ::malloc_trim(0);
   // "5" sets the peak back to what is resident now (proc(5), clear_refs).
-  std::ofstream("/proc/self/clear_refs") << "5";
+  std::ofstream references("/proc/self/clear_refs");
+  references << "5" << std::flush;
+  is_reset_ = references.good();
 }
 
 double PeakMemory::megabytes() const {
+  if (!is_reset_) return 0;
   std::ifstream status("/proc/self/status");
   for (std::string key; status >> key;) {
     double kilobytes = 0;
