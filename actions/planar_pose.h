@@ -22,6 +22,14 @@ struct PlanarPose {
   Eigen::Vector2d position() const { return {x, y}; }
   Eigen::Rotation2Dd rotation() const { return Eigen::Rotation2Dd(yaw); }
 
+  /// For many points: one sine and cosine for all of them.
+  Eigen::Isometry2d Transform() const {
+    Eigen::Isometry2d X = Eigen::Isometry2d::Identity();
+    X.linear() = rotation().toRotationMatrix();
+    X.translation() = position();
+    return X;
+  }
+
   Eigen::Vector2d operator*(const Eigen::Vector2d& p) const { return position() + rotation() * p; }
 
   PlanarPose operator*(const PlanarPose& other) const {

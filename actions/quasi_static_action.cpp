@@ -1,6 +1,7 @@
 #include "actions/quasi_static_action.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numbers>
@@ -26,15 +27,20 @@ constexpr double kNecessarySpacing = 0.05;
 /// m.
 constexpr double kGroundError = 3e-6;
 
-/// What a box of S covers while S moves by up to `half_way` (m, along the axes of its middle pose)
-/// either way and turns by up to `half_turn` (rad, at most a right angle) either way.
-Eigen::AlignedBox3d Swept(const Eigen::AlignedBox3d& box, const Vector2d& half_way,
-                          double half_turn) {
+/// What S does on its way: it moves by up to `half_way` (m, along the axes of its middle pose)
+/// either way and turns by up to an angle (at most a right one) either way.
+struct Excursion {
+  Vector2d half_way;
+  double sine;     ///< of the angle
+  double versine;  ///< 1 - its cosine
+};
+
+/// What a box of S covers meanwhile.
+Eigen::AlignedBox3d Swept(const Eigen::AlignedBox3d& box, const Excursion& excursion) {
   const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
-  const double sine = std::sin(half_turn);
-  const double versine = 1 - std::cos(half_turn);
-  const Vector2d growth = half_way.cwiseAbs() + Vector2d(sine * far.y() + versine * far.x(),
-                                                         sine * far.x() + versine * far.y());
+  const Vector2d growth = excursion.half_way.cwiseAbs() +
+                          Vector2d(excursion.sine * far.y() + excursion.versine * far.x(),
+                                   excursion.sine * far.x() + excursion.versine * far.y());
   const Vector3d grown(growth.x(), growth.y(), 0);
   return {box.min() - grown, box.max() + grown};
 }
@@ -153,9 +159,10 @@ std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {
 std::optional<bool> QuasiStaticAction::FacesHold(int level, const GroundedStance& stance,
                                                  double clearance) const {
   bool all_hold = true;
+  const Eigen::Isometry2d X_WS = stance.pose.Transform();
   for (const std::vector<Vector2d>& points : model_->gaits[stance.gait]->stance.bearing_points) {
     for (const Vector2d& p_S : points) {
-      const Vector2d p = stance.pose * p_S;
+      const Vector2d p = X_WS * p_S;
       if (world_.ground->OneFaceHolds(level, p, p, clearance + kGroundError)) continue;
       if (!world_.ground->LevelAt(p, stance.z, kSamePlace)) return false;
       all_hold = false;
@@ -176,9 +183,10 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
   }
   if (level && world_.ground->Clearance(*level, centre) >= all_round) return true;
   const NominalStance& nominal = model_->gaits[stance.gait]->stance;
+  const Eigen::Isometry2d X_WS = stance.pose.Transform();
   for (const std::vector<Vector2d>& points : nominal.bearing_points) {
     for (const Vector2d& p_S : points) {
-      const Vector2d p = stance.pose * p_S;
+      const Vector2d p = X_WS * p_S;
       const std::optional<int> below = world_.ground->LevelAt(p, stance.z, kSamePlace);
       if (!below || world_.ground->Clearance(*below, p) < clearance) return false;
     }
@@ -263,8 +271,8 @@ bool QuasiStaticAction::PartIsOverGround(const StraightWay& way, int level, int 
 /// way to the other: they go straight but for what turning bends their ways.
 bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int first, int last,
                                          double half_turn) const {
-  const PlanarPose from = way.At(first).pose;
-  const PlanarPose to = way.At(last).pose;
+  const Eigen::Isometry2d from = way.At(first).pose.Transform();
+  const Eigen::Isometry2d to = way.At(last).pose.Transform();
   const double bend = bearing_radii_[gait_] * (1 - std::cos(half_turn));
   const double radius = way.TravelOfSample() + bend + kSamePlace + kGroundError;
   for (const std::vector<Vector2d>& points : model_->gaits[gait_]->stance.bearing_points) {
@@ -291,12 +299,14 @@ bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, 
     return false;
   }
   const GroundedStance middle = way.At((first + last) / 2.0);
-  const Vector2d half_way = middle.pose.rotation().inverse() * way.HalfWay(first, last);
   const Isometry3d X_WS = middle.pose.At(middle.z);
+  const Excursion excursion{
+      X_WS.linear().topLeftCorner<2, 2>().transpose() * way.HalfWay(first, last),
+      std::sin(half_turn), 1 - std::cos(half_turn)};
   std::vector<models::Prism> swept;
   swept.reserve(inflated_sweep_.boxes().size());
   for (const Eigen::AlignedBox3d& box : inflated_sweep_.boxes()) {
-    swept.emplace_back(Swept(box, half_way, half_turn), X_WS);
+    swept.emplace_back(Swept(box, excursion), X_WS);
   }
   return checker_.AreCertainlyFree(swept);
 }
@@ -338,12 +348,13 @@ bool QuasiStaticAction::IsClear(const GroundedStance& from, const GroundedStance
 
 bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
   if (IsForbidden(edge)) return false;
+  const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
-  if (const LocomotionModel::TransitionEntry* transition = FindTransition(edge, &start)) {
+  if (const LocomotionModel::TransitionEntry* transition = FindTransition(ends, &start)) {
     return TransitionIsClear(*transition, start);
   }
-  const std::optional<GroundedStance> from = AsStance(*model_, gait_, ToPose(edge.from));
-  const std::optional<GroundedStance> to = AsStance(*model_, gait_, ToPose(edge.to));
+  const std::optional<GroundedStance> from = AsStance(*model_, gait_, ends[0]);
+  const std::optional<GroundedStance> to = AsStance(*model_, gait_, ends[1]);
   return from && to && StraightWayHolds(*from, *to);
 }
 
@@ -368,8 +379,7 @@ bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
 }
 
 const LocomotionModel::TransitionEntry* QuasiStaticAction::FindTransition(
-    const graph::PointPair& edge, GroundedStance* start) const {
-  const Isometry3d ends[2] = {ToPose(edge.from), ToPose(edge.to)};
+    const std::array<Isometry3d, 2>& ends, GroundedStance* start) const {
   for (const LocomotionModel::TransitionEntry& transition : model_->transitions) {
     if (transition.from != gait_ && transition.to != gait_) continue;
     for (int first = 0; first < 2; ++first) {
@@ -418,12 +428,12 @@ double QuasiStaticAction::ExpectedDuration(const PlanarPose& from, const PlanarP
 }
 
 double QuasiStaticAction::ExpectedDuration(const graph::PointPair& edge) const {
+  const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
-  if (const LocomotionModel::TransitionEntry* transition = FindTransition(edge, &start)) {
+  if (const LocomotionModel::TransitionEntry* transition = FindTransition(ends, &start)) {
     return transition->motion->ExpectedDuration();
   }
-  const Isometry3d from = ToPose(edge.from);
-  const Isometry3d to = ToPose(edge.to);
+  const auto& [from, to] = ends;
   return ExpectedDuration(
       PlanarPose{from.translation().x(), from.translation().y(), Heading(from.linear())},
       PlanarPose{to.translation().x(), to.translation().y(), Heading(to.linear())});

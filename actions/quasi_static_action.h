@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -95,10 +96,10 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool SamplesAreClear(const StraightWay& way) const;
   /// The level of this height if there is but one.
   std::optional<int> OnlyLevelAt(double z) const;
-  /// The transition that leads from one point to the other in either direction, and the stance
-  /// of its first gait; null if none does.
-  const LocomotionModel::TransitionEntry* FindTransition(const graph::PointPair& edge,
-                                                         GroundedStance* start) const;
+  /// The transition that leads from one of two root poses to the other in either direction, and
+  /// the stance of its first gait; null if none does.
+  const LocomotionModel::TransitionEntry* FindTransition(
+      const std::array<Eigen::Isometry3d, 2>& ends, GroundedStance* start) const;
   bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
                          const GroundedStance& start) const;
   bool SomeFootReachesGround(const Eigen::Isometry3d& X_WR) const;

@@ -1,123 +1,19 @@
 #include "graph/find_path.h"
 
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "graph/action_exploration.h"
 #include "graph/deadline.h"
+#include "graph/find_path_arguments.h"
 #include "graph/path_confirmation.h"
 #include "graph/possibility_graph.h"
 #include "graph/random.h"
+#include "graph/straight_path.h"
 
 namespace possibility::graph {
 namespace {
 
 constexpr int kMostSuggestions = 8;
-
-bool IsPoint(const Point& point, Eigen::Index size) {
-  return point.size() == size && size > 0 && point.allFinite();
-}
-
-[[noreturn]] void ThrowNoPoint(const Point& point, Eigen::Index size, const std::string& what) {
-  throw std::invalid_argument("FindPath: " + what + " has " + std::to_string(point.size()) +
-                              " numbers, expected " + std::to_string(size) +
-                              " finite ones, at least one, as many as the start");
-}
-
-void CheckSettings(const FindPathSettings& settings) {
-  if (!(settings.time_limit >= 0)) {
-    throw std::invalid_argument("FindPath: time_limit is " + std::to_string(settings.time_limit) +
-                                ", expected a number of seconds >= 0");
-  }
-  if (settings.max_transitions_per_cycle < 0) {
-    throw std::invalid_argument("FindPath: max_transitions_per_cycle is " +
-                                std::to_string(settings.max_transitions_per_cycle) +
-                                ", expected >= 0");
-  }
-  if (!(settings.confirmation_job_limit > 0)) {
-    throw std::invalid_argument("FindPath: confirmation_job_limit is " +
-                                std::to_string(settings.confirmation_job_limit) +
-                                ", expected a number of seconds > 0");
-  }
-  if (settings.confirmation_threads < 0) {
-    throw std::invalid_argument("FindPath: confirmation_threads is " +
-                                std::to_string(settings.confirmation_threads) + ", expected >= 0");
-  }
-}
-
-void CheckSkipGrowth(const FindPathSettings& settings,
-                     const std::vector<std::shared_ptr<const Action>>& actions) {
-  for (const auto& [name, probability] : settings.skip_growth) {
-    if (std::none_of(actions.begin(), actions.end(),
-                     [&](const auto& action) { return action->name() == name; })) {
-      throw std::invalid_argument("FindPath: skip_growth names '" + name +
-                                  "', expected the name of an action");
-    }
-    if (!(probability >= 0 && probability <= 1)) {
-      throw std::invalid_argument("FindPath: skip_growth of " + name + " is " +
-                                  std::to_string(probability) + ", expected a probability");
-    }
-  }
-}
-
-void CheckArguments(const Point& start, const std::vector<Point>& goals,
-                    const std::vector<std::shared_ptr<const Action>>& actions,
-                    const FindPathSettings& settings) {
-  if (actions.empty() || goals.empty()) {
-    throw std::invalid_argument("FindPath: there is no " +
-                                std::string(actions.empty() ? "action" : "goal") +
-                                ", expected at least one");
-  }
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (!actions[i]) {
-      throw std::invalid_argument("FindPath: action " + std::to_string(i) +
-                                  " is null, expected an action");
-    }
-  }
-  if (!IsPoint(start, start.size())) {
-    ThrowNoPoint(start, start.size(), "the start");
-  }
-  for (std::size_t i = 0; i < goals.size(); ++i) {
-    if (!IsPoint(goals[i], start.size())) {
-      ThrowNoPoint(goals[i], start.size(), "goal " + std::to_string(i));
-    }
-  }
-  CheckSettings(settings);
-  CheckSkipGrowth(settings, actions);
-}
-
-/// A straight way that some action is sure of, as the answer to everything.
-std::optional<PathResult> StraightOn(const Point& start, const std::vector<Point>& goals,
-                                     const std::vector<std::shared_ptr<const Action>>& actions,
-                                     const Deadline& deadline) {
-  for (std::size_t g = 0; g < goals.size(); ++g) {
-    if (start == goals[g]) {
-      continue;
-    }
-    PathEdge edge{.action = 0, .points = {start, goals[g]}};
-    for (; edge.action < static_cast<int>(actions.size()); ++edge.action) {
-      if (deadline.Passed()) {
-        return std::nullopt;
-      }
-      if (actions[edge.action]->CS(edge.points)) {
-        PathResult result;
-        result.status = PathStatus::kFound;
-        result.goal = static_cast<int>(g);
-        result.counters["edges confirmed by C_S"] = 1;
-        result.graph.vertices = {start, goals[g]};
-        result.graph.edges.push_back({0, 1, edge.action});
-        result.path.push_back(std::move(edge));
-        result.seconds = deadline.Elapsed();
-        result.statistics.seconds = result.seconds;
-        result.statistics.vertices = 2;
-        result.statistics.edges = 1;
-        return result;
-      }
-    }
-  }
-  return std::nullopt;
-}
 
 /// Algorithm 1 at work.
 class PathFinder {
@@ -125,11 +21,12 @@ class PathFinder {
   PathFinder(const Point& start, const std::vector<Point>& goals,
              const std::vector<std::shared_ptr<const Action>>& actions,
              const ExplorationSpace& space, const FindPathSettings& settings,
-             const Deadline& deadline)
+             const Deadline& deadline, PathResult* result)
       : settings_(settings),
         space_(space),
         actions_(actions),
         deadline_(deadline),
+        result_(*result),
         generator_(settings.seed),
         master_(actions, &space, start, goals),
         q_confirmation_({.job_time_limit = settings.confirmation_job_limit}),
@@ -137,7 +34,7 @@ class PathFinder {
     InitializeActionGraphs();
   }
 
-  PathResult FindPath() {
+  void FindPath() {
     q_confirmation_.LaunchThreads(settings_.confirmation_threads);
     while (!deadline_.Passed() && !Answered()) {
       confirmation_.CollectResults();
@@ -160,7 +57,7 @@ class PathFinder {
       ReportProgress();
     }
     confirmation_.CancelJobs();
-    return TakeResult();
+    CompleteResult();
   }
 
  private:
@@ -350,7 +247,7 @@ class PathFinder {
     }
   }
 
-  PathResult TakeResult() {
+  void CompleteResult() {
     result_.statistics = Progress();
     result_.seconds = result_.statistics.seconds;
     result_.confirmations = confirmation_.TakeReports();
@@ -364,15 +261,14 @@ class PathFinder {
             {topology.from(edge), topology.to(edge), master_.action(edge)});
       }
     }
-    return std::move(result_);
   }
 
   const FindPathSettings& settings_;
   const ExplorationSpace& space_;
   const std::vector<std::shared_ptr<const Action>>& actions_;
   const Deadline& deadline_;
+  PathResult& result_;
   RandomGenerator generator_;
-  PathResult result_;
   PossibilityGraph master_;
   ConfirmationQueue q_confirmation_;
   PathConfirmation confirmation_;
@@ -394,13 +290,12 @@ PathResult FindPath(const Point& start, const std::vector<Point>& goals,
                     const std::vector<std::shared_ptr<const Action>>& actions,
                     const ExplorationSpace& space, const FindPathSettings& settings) {
   const Deadline deadline(settings.time_limit);
-  CheckArguments(start, goals, actions, settings);
-  if (settings.straight_first) {
-    if (auto result = StraightOn(start, goals, actions, deadline)) {
-      return *std::move(result);
-    }
+  CheckFindPathArguments(start, goals, actions, settings);
+  PathResult result;
+  if (!settings.straight_first || !GoStraight(start, goals, actions, deadline, &result)) {
+    PathFinder(start, goals, actions, space, settings, deadline, &result).FindPath();
   }
-  return PathFinder(start, goals, actions, space, settings, deadline).FindPath();
+  return result;
 }
 
 }  // namespace possibility::graph

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "graph/action.h"
+#include "graph/find_path.h"
+
+namespace possibility::graph {
+
+/// @throws std::invalid_argument that says which argument of FindPath is wrong and what is
+/// expected of it.
+void CheckFindPathArguments(const Point& start, const std::vector<Point>& goals,
+                            const std::vector<std::shared_ptr<const Action>>& actions,
+                            const FindPathSettings& settings);
+
+}  // namespace possibility::graph
