@@ -181,7 +181,7 @@ class NecessaryFlood {
       const double beyond_legs = std::max(height - flight_.rise, std::min(height, 0.0));
       if (std::abs(beyond_legs) > reach_) continue;
       const double reach = flight_.range + std::sqrt(reach_ * reach_ - beyond_legs * beyond_legs);
-      if (world_.ground->Clearance(static_cast<int>(level), p.head<2>()) >= -reach) return true;
+      if (world_.ground->IsNear(static_cast<int>(level), p.head<2>(), reach)) return true;
     }
     return false;
   }

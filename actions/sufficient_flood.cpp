@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -12,12 +11,12 @@
 #include "actions/route_flood.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
+#include "models/upright_boxes.h"
 
 namespace possibility::actions {
 namespace {
 
 using Cell = CellGrid::Cell;
-using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -57,12 +56,6 @@ class SufficientFlood {
   }
 
  private:
-  struct ShrunkBox {
-    models::PreparedShape shape;
-    models::Shape plain;
-    Isometry3d X_SB;
-  };
-
   static double Margin(const LocomotionModel& model) {
     double margin = 0;
     for (const auto& transition : model.transitions) {
@@ -83,19 +76,16 @@ class SufficientFlood {
   static double HalfHeading() { return std::numbers::pi / kHeadings; }
 
   /// What a box covers wherever in the cell the stance is: every vertical side moved inward.
-  std::vector<ShrunkBox> Shrink(const std::vector<Eigen::AlignedBox3d>& boxes) const {
-    std::vector<ShrunkBox> shrunk;
+  models::UprightBoxes Shrink(const std::vector<Eigen::AlignedBox3d>& boxes) const {
+    std::vector<Eigen::AlignedBox3d> shrunk;
     for (const Eigen::AlignedBox3d& box : boxes) {
       const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
       const double inward = HalfDiagonal() + far.norm() * HalfHeading() + kCheckerError;
-      Vector3d size = box.sizes() - Vector3d(2 * inward, 2 * inward, 2 * kCheckerError);
-      if (size.minCoeff() <= 0) continue;
-      Isometry3d X_SB = Isometry3d::Identity();
-      X_SB.translation() = box.center();
-      const models::Shape shape = models::Shape::Box(size);
-      shrunk.push_back({models::PreparedShape(shape), shape, X_SB});
+      const Vector3d margin(inward, inward, kCheckerError);
+      if ((box.sizes() - 2 * margin).minCoeff() <= 0) continue;
+      shrunk.emplace_back(box.min() + margin, box.max() - margin);
     }
-    return shrunk;
+    return models::UprightBoxes(std::move(shrunk));
   }
 
   int GaitOf(const Cell& cell) const { return cell[0] % static_cast<int>(model_.gaits.size()); }
@@ -126,32 +116,27 @@ class SufficientFlood {
   }
 
   bool GroundMayHold(const Cell& cell) const {
-    const PlanarPose centre = Centre(cell);
+    const Eigen::Isometry2d X_WS = Centre(cell).Transform();
     for (const auto& points : model_.gaits[GaitOf(cell)]->stance.bearing_points) {
       for (const Vector2d& p_S : points) {
         const double slack = HalfDiagonal() + p_S.norm() * HalfHeading();
-        if (LargestClearance(centre * p_S, HeightOf(cell)) < -slack) return false;
+        if (!GroundIsNear(X_WS * p_S, HeightOf(cell), slack)) return false;
       }
     }
     return true;
   }
 
-  double LargestClearance(const Vector2d& p, double z) const {
-    double clearance = -std::numeric_limits<double>::infinity();
+  bool GroundIsNear(const Vector2d& p, double z, double distance) const {
     const std::vector<double>& levels = world_.ground->levels();
     for (size_t level = 0; level < levels.size(); ++level) {
       if (std::abs(levels[level] - z) > 1e-6) continue;
-      clearance = std::max(clearance, world_.ground->Clearance(static_cast<int>(level), p));
+      if (world_.ground->IsNear(static_cast<int>(level), p, distance)) return true;
     }
-    return clearance;
+    return false;
   }
 
-  bool MayBeFree(const Cell& cell) {
-    const Isometry3d X_WS = Centre(cell).At(HeightOf(cell));
-    const std::vector<ShrunkBox>& boxes = shrunk_[GaitOf(cell)];
-    return std::all_of(boxes.begin(), boxes.end(), [&](const ShrunkBox& box) {
-      return checker_.IsFree(box.shape, X_WS * box.X_SB, 0);
-    });
+  bool MayBeFree(const Cell& cell) const {
+    return checker_.AreFree(shrunk_[GaitOf(cell)], Centre(cell).At(HeightOf(cell)));
   }
 
   void OfferNeighbours(const Cell& cell) {
@@ -235,8 +220,10 @@ class SufficientFlood {
       if (!grid_.Contains(beyond)) continue;
       if (!GroundMayHold(beyond)) names.insert("no ground");
       std::vector<models::PosedShape> posed;
-      for (const ShrunkBox& box : shrunk_[GaitOf(cell)]) {
-        posed.push_back({box.plain, Centre(beyond).At(HeightOf(beyond)) * box.X_SB});
+      const models::UprightBoxes& boxes = shrunk_[GaitOf(cell)];
+      for (size_t i = 0; i < boxes.boxes().size(); ++i) {
+        posed.push_back({models::Shape::Box(boxes.boxes()[i].sizes()),
+                         Centre(beyond).At(HeightOf(beyond)) * boxes.X_SB()[i]});
       }
       for (std::string& name : Blockers(*world_.environment, posed)) names.insert(std::move(name));
     }
@@ -271,7 +258,7 @@ class SufficientFlood {
   Vector2d origin_;
   models::CollisionChecker checker_;
   CellGrid grid_;
-  std::vector<std::vector<ShrunkBox>> shrunk_;  ///< by gait
+  std::vector<models::UprightBoxes> shrunk_;  ///< by gait
 };
 
 }  // namespace

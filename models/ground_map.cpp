@@ -170,6 +170,10 @@ class Level {
     return (IsInside(p) ? distance : -distance) - kGrowth;
   }
 
+  bool IsNear(const Vector2d& p, double distance) const {
+    return IsInside(p) || DistanceToBoundary(p, distance) < distance;
+  }
+
   /// Whether the clearance is more than -kAbutting: the very edge counts as ground.
   bool Holds(const Vector2d& p) const {
     return IsInside(p) ||
@@ -267,6 +271,10 @@ double GroundMap::Clearance(int level, const Vector2d& p) const {
 bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
                              double radius) const {
   return impl_->levels.at(level).OneFaceHolds(from, to, radius);
+}
+
+bool GroundMap::IsNear(int level, const Vector2d& p, double distance) const {
+  return impl_->levels.at(level).IsNear(p, distance);
 }
 
 std::optional<int> GroundMap::LevelAt(const Vector2d& p, double z, double tolerance) const {

@@ -38,6 +38,11 @@ class GroundMap {
   bool OneFaceHolds(int level, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                     double radius) const;
 
+  /// Whether p is ground of a level or no farther than `distance` (>= 0, m) from it: whether its
+  /// Clearance is at least -`distance`, sooner known. False for what is not finite.
+  /// @throws std::out_of_range unless there is such a level.
+  bool IsNear(int level, const Eigen::Vector2d& p, double distance) const;
+
   /// The level whose height is within `tolerance` of z and that has ground at p; the highest
   /// one if several; none otherwise.
   std::optional<int> LevelAt(const Eigen::Vector2d& p, double z, double tolerance) const;

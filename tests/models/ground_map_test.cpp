@@ -126,6 +126,34 @@ TEST(GroundMap, UnionsOfYawedBoxesAgreeWithPointSampling) {
   EXPECT_GT(outside, 500);
 }
 
+TEST(GroundMap, IsNearIsToldByTheClearance) {
+  RandomGeometry random(6);
+  int near = 0, far = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    std::vector<Obstacle> obstacles;
+    for (int i = 1 + random.Index(8); i > 0; --i) {
+      obstacles.push_back(Ground(random.Uniform(-2, 2), random.Uniform(-2, 2), 0,
+                                 random.Uniform(0.2, 2), random.Uniform(0.2, 2),
+                                 random.Uniform(-4, 4)));
+    }
+    const GroundMap map = Map(obstacles);
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vector2d p(random.Uniform(-4, 4), random.Uniform(-4, 4));
+      const double distance = random.Index(5) == 0 ? 0 : random.Uniform(0, 1.5);
+      const double clearance = map.Clearance(0, p);
+      if (std::abs(clearance + distance) < 3e-6) continue;
+      const bool is_near = map.IsNear(0, p, distance);
+      EXPECT_EQ(is_near, clearance > -distance) << p.transpose() << ", " << distance;
+      (is_near ? near : far) += 1;
+    }
+  }
+  EXPECT_GT(near, 500);
+  EXPECT_GT(far, 500);
+  const GroundMap map = Map({Ground(0, 0, 0, 4, 2)});
+  EXPECT_FALSE(map.IsNear(0, {std::nan(""), 0}, 1));
+  EXPECT_THROW(map.IsNear(1, {0, 0}, 1), std::out_of_range);
+}
+
 TEST(GroundMap, AbuttingFacesHaveNoSeam) {
   for (const double yaw : {0.0, 0.3, 1.1}) {
     for (const double gap : {0.0, 1e-9, 9e-7, -1e-9, -1e-3}) {
