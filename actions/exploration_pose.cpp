@@ -34,7 +34,7 @@ graph::Point ToPoint(const Isometry3d& X_WR) {
   return point;
 }
 
-Isometry3d ToPose(const graph::Point& point) {
+[[gnu::hot]] Isometry3d ToPose(const graph::Point& point) {
   Isometry3d X_WR = Isometry3d::Identity();
   X_WR.translation() = point.head<3>();
   X_WR.linear() = Orientation(point).normalized().toRotationMatrix();

@@ -194,11 +194,14 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
   return true;
 }
 
-bool QuasiStaticAction::IsWithinBounds(const GroundedStance& stance) const {
+bool QuasiStaticAction::IsWithinBounds(const Vector2d& root) const {
   const Eigen::AlignedBox2d& bounds = world_.environment->bounds;
-  const Vector2d root =
-      stance.pose * model_->gaits[stance.gait]->stance.X_SR.translation().head<2>();
   return bounds.isEmpty() || bounds.squaredExteriorDistance(root) <= kSamePlace * kSamePlace;
+}
+
+bool QuasiStaticAction::IsWithinBounds(const GroundedStance& stance) const {
+  return IsWithinBounds(stance.pose *
+                        Vector2d(model_->gaits[stance.gait]->stance.X_SR.translation().head<2>()));
 }
 
 StanceFault QuasiStaticAction::Examine(const GroundedStance& stance) const {
@@ -285,7 +288,8 @@ bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int 
 
 /// True only if the samples `first` to `last` - 1 are clear, and the ends of their part of the way
 /// as well: what the boxes cover between its ends lies in larger boxes around its middle.
-bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, int last) const {
+[[gnu::hot]] bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first,
+                                                          int last) const {
   const double turn = std::abs(WrapAngle(way.to.yaw - way.from.pose.yaw));
   const double half_turn = way.HalfShare(first, last) * turn;
   if (!(half_turn <= std::numbers::pi / 2)) return false;
@@ -346,7 +350,7 @@ bool QuasiStaticAction::IsClear(const GroundedStance& from, const GroundedStance
   return PartIsCertainlyClear(way, 0, way.samples) || SamplesAreClear(way);
 }
 
-bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
+[[gnu::hot]] bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
   if (IsForbidden(edge)) return false;
   const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
@@ -355,7 +359,8 @@ bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
   }
   const std::optional<GroundedStance> from = AsStance(*model_, gait_, ends[0]);
   const std::optional<GroundedStance> to = AsStance(*model_, gait_, ends[1]);
-  return from && to && StraightWayHolds(*from, *to);
+  return from && to && IsWithinBounds(Vector2d(edge.from.head<2>())) &&
+         IsWithinBounds(Vector2d(edge.to.head<2>())) && StraightWayHolds(*from, *to);
 }
 
 bool QuasiStaticAction::CS(const GroundedStance& from, const GroundedStance& to) const {
@@ -363,13 +368,12 @@ bool QuasiStaticAction::CS(const GroundedStance& from, const GroundedStance& to)
     return ToPoint(model_->gaits[gait_]->stance.RootPose(stance.pose, stance.z));
   };
   if (!forbidden_.empty() && IsForbidden({point(from), point(to)})) return false;
-  return StraightWayHolds(from, to);
+  return IsWithinBounds(from) && IsWithinBounds(to) && StraightWayHolds(from, to);
 }
 
-bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
-                                         const GroundedStance& to) const {
+[[gnu::hot]] bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
+                                                      const GroundedStance& to) const {
   if (std::abs(from.z - to.z) > kSamePlace) return false;
-  if (!IsWithinBounds(from) || !IsWithinBounds(to)) return false;
   const StraightWay way = WayBetween(from, to);
   const bool is_level = std::abs(from.z - to.z) <= kSamePlace / 4;
   // The whole way includes its ends.

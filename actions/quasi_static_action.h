@@ -83,9 +83,11 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool BoxesFree(const models::UprightBoxes& boxes, const GroundedStance& stance) const {
     return checker_.AreFree(boxes, stance.pose.At(stance.z));
   }
+  /// Between stances within the bounds.
   bool StraightWayHolds(const GroundedStance& from, const GroundedStance& to) const;
   StraightWay WayBetween(const GroundedStance& from, const GroundedStance& to) const;
-  /// The pelvis; bounds that are empty bound nothing.
+  /// The pelvis, at `root` seen from above; bounds that are empty bound nothing.
+  bool IsWithinBounds(const Eigen::Vector2d& root) const;
   bool IsWithinBounds(const GroundedStance& stance) const;
   std::optional<bool> FacesHold(int level, const GroundedStance& stance, double clearance) const;
   bool OneFaceHoldsPart(const StraightWay& way, int level, int first, int last,

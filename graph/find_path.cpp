@@ -34,7 +34,7 @@ class PathFinder {
     InitializeActionGraphs();
   }
 
-  void FindPath() {
+  [[gnu::noinline]] void FindPath() {
     q_confirmation_.LaunchThreads(settings_.confirmation_threads);
     while (!deadline_.Passed() && !Answered()) {
       confirmation_.CollectResults();
@@ -286,9 +286,11 @@ class PathFinder {
 
 }  // namespace
 
-PathResult FindPath(const Point& start, const std::vector<Point>& goals,
-                    const std::vector<std::shared_ptr<const Action>>& actions,
-                    const ExplorationSpace& space, const FindPathSettings& settings) {
+// What a straight answer runs through is kept together ([[gnu::hot]]), and apart from the search:
+// cold code would cost more than the answer (docs/performance.md).
+[[gnu::hot]] PathResult FindPath(const Point& start, const std::vector<Point>& goals,
+                                 const std::vector<std::shared_ptr<const Action>>& actions,
+                                 const ExplorationSpace& space, const FindPathSettings& settings) {
   const Deadline deadline(settings.time_limit);
   CheckFindPathArguments(start, goals, actions, settings);
   PathResult result;

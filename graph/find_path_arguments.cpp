@@ -71,9 +71,9 @@ void CheckSettings(const FindPathSettings& settings) {
 
 }  // namespace
 
-void CheckFindPathArguments(const Point& start, const std::vector<Point>& goals,
-                            const std::vector<std::shared_ptr<const Action>>& actions,
-                            const FindPathSettings& settings) {
+[[gnu::hot]] void CheckFindPathArguments(const Point& start, const std::vector<Point>& goals,
+                                         const std::vector<std::shared_ptr<const Action>>& actions,
+                                         const FindPathSettings& settings) {
   if (actions.empty()) ThrowMissing("action");
   if (goals.empty()) ThrowMissing("goal");
   for (std::size_t i = 0; i < actions.size(); ++i) {

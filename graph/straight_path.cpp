@@ -18,9 +18,9 @@ std::optional<int> FirstSure(const PointPair& edge,
 
 }  // namespace
 
-bool GoStraight(const Point& start, const std::vector<Point>& goals,
-                const std::vector<std::shared_ptr<const Action>>& actions, const Deadline& deadline,
-                PathResult* result) {
+[[gnu::hot]] bool GoStraight(const Point& start, const std::vector<Point>& goals,
+                             const std::vector<std::shared_ptr<const Action>>& actions,
+                             const Deadline& deadline, PathResult* result) {
   for (std::size_t g = 0; g < goals.size(); ++g) {
     if (start == goals[g]) continue;
     PointPair edge{start, goals[g]};

@@ -268,8 +268,8 @@ double GroundMap::Clearance(int level, const Vector2d& p) const {
   return impl_->levels.at(level).Clearance(p);
 }
 
-bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
-                             double radius) const {
+[[gnu::hot]] bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
+                                          double radius) const {
   return impl_->levels.at(level).OneFaceHolds(from, to, radius);
 }
 
