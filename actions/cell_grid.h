@@ -34,15 +34,23 @@ class CellGrid {
     queue_.push_back(cell);
   }
 
-  /// Enters `cell` if it lies in the grid, was not tested before and `is_open(cell)`.
-  template <typename Test>
-  void Offer(const Cell& cell, const Test& is_open) {
+  /// Enters `cell` if it lies in the grid, was not reached before and `is_open(cell)`, which is
+  /// asked once. `leads_there()`: whether this offer can be taken up; asked of cells that are open.
+  template <typename Test, typename Lead>
+  void Offer(const Cell& cell, const Test& is_open, const Lead& leads_there) {
     if (!Contains(cell)) return;
     std::uint8_t& state = states_[Index(cell)];
-    if (state != kUntested) return;
-    ++tested_;
-    state = is_open(cell) ? kReached : kClosed;
-    if (state == kReached) queue_.push_back(cell);
+    if (state == kUntested) {
+      ++tested_;
+      state = is_open(cell) ? kOpen : kClosed;
+    }
+    if (state != kOpen || !leads_there()) return;
+    state = kReached;
+    queue_.push_back(cell);
+  }
+  template <typename Test>
+  void Offer(const Cell& cell, const Test& is_open) {
+    Offer(cell, is_open, [] { return true; });
   }
 
   bool Empty() const { return queue_.empty(); }
@@ -55,7 +63,7 @@ class CellGrid {
   bool IsReached(const Cell& cell) const { return states_[Index(cell)] == kReached; }
 
  private:
-  enum State : std::uint8_t { kUntested, kReached, kClosed };
+  enum State : std::uint8_t { kUntested, kOpen, kReached, kClosed };
 
   size_t Index(const Cell& c) const {
     return ((static_cast<size_t>(c[0]) * size_[1] + c[1]) * size_[2] + c[2]) * size_[3] + c[3];

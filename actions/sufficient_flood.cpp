@@ -8,6 +8,7 @@
 #include "actions/blockers.h"
 #include "actions/cell_grid.h"
 #include "actions/flood_grid.h"
+#include "actions/launch_box.h"
 #include "actions/route_flood.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
@@ -23,6 +24,9 @@ using Eigen::Vector3d;
 /// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
 constexpr double kCheckerError = 0.0002;
 constexpr int kHeadings = 24;
+/// How often the launches of a cell are halved before a landing counts as possible: what the cells
+/// of launch and landing leave open together would else be a fourth of a gap.
+constexpr int kLaunchHalvings = 16;
 
 /// The flood over C_S. Cells: layer (a gait at a height), x, y, heading.
 class SufficientFlood {
@@ -116,23 +120,8 @@ class SufficientFlood {
   }
 
   bool GroundMayHold(const Cell& cell) const {
-    const Eigen::Isometry2d X_WS = Centre(cell).Transform();
-    for (const auto& points : model_.gaits[GaitOf(cell)]->stance.bearing_points) {
-      for (const Vector2d& p_S : points) {
-        const double slack = HalfDiagonal() + p_S.norm() * HalfHeading();
-        if (!GroundIsNear(X_WS * p_S, HeightOf(cell), slack)) return false;
-      }
-    }
-    return true;
-  }
-
-  bool GroundIsNear(const Vector2d& p, double z, double distance) const {
-    const std::vector<double>& levels = world_.ground->levels();
-    for (size_t level = 0; level < levels.size(); ++level) {
-      if (std::abs(levels[level] - z) > 1e-6) continue;
-      if (world_.ground->IsNear(static_cast<int>(level), p, distance)) return true;
-    }
-    return false;
+    return actions::GroundMayHold(model_, *world_.ground, GaitOf(cell), Centre(cell),
+                                  HeightOf(cell), HalfDiagonal(), HalfHeading());
   }
 
   bool MayBeFree(const Cell& cell) const {
@@ -161,29 +150,48 @@ class SufficientFlood {
       }
     }
     for (const FloodManoeuvre& manoeuvre : manoeuvres_) {
-      if (manoeuvre.from == GaitOf(cell)) OfferLandings(cell, manoeuvre, offer);
+      if (manoeuvre.from == GaitOf(cell)) OfferLandings(cell, manoeuvre, is_open);
     }
   }
 
-  template <typename Offer>
-  void OfferLandings(const Cell& cell, const FloodManoeuvre& manoeuvre, const Offer& offer) {
+  template <typename Test>
+  void OfferLandings(const Cell& cell, const FloodManoeuvre& manoeuvre, const Test& is_open) {
     for (size_t i = 0; i < heights_.size(); ++i) {
       const std::optional<LandingRange> range = manoeuvre.landings(heights_[i] - HeightOf(cell));
       if (!range) continue;
       const Vector2d low = range->offset.min();
       const Vector2d high = range->offset.max();
       const int turns = static_cast<int>(std::ceil(range->turn / (2 * HalfHeading()) - 1e-9));
+      LaunchBox launches{.launch = {GaitOf(cell), HeightOf(cell)},
+                         .landing = {manoeuvre.to, heights_[i]},
+                         .middle = Centre(cell),
+                         .half_place = Vector2d::Constant(resolution_ / 2),
+                         .half_heading = HalfHeading(),
+                         .half_turn = turns > 0 ? HalfHeading() : 0};
+      // A landing lies at most half a sample beside one of the samples.
+      launches.half_displacement = ((high - low).array() > 0).cast<double>() * resolution_ / 4;
       for (const double x : Samples(low.x(), high.x())) {
         for (const double y : Samples(low.y(), high.y())) {
-          // A landing lies at most half a sample beside one of the samples.
-          const double beside = (low == high ? 0 : std::numbers::sqrt2 * resolution_ / 4);
           for (int turn = -turns; turn <= turns; ++turn) {
-            OfferImage(cell, Layer(manoeuvre.to, i), {x, y, turn * 2 * HalfHeading()}, offer,
-                       beside);
+            launches.displacement = {x, y, turn * 2 * HalfHeading()};
+            OfferLandings(cell, Layer(manoeuvre.to, i), launches, is_open);
           }
         }
       }
     }
+  }
+
+  template <typename Test>
+  void OfferLandings(const Cell& cell, int layer, const LaunchBox& launches, const Test& is_open) {
+    std::optional<bool> may_land;  // once, and only where it matters
+    const auto leads_there = [&] {
+      if (!may_land) may_land = MayLand(model_, *world_.ground, launches, kLaunchHalvings);
+      return *may_land;
+    };
+    OfferImage(
+        cell, layer, launches.displacement,
+        [&](const Cell& c) { grid_.Offer(c, is_open, leads_there); },
+        launches.half_displacement.norm());
   }
 
   /// `low`, `high` and what lies between, at half the size of cells.
