@@ -290,14 +290,11 @@ class TraversalPlanner {
     std::optional<std::vector<FloodManoeuvre>> manoeuvres = FloodManoeuvres();
     const bool leads_are_known = manoeuvres.has_value();
     if (leads_are_known) {
-      const auto flood = [&] {
-        return FloodSufficient(model_, world_, start_, goals_, resolution, keep_going, *manoeuvres);
-      };
-      flood_ = flood();
+      flood_ = FloodCoarseToFine(*manoeuvres);
       if (!flood_->route_may_exist && ReplaceGuesses(keep_going)) {
         manoeuvres = FloodManoeuvres();
         if (!manoeuvres) return graph::RouteOracleAnswer::kUnknown;
-        flood_ = flood();
+        flood_ = FloodCoarseToFine(*manoeuvres);
       }
       if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
     }
@@ -314,6 +311,20 @@ class TraversalPlanner {
     }
     flood_ = std::move(necessary);
     return graph::RouteOracleAnswer::kProvenInfeasible;
+  }
+
+  /// The flood over C_S; a finer one, as far as it gets, where coarse cells find no barrier.
+  FloodResult FloodCoarseToFine(const std::vector<FloodManoeuvre>& manoeuvres) const {
+    constexpr int kHalvings = 3;
+    constexpr std::int64_t kMostCells = 500000;  // some seconds
+    const double resolution = scenario_.planner.flood_resolution;
+    FloodResult coarse = FloodSufficient(
+        model_, world_, start_, goals_, resolution, [this] { return Remaining() > 0; }, manoeuvres);
+    if (!coarse.route_may_exist) return coarse;
+    std::int64_t cells = 0;
+    return FloodSufficient(
+        model_, world_, start_, goals_, resolution,
+        [&] { return ++cells <= kMostCells && Remaining() > 0; }, manoeuvres, kHalvings);
   }
 
   /// Nothing if some manoeuvre does not say where it leads: then no closed barrier is a proof.

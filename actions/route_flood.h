@@ -34,11 +34,13 @@ struct FloodManoeuvre {
 ///
 /// Flood over what can be confirmed: cells of (gait, x, y, heading) in which C_S may hold
 /// somewhere, with shapes shrunk by the size of a cell, joined through transitions and manoeuvres.
-/// Without manoeuvres nobody leaves the height of the start.
+/// Without manoeuvres nobody leaves the height of the start. `halvings`: how often a cell is halved
+/// along every axis before it counts as open where that is in doubt; each takes more time, and a
+/// narrower passage for closed.
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
                             double resolution, const std::function<bool()>& keep_going = {},
-                            const std::vector<FloodManoeuvre>& manoeuvres = {});
+                            const std::vector<FloodManoeuvre>& manoeuvres = {}, int halvings = 0);
 
 /// Flood over C_N: cells of the position of the largest ball inside the pelvis that may be free
 /// and within a leg's reach of ground, whatever the orientation. `resolution` is refined until

@@ -32,7 +32,7 @@ constexpr int kLaunchHalvings = 16;
 class SufficientFlood {
  public:
   SufficientFlood(const LocomotionModel& model, const World& world, double z, double resolution,
-                  const std::vector<FloodManoeuvre>& manoeuvres)
+                  const std::vector<FloodManoeuvre>& manoeuvres, int halvings)
       : model_(model),
         world_(world),
         heights_(manoeuvres.empty() ? std::vector<double>{z} : world.ground->levels()),
@@ -41,7 +41,11 @@ class SufficientFlood {
         origin_(world.environment->bounds.min() - Vector2d::Constant(Margin(model))),
         checker_(*world.environment),
         grid_(GridSize()) {
-    for (const auto& gait : model.gaits) shrunk_.push_back(Shrink(gait->sweep));
+    for (const auto& gait : model.gaits) {
+      whole_.emplace_back(gait->sweep);
+      shrunk_.emplace_back();
+      for (int i = 0; i <= halvings; ++i) shrunk_.back().push_back(Shrink(gait->sweep, 1 << i));
+    }
   }
 
   FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals,
@@ -79,12 +83,13 @@ class SufficientFlood {
   double HalfDiagonal() const { return resolution_ * std::numbers::sqrt2 / 2; }
   static double HalfHeading() { return std::numbers::pi / kHeadings; }
 
-  /// What a box covers wherever in the cell the stance is: every vertical side moved inward.
-  models::UprightBoxes Shrink(const std::vector<Eigen::AlignedBox3d>& boxes) const {
+  /// What a box covers wherever in a part of a cell, of so many to an axis, the stance is: every
+  /// vertical side moved inward.
+  models::UprightBoxes Shrink(const std::vector<Eigen::AlignedBox3d>& boxes, int parts) const {
     std::vector<Eigen::AlignedBox3d> shrunk;
     for (const Eigen::AlignedBox3d& box : boxes) {
       const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
-      const double inward = HalfDiagonal() + far.norm() * HalfHeading() + kCheckerError;
+      const double inward = (HalfDiagonal() + far.norm() * HalfHeading()) / parts + kCheckerError;
       const Vector3d margin(inward, inward, kCheckerError);
       if ((box.sizes() - 2 * margin).minCoeff() <= 0) continue;
       shrunk.emplace_back(box.min() + margin, box.max() - margin);
@@ -124,12 +129,36 @@ class SufficientFlood {
                                   HeightOf(cell), HalfDiagonal(), HalfHeading());
   }
 
-  bool MayBeFree(const Cell& cell) const {
-    return checker_.AreFree(shrunk_[GaitOf(cell)], Centre(cell).At(HeightOf(cell)));
+  bool CentreStands(int gait, const PlanarPose& centre, double z) const {
+    return actions::GroundMayHold(model_, *world_.ground, gait, centre, z, 0, 0) &&
+           checker_.AreFree(whole_[gait], centre.At(z));
+  }
+
+  /// Whether some stance may be possible in the part of a cell about `centre`, halved so often
+  /// along every axis already.
+  bool MayStand(int gait, const PlanarPose& centre, double z, int halvings) const {
+    const int parts = 1 << halvings;
+    if (!actions::GroundMayHold(model_, *world_.ground, gait, centre, z, HalfDiagonal() / parts,
+                                HalfHeading() / parts) ||
+        !checker_.AreFree(shrunk_[gait][halvings], centre.At(z))) {
+      return false;
+    }
+    if (halvings + 1 == static_cast<int>(shrunk_[gait].size())) return true;
+    if (CentreStands(gait, centre, z)) return true;
+    const double shift = resolution_ / 4 / parts, turn = HalfHeading() / 2 / parts;
+    for (int part = 0; part < 8; ++part) {
+      const PlanarPose middle{centre.x + (part & 1 ? shift : -shift),
+                              centre.y + (part & 2 ? shift : -shift),
+                              centre.yaw + (part & 4 ? turn : -turn)};
+      if (MayStand(gait, middle, z, halvings + 1)) return true;
+    }
+    return false;
   }
 
   void OfferNeighbours(const Cell& cell) {
-    const auto is_open = [this](const Cell& c) { return GroundMayHold(c) && MayBeFree(c); };
+    const auto is_open = [this](const Cell& c) {
+      return MayStand(GaitOf(c), Centre(c), HeightOf(c), 0);
+    };
     const auto offer = [&](Cell c) {
       c[3] = (c[3] + kHeadings) % kHeadings;
       grid_.Offer(c, is_open);
@@ -228,7 +257,7 @@ class SufficientFlood {
       if (!grid_.Contains(beyond)) continue;
       if (!GroundMayHold(beyond)) names.insert("no ground");
       std::vector<models::PosedShape> posed;
-      const models::UprightBoxes& boxes = shrunk_[GaitOf(cell)];
+      const models::UprightBoxes& boxes = shrunk_[GaitOf(cell)].back();
       for (size_t i = 0; i < boxes.boxes().size(); ++i) {
         posed.push_back({models::Shape::Box(boxes.boxes()[i].sizes()),
                          Centre(beyond).At(HeightOf(beyond)) * boxes.X_SB()[i]});
@@ -266,7 +295,8 @@ class SufficientFlood {
   Vector2d origin_;
   models::CollisionChecker checker_;
   CellGrid grid_;
-  std::vector<models::UprightBoxes> shrunk_;  ///< by gait
+  std::vector<models::UprightBoxes> whole_;                ///< by gait
+  std::vector<std::vector<models::UprightBoxes>> shrunk_;  ///< by gait and halvings
 };
 
 }  // namespace
@@ -274,8 +304,8 @@ class SufficientFlood {
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
                             double resolution, const std::function<bool()>& keep_going,
-                            const std::vector<FloodManoeuvre>& manoeuvres) {
-  return SufficientFlood(model, world, start.z, resolution, manoeuvres)
+                            const std::vector<FloodManoeuvre>& manoeuvres, int halvings) {
+  return SufficientFlood(model, world, start.z, resolution, manoeuvres, halvings)
       .Run(start, goals, keep_going);
 }
 

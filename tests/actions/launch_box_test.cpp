@@ -7,46 +7,16 @@
 #include <random>
 #include <vector>
 
-#include "actions/cell_grid.h"
-#include "actions/route_flood.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/gap.h"
 
 namespace possibility::actions {
 namespace {
 
 using Eigen::Vector2d;
 
-models::Obstacle Floor(double x, double y, double size_x, double size_y, double yaw) {
-  models::Obstacle floor;
-  floor.shape = models::Shape::Box({size_x, size_y, 0.1});
-  floor.X_WO = PlanarPose{x, y, yaw}.At(-0.05);
-  floor.is_ground = true;
-  return floor;
-}
-
-/// Floors before x = 0 and beyond x = gap.
-models::Environment Gap(double gap) {
-  models::Environment environment;
-  environment.bounds = Eigen::AlignedBox2d(Vector2d(-2, -1.5), Vector2d(3, 1.5));
-  environment.obstacles = {Floor(-2, 0, 4, 4, 0), Floor(gap + 2, 0, 4, 4, 0)};
-  return environment;
-}
-
 bool Stands(const models::GroundMap& ground, int gait, const PlanarPose& pose) {
   return GroundMayHold(DrcHubo1Locomotion(), ground, gait, pose, 0, 0, 0);
-}
-
-/// The widest gap that walking stances can leave ahead and crawling stances land beyond, by a jump
-/// straight ahead that displaces them by `distance`.
-double WidestGap(double distance) {
-  double toes = -1, heels = 1;
-  for (const auto& points : DrcHubo1Locomotion().gaits[0]->stance.bearing_points) {
-    for (const Vector2d& p : points) toes = std::max(toes, p.x());
-  }
-  for (const auto& points : DrcHubo1Locomotion().gaits[1]->stance.bearing_points) {
-    for (const Vector2d& p : points) heels = std::min(heels, p.x());
-  }
-  return distance - toes + heels;
 }
 
 /// Whatever launch of a box stands and lands, the box says so, however often it is halved.
@@ -152,42 +122,6 @@ TEST(LaunchBox, HalvingTellsHowWideAGapMayBe) {
   EXPECT_TRUE(may_land(widest - 0.01, 16));
   EXPECT_TRUE(may_land(widest + 0.06, 0));
   EXPECT_FALSE(may_land(widest + 0.06, 16));
-}
-
-/// Cells alone would leave a fourth of a metre open beyond the farthest landing.
-TEST(SufficientFlood, TellsAGapFromTheFarthestLanding) {
-  static constexpr double kFarthest = 1.1;
-  const auto may_cross = [&](double gap) {
-    const models::Environment environment = Gap(gap);
-    const models::GroundMap ground(environment);
-    const FloodManoeuvre leap{
-        0, 1, [](double rise) {
-          return rise == 0 ? std::optional(LandingRange{{Vector2d::Zero(), Vector2d(kFarthest, 0)}})
-                           : std::nullopt;
-        }};
-    return FloodSufficient(DrcHubo1Locomotion(), {&environment, &ground}, {0, {-1, 0, 0}, 0},
-                           {{1, {gap + 1, 0, 0}, 0}}, 0.1, {}, {leap})
-        .route_may_exist;
-  };
-  EXPECT_TRUE(may_cross(WidestGap(kFarthest) - 0.01));
-  EXPECT_FALSE(may_cross(WidestGap(kFarthest) + 0.1));
-}
-
-TEST(CellGrid, AnOpenCellWaitsForAnOfferThatLeadsThere) {
-  CellGrid grid({1, 4, 1, 1});
-  const CellGrid::Cell cell{0, 2, 0, 0};
-  int asked = 0;
-  const auto is_open = [&](const CellGrid::Cell&) { return ++asked > 0; };
-  grid.Offer(cell, is_open, [] { return false; });
-  EXPECT_FALSE(grid.IsReached(cell));
-  EXPECT_TRUE(grid.Empty());
-  grid.Offer(cell, is_open, [] { return true; });
-  EXPECT_TRUE(grid.IsReached(cell));
-  EXPECT_EQ(asked, 1);
-  EXPECT_EQ(grid.tested(), 1);
-  grid.Offer(
-      {0, 3, 0, 0}, [](const CellGrid::Cell&) { return false; }, [] { return true; });
-  EXPECT_FALSE(grid.IsReached({0, 3, 0, 0}));
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ TEST_F(RouteTest, FloodsNeverCloseARouteThatExists) {
     if (route.empty()) continue;
     const GroundedStance start{0, route.front().from, 0}, goal{0, route.back().to, 0};
     EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, 0.1).route_may_exist);
+    EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, 0.1, {}, {}, 3).route_may_exist);
     EXPECT_TRUE(FloodNecessary(model_, world_, start, {goal}, 0.1).route_may_exist);
     const GroundedStance outside{0, {100, 0, 0}, 0};
     closed += !FloodSufficient(model_, world_, start, {outside}, 0.1).route_may_exist;
