@@ -56,6 +56,7 @@ std::string Describe(const Violation& violation) {
 
 std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories) {
   std::vector<std::string> names;
+  names.reserve(factories.size());
   for (const ManoeuvreFactory& factory : factories) names.push_back(factory.name);
   return names;
 }

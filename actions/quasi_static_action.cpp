@@ -49,6 +49,7 @@ std::vector<Eigen::AlignedBox3d> Inflated(const std::vector<Eigen::AlignedBox3d>
                                           double inflation) {
   const Vector3d sideways(inflation, inflation, 0);
   std::vector<Eigen::AlignedBox3d> inflated;
+  inflated.reserve(boxes.size());
   for (const Eigen::AlignedBox3d& box : boxes) {
     inflated.emplace_back(box.min() - sideways, box.max() + sideways);
   }

@@ -72,7 +72,7 @@ struct VerifierSettings {
   double resolution = 0.005;  ///< s
   /// Whether segments with flight or impacts are simulated, too: seconds for each.
   bool simulates = true;
-  int threads = 1;            ///< samples are independent; the report does not depend on it
+  int threads = 1;  ///< samples are independent; the report does not depend on it
 };
 
 /// Re-derives from the plan, the robot and the scenario alone that the plan can be executed.

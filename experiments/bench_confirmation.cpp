@@ -24,9 +24,8 @@ class TemporaryFolder {
  public:
   TemporaryFolder()
       : path_(std::filesystem::temp_directory_path() /
-              fmt::format("possibility_bench_{}", std::chrono::steady_clock::now()
-                                                      .time_since_epoch()
-                                                      .count())) {}
+              fmt::format("possibility_bench_{}",
+                          std::chrono::steady_clock::now().time_since_epoch().count())) {}
   ~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -85,12 +84,10 @@ void AddTimes(const std::vector<JumpSweepEntry>& entries, BenchmarkReport* repor
     realisation.push_back(effort.realisation);
   }
   if (total.empty()) return;
-  report->figures = {{"cold_s_median", Median(total)},
-                     {"iterations_median", Median(iterations)},
-                     {"functions_s_median", Median(functions)},
-                     {"kkt_s_median", Median(kkt)},
-                     {"ipopt_rest_s_median", Median(rest)},
-                     {"realisation_s_median", Median(realisation)}};
+  report->figures = {
+      {"cold_s_median", Median(total)},          {"iterations_median", Median(iterations)},
+      {"functions_s_median", Median(functions)}, {"kkt_s_median", Median(kkt)},
+      {"ipopt_rest_s_median", Median(rest)},     {"realisation_s_median", Median(realisation)}};
 }
 
 }  // namespace
@@ -126,8 +123,8 @@ BenchmarkReport BenchConfirmation(const models::RobotModel& robot,
   AddTimes(entries, &report);
   report.figures.push_back(
       {"library_s_median", LibraryMedian(robot, solver, folder.path(), entries)});
-  report.ratios.push_back({"confirmed_fraction", ConfirmedFraction(entries, reach),
-                           "of the jumps within the reach"});
+  report.ratios.push_back(
+      {"confirmed_fraction", ConfirmedFraction(entries, reach), "of the jumps within the reach"});
   const auto worker = [&solver]() -> std::function<void(int)> {
     return [&solver](int i) { solver.Solve({0.3 + 0.05 * (i % 8), 0}); };
   };

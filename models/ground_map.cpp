@@ -84,6 +84,7 @@ AlignedBox3d FlatBounds(const Face& face) {
 template <typename Item>
 BoundsTree FlatTree(const std::vector<Item>& items) {
   std::vector<AlignedBox3d> bounds;
+  bounds.reserve(items.size());
   for (const Item& item : items) bounds.push_back(FlatBounds(item));
   return BoundsTree(std::move(bounds));
 }
