@@ -317,7 +317,7 @@ class TraversalPlanner {
   /// The flood over C_S; a finer one, as far as it gets, where coarse cells find no barrier.
   FloodResult FloodCoarseToFine(const std::vector<FloodManoeuvre>& manoeuvres) const {
     constexpr int kHalvings = 3;
-    constexpr std::int64_t kMostCells = 500000;  // some seconds
+    constexpr std::int64_t kMostCells = 500000;  // no limit of time: the same answer anywhere
     const double resolution = scenario_.planner.flood_resolution;
     FloodResult coarse = FloodSufficient(
         model_, world_, start_, goals_, resolution, [this] { return Remaining() > 0; }, manoeuvres);

@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 /// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
 constexpr double kCheckerError = 0.0002;
 constexpr int kHeadings = 24;
-/// How often the launches of a cell are halved before a landing counts as possible: what the cells
-/// of launch and landing leave open together would else be a fourth of a gap.
+/// How often the launches of a cell are halved, along one dimension each time, before a landing
+/// counts as possible: more did not narrow down the gaps that stay in doubt.
 constexpr int kLaunchHalvings = 16;
 
 /// The flood over C_S. Cells: layer (a gait at a height), x, y, heading.

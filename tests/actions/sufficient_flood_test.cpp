@@ -65,7 +65,7 @@ TEST(SufficientFlood, HalvedCellsTellHowNarrowACorridorMayBe) {
   EXPECT_FALSE(MayPass(narrowest - 0.1, 3));
 }
 
-/// Cells alone would leave a fourth of a metre open beyond the farthest landing.
+/// Closer than whole cells of launch and landing could.
 TEST(SufficientFlood, TellsAGapFromTheFarthestLanding) {
   static constexpr double kFarthest = 1.1;
   const auto may_cross = [&](double gap) {
