@@ -16,6 +16,13 @@ constexpr double kClearance = 0.01;
 constexpr double kGroundTolerance = 1e-3;
 constexpr double kTolerance = 1e-4;
 
+/// So many take a millisecond or less; whether to go on is not asked more often.
+constexpr size_t kSamplesPerQuestion = 16;
+
+bool GoOn(size_t sample, const std::function<bool()>& keep_going) {
+  return sample % kSamplesPerQuestion != 0 || !keep_going || keep_going();
+}
+
 std::vector<bool> LinksThatBear(const models::RobotModel& robot) {
   std::vector<bool> bear(robot.links.size(), false);
   for (const models::ContactPatch& patch : robot.contacts) bear[patch.link] = true;
@@ -49,8 +56,9 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
                      const Eigen::Isometry3d& X_WS, const std::function<bool()>& keep_going) {
   const std::vector<bool> bears = LinksThatBear(robot);
   std::vector<Eigen::Isometry3d> X_WL(robot.links.size());
-  for (const MotionPoses::Sample& sample : poses.samples()) {
-    if (keep_going && !keep_going()) return {};
+  for (size_t i = 0; i < poses.samples().size(); ++i) {
+    const MotionPoses::Sample& sample = poses.samples()[i];
+    if (!GoOn(i, keep_going)) return {};
     for (size_t link = 0; link < X_WL.size(); ++link) X_WL[link] = X_WS * sample.X_SL[link];
     for (const models::Proximity& pair : checker.EnvironmentProximities(X_WL, kClearance)) {
       const models::Obstacle& obstacle = environment.obstacles[pair.other];
@@ -67,8 +75,9 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
 
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
                          const MotionPoses& poses, const std::function<bool()>& keep_going) {
-  for (const MotionPoses::Sample& sample : poses.samples()) {
-    if (keep_going && !keep_going()) return {};
+  for (size_t i = 0; i < poses.samples().size(); ++i) {
+    const MotionPoses::Sample& sample = poses.samples()[i];
+    if (!GoOn(i, keep_going)) return {};
     const std::vector<models::Proximity> close = checker.SelfProximities(sample.X_SL, 0);
     if (close.empty()) continue;
     return fmt::format("hits {} with {} at {:.2f} s", robot.links[close.front().other].name,

@@ -1,12 +1,72 @@
 #include "actions/shared_jump_solve.h"
 
-#include <functional>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace possibility::actions {
+namespace {
+
+/// An iteration of a jump takes about 25 ms on the machines we know: as long as some checkpoints of
+/// other work. A jump out of reach of one turn of 1000 is a difficult one (median: 54 iterations).
+constexpr std::int64_t kCheckpointsPerIteration = 10;
+
+}  // namespace
+
+/// A job's stay, from the moment it wants the answer until it has it or gives up. Wants it while it
+/// is inside and not paused: pauses and their ends may come before, in any number and order.
+class SharedJumpSolve::Visit {
+ public:
+  Visit(SharedJumpSolve* solve, graph::JobControl* visitor) : solve_(*solve), visitor_(visitor) {
+    const std::lock_guard lock(solve_.visitors_mutex_);
+    solve_.visitors_.push_back(visitor_);
+  }
+  ~Visit() {
+    Set(&inside_, false);
+    const std::lock_guard lock(solve_.visitors_mutex_);
+    std::erase(solve_.visitors_, visitor_);
+  }
+  Visit(const Visit&) = delete;
+  Visit& operator=(const Visit&) = delete;
+
+  std::optional<JumpAnswer> Await() {
+    std::optional<JumpAnswer> answer;
+    const bool go_on = visitor_->RunSteered({.pause = [this] { Set(&paused_, true); },
+                                             .resume = [this] { Set(&paused_, false); },
+                                             .cancel = [this] { GiveUp(); }},
+                                            [&] {
+                                              Set(&inside_, true);
+                                              answer = solve_.Wait(gave_up_);
+                                            });
+    return go_on ? answer : std::nullopt;
+  }
+
+ private:
+  void Set(bool* what, bool value) {
+    const std::lock_guard lock(mutex_);
+    *what = value;
+    const bool wants = inside_ && !paused_;
+    if (wants != wants_) solve_.Want(wants ? 1 : -1);
+    wants_ = wants;
+  }
+
+  void GiveUp() {
+    gave_up_ = true;
+    solve_.Wake();
+  }
+
+  SharedJumpSolve& solve_;
+  graph::JobControl* visitor_;
+  std::atomic<bool> gave_up_ = false;
+  std::mutex mutex_;
+  // Under mutex_:
+  bool inside_ = false;
+  bool paused_ = false;
+  bool wants_ = false;
+};
 
 SharedJumpSolve::SharedJumpSolve(JumpLibrary* library, const JumpTask& task)
-    : task_(task), library_(library) {
+    : task_(task), library_(library), solve_([this] { ChargeVisitors(); }) {
   solve_.Pause();
   worker_ = std::jthread([this] { Work(); });
 }
@@ -14,30 +74,12 @@ SharedJumpSolve::SharedJumpSolve(JumpLibrary* library, const JumpTask& task)
 SharedJumpSolve::~SharedJumpSolve() { solve_.Cancel(); }
 
 std::optional<JumpAnswer> SharedJumpSolve::Await(graph::JobControl* control) {
-  std::atomic<bool> gave_up = false;
-  std::optional<JumpAnswer> answer;
-  std::mutex mutex;
-  bool wants = false;
-  // Pauses and their ends may come in any number and order.
-  const auto want = [&](bool wish) {
-    const std::lock_guard lock(mutex);
-    if (wants != wish) Want(wish ? 1 : -1);
-    wants = wish;
-  };
-  struct Farewell {
-    std::function<void()> leave;
-    ~Farewell() { leave(); }
-  } farewell{[&] { want(false); }};
-  want(true);
-  const bool go_on = control->RunSteered({.pause = [&] { want(false); },
-                                          .resume = [&] { want(true); },
-                                          .cancel =
-                                              [&] {
-                                                gave_up = true;
-                                                Wake();
-                                              }},
-                                         [&] { answer = Wait(gave_up); });
-  return go_on ? answer : std::nullopt;
+  return Visit(this, control).Await();
+}
+
+void SharedJumpSolve::ChargeVisitors() {
+  const std::lock_guard lock(visitors_mutex_);
+  for (graph::JobControl* visitor : visitors_) visitor->Charge(kCheckpointsPerIteration);
 }
 
 void SharedJumpSolve::Want(int change) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "actions/jump_library.h"
 #include "collocation/solve_control.h"
@@ -15,7 +16,8 @@ namespace possibility::actions {
 
 /// The answer to one task, for all jobs that want it. Jobs come and go with the edges that the
 /// search takes an interest in; what is solved so far must not go with them. Works only while some
-/// job asks for it. The library has to outlive it.
+/// job asks for it, and counts on their checkpoints by its iterations. The library has to outlive
+/// it.
 class SharedJumpSolve {
  public:
   SharedJumpSolve(JumpLibrary* library, const JumpTask& task);
@@ -29,7 +31,10 @@ class SharedJumpSolve {
   std::optional<JumpAnswer> Await(graph::JobControl* control);
 
  private:
+  class Visit;
+
   void Work();
+  void ChargeVisitors();
   /// One job more, or one less, wants it now.
   void Want(int change);
   /// None if `gave_up`, which Wake announces, became true.
@@ -44,6 +49,8 @@ class SharedJumpSolve {
   int wanted_ = 0;
   std::optional<JumpAnswer> answer_;
   std::exception_ptr error_;
+  std::mutex visitors_mutex_;
+  std::vector<graph::JobControl*> visitors_;
   std::jthread worker_;
 };
 

@@ -15,6 +15,11 @@ bool SolveClock::Proceed() {
   return stop_ == Stop::kNone;
 }
 
+bool SolveClock::EndIteration() {
+  if (control_ != nullptr) control_->EndIteration();
+  return Proceed();
+}
+
 double SolveClock::Seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() - paused_;
 }

@@ -16,6 +16,8 @@ class SolveClock {
 
   /// Whether the solve may go on; sleeps while it is paused. Once false, always false.
   bool Proceed();
+  /// An iteration is over; then as Proceed.
+  bool EndIteration();
   Stop stop() const { return stop_; }
 
   /// s since construction, pauses excepted.

@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
+#include <utility>
 
 namespace possibility::collocation {
 
@@ -10,6 +12,12 @@ namespace possibility::collocation {
 /// starts after Cancel ends at once.
 class SolveControl {
  public:
+  SolveControl() = default;
+  /// `on_iteration` is called by the solve's thread after each iteration, before it asks whether to
+  /// go on: what `on_iteration` orders takes effect in the same place every time.
+  explicit SolveControl(std::function<void()> on_iteration)
+      : on_iteration_(std::move(on_iteration)) {}
+
   void Cancel();
   void Pause();
   void Resume();
@@ -18,8 +26,13 @@ class SolveControl {
   /// Called by the solve, often: sleeps while paused, without using processor time. Returns the
   /// time slept, s.
   double WaitWhilePaused();
+  /// Called by the solve.
+  void EndIteration() const {
+    if (on_iteration_) on_iteration_();
+  }
 
  private:
+  std::function<void()> on_iteration_;
   std::atomic<bool> cancelled_ = false;
   std::atomic<bool> paused_ = false;
   std::mutex mutex_;

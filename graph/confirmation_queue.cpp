@@ -21,8 +21,9 @@ ConfirmationQueue::ConfirmationQueue() : ConfirmationQueue(Settings()) {}
 
 ConfirmationQueue::ConfirmationQueue(const Settings& settings) : settings_(settings) {
   if (settings.slice.count() < 1 || settings.slices_per_turn < 1 ||
-      settings.rotating_jobs_per_worker < 1 || settings.slices_per_fair_slice < 1 ||
-      settings.max_threads < 1 || !(settings.job_time_limit > 0)) {
+      settings.checkpoints_per_turn < 1 || settings.rotating_jobs_per_worker < 1 ||
+      settings.slices_per_fair_slice < 1 || settings.max_threads < 1 ||
+      !(settings.job_time_limit > 0)) {
     throw std::invalid_argument("ConfirmationQueue: expected every setting to be positive");
   }
 }
@@ -75,7 +76,7 @@ void ConfirmationQueue::WaitForResult(std::chrono::milliseconds limit) {
   result_.wait_for(lock, limit, [this] { return !finished_.empty(); });
 }
 
-bool ConfirmationQueue::RunTurn(const Deadline& deadline) {
+bool ConfirmationQueue::RunTurn(const Deadline& deadline, int length) {
   std::unique_lock lock(mutex_);
   const auto wait_for = [&](double seconds, auto done) {
     event_.wait_for(lock, Seconds(std::min({seconds, deadline.Remaining(), kForever})), done);
@@ -83,19 +84,19 @@ bool ConfirmationQueue::RunTurn(const Deadline& deadline) {
   wait_for(kForever, [this] { return NumWithState(State::kRunning, State::kPausing) == 0; });
   Reap();
   QueuedJob* job = PickNext(jobs_, settings_, 1, grants_);
-  if (job == nullptr || !Grant(job)) {
+  if (job == nullptr || !Grant(job, length * settings_.checkpoints_per_turn)) {
     return true;
   }
-  const double turn = Seconds(settings_.slice).count() * settings_.slices_per_turn;
-  const double limit = settings_.job_time_limit - job->seconds;
-  const auto has_ended = [job] { return job->state == State::kEnded; };
-  wait_for(std::min(turn, limit), has_ended);
-  const bool ended = has_ended();
-  if (!ended) {
-    job->slices += settings_.slices_per_turn - 1;
+  const auto has_stopped = [job] {
+    return job->state == State::kEnded || job->state == State::kPaused;
+  };
+  wait_for(settings_.job_time_limit - job->seconds, has_stopped);
+  if (!has_stopped()) {
     EndSlice(job);
-    wait_for(kForever, [&] { return has_ended() || job->state == State::kPaused; });
+    wait_for(kForever, has_stopped);
   }
+  const bool ended = job->state == State::kEnded;
+  job->slices += length * settings_.slices_per_turn;
   Reap();
   return ended;
 }
@@ -179,11 +180,14 @@ void ConfirmationQueue::GrantPermits() {
   }
 }
 
-bool ConfirmationQueue::Grant(QueuedJob* job) {
+bool ConfirmationQueue::Grant(QueuedJob* job, std::optional<std::int64_t> checkpoints) {
   const bool begins = job->state == State::kWaiting;
   job->last_served = ++grants_;
   job->slice_begin = Clock::now();
   job->state = State::kRunning;
+  if (checkpoints) {
+    job->control.Ration(*checkpoints);
+  }
   if (!begins) {
     job->control.Resume();
     return true;

@@ -27,7 +27,8 @@ namespace possibility::graph {
 /// the job that has waited longest, whatever its rank, so that nothing starves.
 ///
 /// With workers (LaunchThreads), all this happens beside the calling thread. Without, RunTurn
-/// gives one job one turn while the calling thread waits.
+/// gives one job one turn while the calling thread waits. Such a turn is measured in checkpoints
+/// instead of time: in which turn a job ends does not depend on the machine.
 ///
 /// All functions are called from one thread.
 class ConfirmationQueue {
@@ -63,8 +64,9 @@ class ConfirmationQueue {
   void WaitForResult(std::chrono::milliseconds limit);
 
   /// Lets the job that is next run until it ends, its turn is over, or the deadline passes; false
-  /// if it did not end. For queues without workers.
-  bool RunTurn(const Deadline& deadline);
+  /// if it did not end. True if there is no job. The turn is `length` times as long as the settings
+  /// say. For queues without workers.
+  bool RunTurn(const Deadline& deadline, int length = 1);
 
   /// Cancels all jobs and waits for their threads: as long as the slowest of them takes to return.
   void CancelAll(const std::string& reason);
@@ -77,7 +79,7 @@ class ConfirmationQueue {
   void EndSlices();
   void EndSlice(QueuedJob* job);
   void GrantPermits();
-  bool Grant(QueuedJob* job);
+  bool Grant(QueuedJob* job, std::optional<std::int64_t> checkpoints = std::nullopt);
   void Reap();
   int NumWithState(QueuedJob::State a, QueuedJob::State b) const;
   std::optional<QueuedJob::Clock::time_point> NextSliceEnd() const;

@@ -1,5 +1,6 @@
 #include "graph/find_path.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "graph/action_exploration.h"
@@ -14,6 +15,11 @@ namespace possibility::graph {
 namespace {
 
 constexpr int kMostSuggestions = 8;
+
+/// What a turn in vain leaves to exploration: on the robots we know, 0.1 to 1.2 s. (The turn: 3 s.)
+constexpr std::int64_t kCyclesAfterTurnInVain = 1000;
+/// A turn as many times as long is nearly what a job is given at all.
+constexpr int kLongestTurn = 8;
 
 /// Algorithm 1 at work.
 class PathFinder {
@@ -171,15 +177,18 @@ class PathFinder {
     return false;
   }
 
-  /// A job that outlives its turn has to leave exploration as much time before the next one.
+  /// A turn in vain leaves exploration some cycles; the next turn is longer, and so is what it
+  /// leaves: both grow to what the jobs take, and shrink as jobs end. Nothing here asks what time
+  /// it is: one seed, one search.
   void RunConfirmationTurn() {
-    const double begin = deadline_.Elapsed();
-    if (begin < next_turn_ && !ExplorationIsOver()) {
+    if (cycles_ < next_turn_ && !ExplorationIsOver()) {
       return;
     }
-    if (!q_confirmation_.RunTurn(deadline_)) {
-      const double end = deadline_.Elapsed();
-      next_turn_ = end + (end - begin);
+    if (q_confirmation_.RunTurn(deadline_, turn_length_)) {
+      turn_length_ = std::max(turn_length_ - 1, 1);
+    } else {
+      next_turn_ = cycles_ + turn_length_ * kCyclesAfterTurnInVain;
+      turn_length_ = std::min(turn_length_ + 1, kLongestTurn);
     }
   }
 
@@ -280,7 +289,8 @@ class PathFinder {
   bool nothing_suggested_ = false;
   bool oracle_asked_ = false;
   double next_progress_ = 0;
-  double next_turn_ = 0;
+  std::int64_t next_turn_ = 0;  ///< cycle
+  int turn_length_ = 1;
   double best_route_seconds_ = 0;
 };
 

@@ -5,6 +5,7 @@
 namespace possibility::graph {
 
 bool JobControl::Checkpoint() {
+  Charge(1);
   if (!interrupted_.load(std::memory_order_acquire)) {
     return true;
   }
@@ -36,6 +37,15 @@ bool JobControl::RunSteered(const JobSteering& steering, const std::function<voi
   return Checkpoint();
 }
 
+void JobControl::Charge(std::int64_t checkpoints) {
+  if (ration_.load(std::memory_order_relaxed) != kUnlimited &&
+      ration_.fetch_sub(checkpoints) <= checkpoints) {
+    PauseFromWithin();
+  }
+}
+
+void JobControl::Ration(std::int64_t checkpoints) { ration_ = checkpoints; }
+
 bool JobControl::Pause() {
   const std::lock_guard lock(mutex_);
   if (cancelled()) {
@@ -43,11 +53,17 @@ bool JobControl::Pause() {
   }
   paused_ = true;
   interrupted_.store(true, std::memory_order_release);
-  if (steering_ && !held_) {
-    steering_->pause();
-    held_ = true;
+  if (!steering_ || std::exchange(held_, true)) {
+    return false;
   }
-  return held_;
+  steering_->pause();
+  return true;
+}
+
+void JobControl::PauseFromWithin() {
+  if (Pause() && on_held_) {
+    on_held_();
+  }
 }
 
 void JobControl::Resume() {

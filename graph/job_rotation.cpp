@@ -16,7 +16,7 @@ void MakeRoom(const Jobs& jobs, const RotationSettings& settings) {
       return;
     }
     if (job->state == State::kPaused && job->slices >= settings.slices_per_turn &&
-        (slowest == nullptr || job->seconds > slowest->seconds)) {
+        (slowest == nullptr || job->slices > slowest->slices)) {
       slowest = job.get();
     }
   }

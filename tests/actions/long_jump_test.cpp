@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <stop_token>
+#include <thread>
+#include <vector>
 
 #include "actions/exploration_pose.h"
 #include "actions/jump_reach.h"
+#include "graph/confirmation_queue.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
 
@@ -176,6 +181,28 @@ TEST(LongJumpTest, ACancelledJobDecidesNothing) {
   EXPECT_EQ(job->Run(&control), graph::JobVerdict::kUndecided);
   EXPECT_TRUE(scene.jump().Refusals().empty());
   EXPECT_TRUE(scene.jump().Explorable(edge));
+}
+
+/// In how many turns of 100 checkpoints the jump is solved and placed. `pause`: between turns.
+int TurnsOfJump(double distance, std::chrono::milliseconds pause) {
+  const JumpScene scene(TwoFloors(kGap));
+  graph::ConfirmationQueue queue({.checkpoints_per_turn = 100});
+  queue.Insert(0, scene.jump().SpawnConfirmationJob(JumpScene::Edge(-0.2, distance)), 0);
+  int turns = 1;
+  for (; !queue.RunTurn(graph::Deadline(60)); ++turns) std::this_thread::sleep_for(pause);
+  const std::vector<graph::JobResult> results = queue.DrainFinished();
+  EXPECT_EQ(results.at(0).outcome, graph::JobOutcome::kConfirmed) << results.at(0).reason;
+  return turns;
+}
+
+TEST(LongJumpTest, WithoutWorkersAJumpTakesTheSameNumberOfTurnsEveryTime) {
+  const int turns = TurnsOfJump(0.75, std::chrono::milliseconds(0));
+  EXPECT_GT(turns, 3);
+  const std::jthread load([](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+    }
+  });
+  EXPECT_EQ(TurnsOfJump(0.75, std::chrono::milliseconds(20)), turns);
 }
 
 TEST(LongJumpTest, AForbiddenJumpIsNeitherConfirmedNorExplored) {

@@ -54,7 +54,10 @@ class WithWorkers : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, WithWorkers, ::testing::Values(0, 1, 2));
 
 TEST_P(WithWorkers, EveryJobComesToItsOwnEnd) {
-  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 3, .max_threads = 60});
+  ConfirmationQueue queue({.slice = milliseconds(1),
+                           .slices_per_turn = 3,
+                           .checkpoints_per_turn = 6,
+                           .max_threads = 60});
   queue.LaunchThreads(GetParam());
   const std::vector<Ending> endings = {Ending::kConfirm, Ending::kRefute, Ending::kThrow,
                                        Ending::kGiveUp, Ending::kNonsense};
@@ -79,7 +82,8 @@ TEST_P(WithWorkers, EveryJobComesToItsOwnEnd) {
 }
 
 TEST_P(WithWorkers, EasyJobsEndBesideEndlessOnes) {
-  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 5});
+  ConfirmationQueue queue(
+      {.slice = milliseconds(1), .slices_per_turn = 5, .checkpoints_per_turn = 10});
   queue.LaunchThreads(GetParam());
   for (int tag = 0; tag < 8; ++tag) {
     queue.Insert(tag, Job(Ending::kNever, 0), 1);
@@ -112,7 +116,8 @@ TEST_P(WithWorkers, CancelAllEndsEveryJobAndItsThread) {
 }
 
 TEST_P(WithWorkers, ACancelledJobEndsAndTheOthersGoOn) {
-  ConfirmationQueue queue({.slice = milliseconds(2), .slices_per_turn = 5});
+  ConfirmationQueue queue(
+      {.slice = milliseconds(2), .slices_per_turn = 5, .checkpoints_per_turn = 4});
   queue.LaunchThreads(GetParam());
   for (int tag = 0; tag < 6; ++tag) {
     queue.Insert(tag, Job(tag % 2 ? Ending::kConfirm : Ending::kNever, 10, milliseconds(1)), 0);
@@ -131,8 +136,10 @@ TEST_P(WithWorkers, ACancelledJobEndsAndTheOthersGoOn) {
 }
 
 TEST_P(WithWorkers, AJobThatTakesTooLongFails) {
-  ConfirmationQueue queue(
-      {.slice = milliseconds(1), .slices_per_turn = 10, .job_time_limit = 0.05});
+  ConfirmationQueue queue({.slice = milliseconds(1),
+                           .slices_per_turn = 10,
+                           .checkpoints_per_turn = 20,
+                           .job_time_limit = 0.05});
   queue.LaunchThreads(GetParam());
   queue.Insert(0, Job(Ending::kNever, 0), 0);
   const auto results = Collect(&queue, GetParam(), 1);
@@ -143,7 +150,10 @@ TEST_P(WithWorkers, AJobThatTakesTooLongFails) {
 }
 
 TEST_P(WithWorkers, TheSlowestGivesWayWhenNoMoreThreadsMayBegin) {
-  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 5, .max_threads = 4});
+  ConfirmationQueue queue({.slice = milliseconds(1),
+                           .slices_per_turn = 5,
+                           .checkpoints_per_turn = 10,
+                           .max_threads = 4});
   queue.LaunchThreads(GetParam());
   for (int tag = 0; tag < 8; ++tag) {
     queue.Insert(tag, Job(Ending::kNever, 0), tag);
@@ -214,7 +224,8 @@ INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, CountedBeside, ::testing::Values(1, 
 INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, CountedOneByOne, ::testing::Values(0, 1));
 
 TEST_P(Counted, NoMoreJobsRunThanThereAreWorkers) {
-  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 4});
+  ConfirmationQueue queue(
+      {.slice = milliseconds(1), .slices_per_turn = 4, .checkpoints_per_turn = 20});
   queue.LaunchThreads(GetParam());
   InsertAll(&queue, std::vector<double>(kJobs, 0), 40);
   EXPECT_EQ(Collect(&queue, GetParam(), kJobs).size(), kJobs);
@@ -246,7 +257,8 @@ TEST_P(CountedBeside, NobodyStarvesHoweverLittleHisAnswerIsWorth) {
 }
 
 TEST_P(Counted, OneTurnAfterAnotherReachesEverybody) {
-  ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 2});
+  ConfirmationQueue queue(
+      {.slice = milliseconds(1), .slices_per_turn = 2, .checkpoints_per_turn = 10});
   queue.LaunchThreads(GetParam());
   std::vector<double> costs(kJobs);
   std::iota(costs.begin(), costs.end(), 1);
@@ -281,7 +293,8 @@ TEST_P(CountedOneByOne, TheMostValuableAnswersComeFirst) {
 double LeastTimeToCancel(int workers) {
   double least = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 5 && least >= 0.05; ++attempt) {
-    ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 3});
+    ConfirmationQueue queue(
+        {.slice = milliseconds(1), .slices_per_turn = 3, .checkpoints_per_turn = 6});
     queue.LaunchThreads(workers);
     for (int tag = 0; tag < 20; ++tag) {
       queue.Insert(tag, Job(Ending::kNever, 0), 0);
@@ -304,8 +317,12 @@ class SteeredJob : public ConfirmationJob {
   SteeredJob(std::atomic<int>* steps, int last_step) : steps_(steps), last_step_(last_step) {}
   JobVerdict Run(JobControl* control) override {
     test::SteeredRoutine routine;
-    const bool go_on = control->RunSteered(
-        routine.Steering(), [&] { routine.Run([&] { return ++*steps_ < last_step_; }); });
+    const bool go_on = control->RunSteered(routine.Steering(), [&] {
+      routine.Run([&] {
+        control->Charge(1);
+        return ++*steps_ < last_step_;
+      });
+    });
     return go_on ? JobVerdict::kConfirmed : JobVerdict::kRefuted;
   }
 
@@ -317,7 +334,8 @@ class SteeredJob : public ConfirmationJob {
 TEST_P(WithWorkers, SteeredJobsRotateAndEndLikeOthers) {
   constexpr int kJobs = 6;
   std::atomic<int> steps[kJobs] = {};
-  ConfirmationQueue queue({.slice = milliseconds(3), .slices_per_turn = 3});
+  ConfirmationQueue queue(
+      {.slice = milliseconds(3), .slices_per_turn = 3, .checkpoints_per_turn = 9});
   queue.LaunchThreads(GetParam());
   for (int tag = 0; tag < kJobs; ++tag) {
     queue.Insert(tag, std::make_unique<SteeredJob>(&steps[tag], tag < 4 ? 1000000 : 30), tag);
@@ -336,6 +354,22 @@ TEST_P(WithWorkers, SteeredJobsRotateAndEndLikeOthers) {
   for (const JobResult& result : queue.DrainFinished()) {
     EXPECT_EQ(result.outcome, JobOutcome::kCancelled);
   }
+}
+
+TEST(ConfirmationQueue, WithoutWorkersTurnsAreCountedInCheckpoints) {
+  ConfirmationQueue queue({.checkpoints_per_turn = 10});
+  // The last of 35 checkpoints is in the fourth turn, whatever is in between.
+  queue.Insert(0, Job(Ending::kConfirm, 35), 0);
+  queue.Insert(1, Job(Ending::kConfirm, 35, microseconds(500)), 0);
+  std::vector<std::vector<int>> ended;
+  for (int turn = 0; turn < 8; ++turn) {
+    queue.RunTurn(Deadline(10));
+    ended.emplace_back();
+    for (const JobResult& result : queue.DrainFinished()) {
+      ended.back().push_back(result.tag);
+    }
+  }
+  EXPECT_EQ(ended, (std::vector<std::vector<int>>{{}, {}, {}, {}, {}, {}, {0}, {1}}));
 }
 
 TEST(ConfirmationQueue, ATurnStopsAtTheDeadlineAndGoesOnLater) {
@@ -368,6 +402,7 @@ TEST(ConfirmationQueue, SettingsMustBePositive) {
   };
   expect_throw({.slice = milliseconds(0)});
   expect_throw({.slices_per_turn = 0});
+  expect_throw({.checkpoints_per_turn = 0});
   expect_throw({.rotating_jobs_per_worker = 0});
   expect_throw({.slices_per_fair_slice = 0});
   expect_throw({.max_threads = 0});

@@ -476,22 +476,30 @@ TEST_P(WithJobs, JobsThatNeverEndDoNotHoldUpTheTimeLimit) {
   EXPECT_GT(spawned, 0);
 }
 
-TEST(FindPath, JobsWithoutThreadsAreReproducible) {
-  const auto run = [] {
-    const auto walk = std::make_shared<UncertainAction>(
-        "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair& edge) {
-          const bool good = edge.from[1] > 0.72;
-          return std::make_unique<ScriptedJob>(good ? Ending::kConfirm : Ending::kRefute, 7);
-        });
-    return FindPath(Start(), {Goal()}, {walk}, kRoom, {.time_limit = 60, .seed = 5});
-  };
-  const PathResult a = run();
-  const PathResult b = run();
-  ASSERT_EQ(a.status, PathStatus::kFound);
-  EXPECT_EQ(a.counters, b.counters);
-  EXPECT_GT(a.counters.at("jobs refuted"), 0);
-  ExpectSamePath(a, b);
+/// A search of so many cycles whose jobs have so many checkpoints, a pause after each.
+PathResult SearchWithJobsOf(int checkpoints, int cycles, std::chrono::microseconds pause) {
+  const auto walk = std::make_shared<UncertainAction>(
+      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [=](const PointPair& edge) {
+        const bool good = edge.from[1] > 0.72;
+        return std::make_unique<ScriptedJob>(good ? Ending::kConfirm : Ending::kRefute, checkpoints,
+                                             pause);
+      });
+  return FindPath(Start(), {Goal()}, {walk}, kRoom,
+                  {.time_limit = 60, .seed = 5, .max_cycles = cycles});
 }
+
+void ExpectTheSameHoweverSlow(int checkpoints, int cycles) {
+  const PathResult quick = SearchWithJobsOf(checkpoints, cycles, std::chrono::microseconds(0));
+  const PathResult slow = SearchWithJobsOf(checkpoints, cycles, std::chrono::microseconds(20));
+  ASSERT_EQ(quick.status, PathStatus::kFound);
+  EXPECT_EQ(quick.counters, slow.counters);
+  EXPECT_GT(quick.counters.at("jobs refuted"), 0);
+  ExpectSamePath(quick, slow);
+}
+
+TEST(FindPath, JobsWithoutThreadsAreReproducible) { ExpectTheSameHoweverSlow(7, -1); }
+
+TEST(FindPath, JobsThatOutliveTheirTurnsAreReproducible) { ExpectTheSameHoweverSlow(1200, 30); }
 
 }  // namespace
 }  // namespace possibility::graph

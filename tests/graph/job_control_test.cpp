@@ -39,7 +39,7 @@ TEST(JobControl, APausedJobStandsStillAtItsCheckpointUntilResumed) {
     EXPECT_TRUE(Wait([&] { return steps > before; }));
     EXPECT_FALSE(control.Pause());
     EXPECT_TRUE(Wait([&] { return held == round; }));
-    EXPECT_TRUE(control.Pause());
+    EXPECT_FALSE(control.Pause());
     const int at_pause = steps;
     std::this_thread::sleep_for(milliseconds(3));
     EXPECT_EQ(steps, at_pause);
@@ -49,6 +49,56 @@ TEST(JobControl, APausedJobStandsStillAtItsCheckpointUntilResumed) {
   job.join();
   EXPECT_TRUE(control.cancelled());
   EXPECT_FALSE(control.Checkpoint());
+}
+
+TEST(JobControl, ARationEndsAtTheSameCheckpointEveryTime) {
+  constexpr int kRation = 7;
+  std::atomic<int> held = 0;
+  std::atomic<int> steps = 0;
+  JobControl control([&] { ++held; });
+  control.Ration(kRation);
+  std::thread job([&] {
+    while (control.Checkpoint()) {
+      ++steps;
+    }
+  });
+  for (int round = 1; round <= 100; ++round) {
+    EXPECT_TRUE(Wait([&] { return held == round; }));
+    EXPECT_EQ(steps, kRation * round - 1);
+    control.Ration(kRation);
+    control.Resume();
+  }
+  control.Cancel();
+  job.join();
+}
+
+TEST(JobControl, ASteeredRoutineThatIsChargedStopsWhenTheRationIsUsedUp) {
+  std::atomic<int> held = 0;
+  std::atomic<int> steps = 0;
+  JobControl control([&] { ++held; });
+  control.Ration(1 + 4 * 3);  // one for the checkpoint before the routine
+  test::SteeredRoutine routine;
+  const auto step = [&] {
+    ++steps;
+    control.Charge(4);
+    return true;
+  };
+  std::thread job([&] {
+    control.RunSteered(routine.Steering(), [&] {
+      // In a thread of its own, as a solve that several jobs share.
+      std::jthread([&] { routine.Run(step); }).join();
+    });
+  });
+  for (int round = 1; round <= 5; ++round) {
+    EXPECT_TRUE(Wait([&] { return held == round; }));
+    std::this_thread::sleep_for(milliseconds(5));
+    EXPECT_EQ(steps, 3 * round);
+    EXPECT_FALSE(control.Pause()) << "held itself";
+    control.Ration(4 * 3);
+    control.Resume();
+  }
+  control.Cancel();
+  job.join();
 }
 
 TEST(JobControl, CancelEndsAPauseAndSticks) {

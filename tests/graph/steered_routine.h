@@ -19,10 +19,13 @@ class SteeredRoutine {
   }
   /// Until `step`, called every millisecond, says no, or it is cancelled.
   void Run(const std::function<bool()>& step) {
-    std::unique_lock lock(mutex_);
-    while (!cancelled_ && step()) {
+    while (step()) {
+      std::unique_lock lock(mutex_);
       changed_.wait_for(lock, std::chrono::milliseconds(1));
       changed_.wait(lock, [this] { return !paused_ || cancelled_; });
+      if (cancelled_) {
+        return;
+      }
     }
   }
 
