@@ -110,10 +110,10 @@ sbatch --wait --array=1-3 --output="$work/job-%a.txt" "$work/array.sh" >/dev/nul
 "$program" table --scenarios scenarios --scenario three_routes_a_1 --trials 7 --out whole \
   >whole.txt 2>&1 || fail "the run in one piece failed"
 
-# Lines without what depends on how fast the machine was.
+# Lines without what depends on how fast the machine was and what else a process had done.
 facts() {
   sed -E 's/"(preparation|graph|confirmation|motion|verification)_s":[^,]*,//g;
-          s/"real_time_ratio":[^,]*,//' "$1"
+          s/"(real_time_ratio|memory_mb)":[^,]*,//g' "$1"
 }
 for part in 1 2 3; do
   lines=$(wc -l <"parts/$part/results.jsonl")
