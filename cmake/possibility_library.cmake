@@ -16,6 +16,14 @@ function(possibility_compile_options target)
   endif()
 endfunction()
 
+# possibility_uses_regex(<file>...): with sanitizers GCC 12 finds members of std::regex uninitialised
+# that are not (GCC bug 105616).
+function(possibility_uses_regex)
+  if(POSSIBILITY_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
+  endif()
+endfunction()
+
 # possibility_library(<folder>): a static library of all sources in the folder,
 # exported as possibility::<folder>.
 function(possibility_library name)
