@@ -158,9 +158,12 @@ TEST(FaultInjectionTest, NobodyWaitsForSlowJobsWhereWalkingWillDo) {
 }
 
 TEST(FaultInjectionTest, JobsThatNeverEndAreCancelledAtTheTimeLimit) {
+  // Preparation counts on the limit, and takes longer under sanitizers.
+  const double preparation_s =
+      PlanTraversal(DrcHubo1(), PitScene(true), Request(Throws, Slides)).plan.timings.preparation_s;
+  const double limit = 1 + 3 * preparation_s;
   for (const int threads : {1, 3}) {
-    constexpr double kLimit = 1.5;  // s
-    PlanRequest request = Request(Sleeps(kForEver), Slides, kLimit);
+    PlanRequest request = Request(Sleeps(kForEver), Slides, limit);
     request.threads = threads;
     const auto begin = std::chrono::steady_clock::now();
     const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(false), request);
@@ -169,9 +172,9 @@ TEST(FaultInjectionTest, JobsThatNeverEndAreCancelledAtTheTimeLimit) {
     EXPECT_TRUE(result.plan.segments.empty());
     EXPECT_EQ(result.plan.statistics.at("jobs cancelled"), 1);
     // Loaded machines meet this, too; the contract of 50 ms is measured, not asserted.
-    EXPECT_LT(passed.count(), kLimit + 10);
+    EXPECT_LT(passed.count(), limit + 10);
     RecordProperty("seconds_over_the_limit_with_" + std::to_string(threads) + "_threads",
-                   std::to_string(passed.count() - kLimit));
+                   std::to_string(passed.count() - limit));
   }
 }
 
