@@ -186,10 +186,11 @@ TEST(LongJumpTest, ACancelledJobDecidesNothing) {
 /// In how many turns of 100 checkpoints the jump is solved and placed. `pause`: between turns.
 int TurnsOfJump(double distance, std::chrono::milliseconds pause) {
   const JumpScene scene(TwoFloors(kGap));
-  graph::ConfirmationQueue queue({.checkpoints_per_turn = 100});
+  // Sanitizers are slow.
+  graph::ConfirmationQueue queue({.checkpoints_per_turn = 100, .job_time_limit = 1000});
   queue.Insert(0, scene.jump().SpawnConfirmationJob(JumpScene::Edge(-0.2, distance)), 0);
   int turns = 1;
-  for (; !queue.RunTurn(graph::Deadline(60)); ++turns) std::this_thread::sleep_for(pause);
+  for (; !queue.RunTurn(graph::Deadline(1000)); ++turns) std::this_thread::sleep_for(pause);
   const std::vector<graph::JobResult> results = queue.DrainFinished();
   EXPECT_EQ(results.at(0).outcome, graph::JobOutcome::kConfirmed) << results.at(0).reason;
   return turns;
