@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostSuggestions = 8;
 
-/// What a turn in vain leaves to exploration: on the robots we know, 0.1 to 1.2 s. (The turn: 3 s.)
+/// What a turn in vain leaves to exploration: with DRC-HUBO1 about 0.5 s. (The turn: 3 s.)
 constexpr std::int64_t kCyclesAfterTurnInVain = 1000;
 /// A turn as many times as long is nearly what a job is given at all.
 constexpr int kLongestTurn = 8;
