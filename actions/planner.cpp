@@ -1,24 +1,21 @@
 #include "actions/planner.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <utility>
 
 #include "actions/exploration_pose.h"
+#include "actions/flood_oracle.h"
 #include "actions/guarded_manoeuvre.h"
 #include "actions/locomotion_model.h"
 #include "actions/long_jump.h"
+#include "actions/plan_explanation.h"
 #include "actions/quasi_static_action.h"
+#include "actions/request_checks.h"
 #include "actions/route.h"
-#include "actions/route_flood.h"
 #include "actions/route_motion.h"
 #include "actions/route_refinement.h"
 #include "actions/route_suggestion.h"
@@ -44,37 +41,9 @@ bool DependsOnPlace(ViolationKind kind) {
          kind == ViolationKind::kStart || kind == ViolationKind::kGoal;
 }
 
-std::string Describe(const models::Stance& stance) {
-  return fmt::format("({:.3f}, {:.3f}, {:.3f}) heading {:.1f} deg", stance.x, stance.y, stance.z,
-                     stance.yaw * 180 / EIGEN_PI);
-}
-
 std::string Describe(const Violation& violation) {
   return fmt::format("its motion does not verify: {}, {}", ToString(violation.kind),
                      violation.quantity);
-}
-
-std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories) {
-  std::vector<std::string> names;
-  names.reserve(factories.size());
-  for (const ManoeuvreFactory& factory : factories) names.push_back(factory.name);
-  return names;
-}
-
-/// @throws InputError if a manoeuvre has the name of another action.
-void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
-                     const std::vector<ManoeuvreFactory>& manoeuvres) {
-  std::vector<std::string> taken = NamesOf(JumpFactories(robot));
-  for (const models::Gait& gait : robot.gaits) taken.push_back(gait.name);
-  for (const std::string& name : NamesOf(manoeuvres)) {
-    if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
-      throw InputError(
-          fmt::format("{}: actions: a manoeuvre is called '{}', as another action of robot '{}' or "
-                      "of this request is already",
-                      scenario.file.string(), name, robot.name));
-    }
-    taken.push_back(name);
-  }
 }
 
 void FillHeader(const models::RobotModel& robot, const models::Scenario& scenario,
@@ -106,7 +75,9 @@ class TraversalPlanner {
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
         model_(BuildLocomotionModel(
-            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary())) {
+            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary())),
+        floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
+                [this] { return Remaining() > 0; }) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -118,9 +89,12 @@ class TraversalPlanner {
                                                              space_, scenario_.planner.step));
     }
     PrepareManoeuvres();
-    start_ = CheckedStance(scenario_.start, "start");
+    const auto checked = [this](const models::Stance& stance, const std::string& key) {
+      return CheckedStance(stance, key, scenario_, model_, actions_, ActionNames());
+    };
+    start_ = checked(scenario_.start, "start");
     for (size_t i = 0; i < scenario_.goals.size(); ++i) {
-      goals_.push_back(CheckedStance(scenario_.goals[i], fmt::format("goals[{}]", i)));
+      goals_.push_back(checked(scenario_.goals[i], fmt::format("goals[{}]", i)));
     }
     preparation_s_ = clock_.seconds();
   }
@@ -210,40 +184,6 @@ class TraversalPlanner {
 
   double Remaining() const { return request_.time_limit - clock_.seconds(); }
 
-  /// @throws InputError unless C_S holds at the stance.
-  GroundedStance CheckedStance(const models::Stance& stance, const std::string& key) const {
-    const int gait = model_.GaitIndex(stance.action);
-    if (gait < 0) {
-      throw InputError(fmt::format("{}: {}.action: '{}' is not among the actions planned with ({})",
-                                   scenario_.file.string(), key, stance.action,
-                                   fmt::join(ActionNames(), ", ")));
-    }
-    if (!scenario_.environment.bounds.contains(Eigen::Vector2d(stance.x, stance.y))) {
-      throw InputError(fmt::format("{}: {}: {} lies outside environment.bounds",
-                                   scenario_.file.string(), key, Describe(stance)));
-    }
-    const GroundedStance grounded{gait, {stance.x, stance.y, stance.yaw}, stance.z};
-    switch (actions_[gait]->Examine(grounded)) {
-      case StanceFault::kNone:
-        return grounded;
-      case StanceFault::kOutOfBounds:
-        throw InputError(
-            fmt::format("{}: {}: the pelvis of {} at {} lies outside environment.bounds",
-                        scenario_.file.string(), key, stance.action, Describe(stance)));
-      case StanceFault::kOffGround:
-        throw InputError(fmt::format(
-            "{}: {}: the {} stance at {} is off the ground; every contact point must be on ground "
-            "of height {:.3f}",
-            scenario_.file.string(), key, stance.action, Describe(stance), stance.z));
-      default:
-        throw InputError(fmt::format(
-            "{}: {}: the {} stance at {} is in collision with '{}' (the whole swept volume of the "
-            "gait must be free there)",
-            scenario_.file.string(), key, stance.action, Describe(stance),
-            actions_[gait]->FirstBlocker(grounded)));
-    }
-  }
-
   graph::Point PointOf(const GroundedStance& stance) const {
     return ToPoint(model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
   }
@@ -257,7 +197,7 @@ class TraversalPlanner {
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
     settings.straight_first = switches_.suggestions;
     if (switches_.suggestions) settings.suggestion = [this] { return Suggestion(); };
-    if (switches_.floods) settings.oracle = [this] { return AskFloods(); };
+    if (switches_.floods) settings.oracle = [this] { return floods_.Ask(start_, goals_); };
     if (request_.progress) {
       settings.progress = [this](const graph::FindPathProgress& progress) {
         request_.progress({"exploring", progress, 0});
@@ -274,89 +214,6 @@ class TraversalPlanner {
   std::vector<graph::PathEdge> Suggestion() const {
     return SuggestRoute({&model_, &actions_, &guarded_}, start_, goals_,
                         [this] { return Remaining() > 0; });
-  }
-
-  graph::RouteOracleAnswer AskFloods() {
-    try {
-      return AnswerOfFloods();
-    } catch (const Abandoned&) {
-      return graph::RouteOracleAnswer::kUnknown;
-    }
-  }
-
-  /// @throws Abandoned at the time limit.
-  graph::RouteOracleAnswer AnswerOfFloods() {
-    const double resolution = scenario_.planner.flood_resolution;
-    const auto keep_going = [this] { return Remaining() > 0; };
-    std::optional<std::vector<FloodManoeuvre>> manoeuvres = FloodManoeuvres();
-    const bool leads_are_known = manoeuvres.has_value();
-    if (leads_are_known) {
-      flood_ = FloodCoarseToFine(*manoeuvres);
-      if (!flood_->route_may_exist && ReplaceGuesses(keep_going)) {
-        manoeuvres = FloodManoeuvres();
-        if (!manoeuvres) return graph::RouteOracleAnswer::kUnknown;
-        flood_ = FloodCoarseToFine(*manoeuvres);
-      }
-      if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
-    }
-    const graph::RouteOracleAnswer otherwise =
-        leads_are_known ? graph::RouteOracleAnswer::kExhausted : graph::RouteOracleAnswer::kUnknown;
-    const std::optional<std::vector<FlightBounds>> flights = Flights();
-    if (!flights) return otherwise;
-    FloodResult necessary =
-        FloodNecessary(model_, world_, start_, goals_, resolution, keep_going, *flights);
-    if (necessary.route_may_exist) return otherwise;
-    if (flood_) {
-      std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
-                std::back_inserter(necessary.barrier.reached));
-    }
-    flood_ = std::move(necessary);
-    return graph::RouteOracleAnswer::kProvenInfeasible;
-  }
-
-  /// The flood over C_S; a finer one, as far as it gets, where coarse cells find no barrier.
-  FloodResult FloodCoarseToFine(const std::vector<FloodManoeuvre>& manoeuvres) const {
-    constexpr int kHalvings = 3;
-    constexpr std::int64_t kMostCells = 500000;  // no limit of time: the same answer anywhere
-    const double resolution = scenario_.planner.flood_resolution;
-    FloodResult coarse = FloodSufficient(
-        model_, world_, start_, goals_, resolution, [this] { return Remaining() > 0; }, manoeuvres);
-    if (!coarse.route_may_exist) return coarse;
-    std::int64_t cells = 0;
-    return FloodSufficient(
-        model_, world_, start_, goals_, resolution,
-        [&] { return ++cells <= kMostCells && Remaining() > 0; }, manoeuvres, kHalvings);
-  }
-
-  /// Nothing if some manoeuvre does not say where it leads: then no closed barrier is a proof.
-  std::optional<std::vector<FloodManoeuvre>> FloodManoeuvres() const {
-    std::vector<FloodManoeuvre> result;
-    for (const auto& manoeuvre : manoeuvres_) {
-      ManoeuvreBounds bounds = manoeuvre->Bounds();
-      if (!bounds.landings) return std::nullopt;
-      result.push_back({manoeuvre->from(), manoeuvre->to(), std::move(bounds.landings)});
-    }
-    return result;
-  }
-
-  /// Nothing if some manoeuvre does not say how it flies.
-  std::optional<std::vector<FlightBounds>> Flights() const {
-    std::vector<FlightBounds> result;
-    for (const auto& manoeuvre : manoeuvres_) {
-      const std::optional<FlightBounds> flight = manoeuvre->Bounds().flight;
-      if (!flight) return std::nullopt;
-      result.push_back(*flight);
-    }
-    return result;
-  }
-
-  /// @throws Abandoned at the time limit.
-  bool ReplaceGuesses(const std::function<bool()>& keep_going) {
-    bool replaced = false;
-    for (const auto& manoeuvre : manoeuvres_) {
-      replaced = manoeuvre->ReplaceGuesses(keep_going) || replaced;
-    }
-    return replaced;
   }
 
   void Record(const graph::PathResult& path, PlanResult* result) const {
@@ -377,7 +234,7 @@ class TraversalPlanner {
     result->status = StatusOf(path.status);
     if (path.status == graph::PathStatus::kFound) return;
     SayNo(result->status, Explain(*result), result);
-    if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = flood_->barrier;
+    if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
   }
 
   static PlanStatus StatusOf(graph::PathStatus status) {
@@ -395,55 +252,11 @@ class TraversalPlanner {
   }
 
   std::string Explain(const PlanResult& result) const {
-    std::string text = result.status == PlanStatus::kTimeLimit
-                           ? fmt::format("no route found within {:.1f} s.", request_.time_limit)
-                           : ExplainBarrier(result.status, flood_->barrier);
-    if (result.plan.statistics.at("cycles") > 0) {
-      text += " Tried:";
-      for (const auto& [name, count] : result.plan.statistics) {
-        if (count != 0) text += fmt::format(" {} {};", name, count);
-      }
-      text.back() = '.';
-    }
-    return text + ExplainManoeuvres();
-  }
-
-  static std::string ExplainBarrier(PlanStatus status, const Barrier& barrier) {
-    return fmt::format(
-        "{}: the search came within {:.2f} m of a goal, at ({:.2f}, {:.2f}); the way on is closed "
-        "by {}.",
-        status == PlanStatus::kProvenInfeasible
-            ? "no route exists within the scenario's bounds, not even for the pelvis alone"
-            : "no route exists that these actions could confirm",
-        barrier.distance, barrier.closest.x(), barrier.closest.y(),
-        barrier.closed_by.empty() ? "the bounds"
-                                  : fmt::format("{}", fmt::join(barrier.closed_by, ", ")));
-  }
-
-  /// What came of manoeuvres that are no part of the answer.
-  std::string ExplainManoeuvres() const {
-    std::string text;
-    for (const auto& manoeuvre : manoeuvres_) {
-      text += Listed(manoeuvre->Refusals(), fmt::format("of '{}' refuted", manoeuvre->name()));
-      const auto failures = failures_.find(manoeuvre->name());
-      if (failures == failures_.end()) continue;
-      text += Listed(failures->second, fmt::format("jobs of '{}' failed", manoeuvre->name()));
-    }
-    return text;
-  }
-
-  /// The first few, and why.
-  static std::string Listed(const std::vector<Manoeuvre::Refusal>& refusals,
-                            const std::string& what) {
-    constexpr size_t kAtMost = 3;
-    if (refusals.empty()) return {};
-    std::string text = fmt::format(" {} {}:", refusals.size(), what);
-    for (size_t i = 0; i < std::min(refusals.size(), kAtMost); ++i) {
-      const graph::Point& from = refusals[i].edge.from;
-      text += fmt::format("{} from ({:.2f}, {:.2f}): {}", i == 0 ? "" : ";", from.x(), from.y(),
-                          refusals[i].reason);
-    }
-    return text + (refusals.size() > kAtMost ? "; ..." : ".");
+    const std::string why =
+        result.status == PlanStatus::kTimeLimit
+            ? fmt::format("no route found within {:.1f} s.", request_.time_limit)
+            : ExplainBarrier(result.status, floods_.barrier());
+    return why + ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
   }
 
   /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.
@@ -481,7 +294,7 @@ class TraversalPlanner {
     result->plan.timings.verification_s += result->verification.seconds;
     if (result->verification.abandoned) throw Abandoned();
     if (result->verification.accepted()) {
-      result->explanation = ExplainManoeuvres();
+      result->explanation = ExplainManoeuvres(manoeuvres_, failures_);
       if (!result->explanation.empty()) result->explanation.erase(0, 1);
       return true;
     }
@@ -541,12 +354,11 @@ class TraversalPlanner {
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
   std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< these, for the search
-  /// Jobs that failed, by the name of their action.
-  std::map<std::string, std::vector<Manoeuvre::Refusal>> failures_;
+  FloodOracle floods_;
+  FailedJobs failures_;
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
   double preparation_s_ = 0;
-  std::optional<FloodResult> flood_;
   mutable std::mutex progress_mutex_;
 };
 

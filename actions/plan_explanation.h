@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/manoeuvre.h"
+#include "actions/plan.h"
+#include "actions/planner.h"
+
+namespace possibility::actions {
+
+/// Edges whose jobs failed, by the name of their action.
+using FailedJobs = std::map<std::string, std::vector<Manoeuvre::Refusal>>;
+
+/// One sentence: how near the search came, and what closes the way on. `status`: one of the "no"s.
+std::string ExplainBarrier(PlanStatus status, const Barrier& barrier);
+
+/// What the search has counted, " Tried: ...", or nothing if it went through no cycle.
+std::string ExplainSearch(const std::map<std::string, std::int64_t>& statistics);
+
+/// What came of manoeuvres that are no part of the answer: of each the first few, and why. Begins
+/// with a space unless empty.
+std::string ExplainManoeuvres(const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
+                              const FailedJobs& failures);
+
+}  // namespace possibility::actions
