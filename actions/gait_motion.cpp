@@ -14,6 +14,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// Below this a weight shift is not worth a phase, m.
+/// Clearances that differ by less are equal, m.
+constexpr double kSameClearance = 1e-6;
+
 constexpr double kNegligibleShift = 1e-4;
 
 Vector3d At(const PlanarPose& pose, const Vector3d& p, double z) {
@@ -66,7 +69,11 @@ struct GaitMotion::Progress {
 };
 
 GaitMotion::GaitMotion(const models::RobotModel& robot, const NominalStance& stance)
-    : robot_(&robot), stance_(&stance) {}
+    : robot_(&robot), stance_(&stance) {
+  constexpr int kSome = 4;
+  stride_time_ = DurationOfStridesAhead(kSome + 1) - DurationOfStridesAhead(kSome);
+  stop_time_ = DurationOfStridesAhead(kSome) - kSome * stride_time_;
+}
 
 GaitMotion::Progress GaitMotion::AtRest(const PlanarPose& stance, double z) const {
   Progress progress;
@@ -111,7 +118,10 @@ std::vector<int> GaitMotion::SwingOrder(const PlanarPose& a, const PlanarPose& b
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> other = order;
   std::rotate(other.begin(), other.begin() + static_cast<int>(order.size()) / 2, other.end());
-  return ClearanceAfterSwing(order.front(), a, b) >= ClearanceAfterSwing(other.front(), a, b)
+  // Rounding must not decide between orders that are mirror images: one after the other, they make
+  // the same limb swing twice in a row.
+  return ClearanceAfterSwing(order.front(), a, b) >=
+                 ClearanceAfterSwing(other.front(), a, b) - kSameClearance
              ? order
              : other;
 }
@@ -220,10 +230,15 @@ void GaitMotion::AppendSwing(int limb, const PlanarPose& to, double root_yaw, Pr
 }
 
 double GaitMotion::ExpectedDuration(int strides) const {
-  const models::GaitParameters& parameters = stance_->gait->parameters;
-  const double swing = parameters.swing_time + parameters.minimum_shift_time;
-  return strides * static_cast<double>(stance_->gait->limbs.size()) * swing +
-         parameters.minimum_shift_time;
+  return strides == 0 ? 0 : strides * stride_time_ + stop_time_;
+}
+
+double GaitMotion::DurationOfStridesAhead(int count) const {
+  std::vector<PlanarPose> strides;
+  for (int i = 0; i <= count; ++i) strides.push_back({i * stance_->gait->parameters.forward, 0, 0});
+  double duration = 0;
+  for (const MotionPhase& phase : Phases(strides, 0, 1)) duration += phase.duration;
+  return duration;
 }
 
 }  // namespace possibility::actions

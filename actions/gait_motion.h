@@ -38,11 +38,13 @@ class GaitMotion {
     return Interpolate(a, b, 0.5);
   }
 
-  /// Expected duration of the motion along `strides`, s.
+  /// Expected duration of the motion along so many strides, s: as if they led straight ahead.
+  /// Sideways and in turns strides take up to a tenth more or less.
   double ExpectedDuration(int strides) const;
 
  private:
   struct Progress;
+  double DurationOfStridesAhead(int count) const;
   Progress AtRest(const PlanarPose& stance, double z) const;
   /// The gait's cycle from its start or from half-way, whichever first swing ends farther from the
   /// limbs that stand: so feet part before they close.
@@ -60,6 +62,8 @@ class GaitMotion {
 
   const models::RobotModel* robot_;
   const NominalStance* stance_;
+  double stride_time_ = 0;  ///< s, of one more stride
+  double stop_time_ = 0;    ///< s, of the last shift
 };
 
 }  // namespace possibility::actions

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -37,9 +38,11 @@ struct Phase {
 struct Segment {
   std::string action;  ///< "walk", "crawl", "walk->crawl", ...
   std::vector<Phase> phases;
+  /// Of ExploredGraph, where the edge begins and ends; -1: it is not in the graph, as a pause.
+  std::array<int, 2> vertices = {-1, -1};
 };
 
-/// A vertex or edge of the explored graph, for pictures only.
+/// The explored graph Gamma_PG, as far as its edges were not refuted; for reports and pictures.
 struct ExploredGraph {
   struct Vertex {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< pelvis, m
@@ -80,10 +83,19 @@ struct NoPlan {
 
 struct PlanTimings {
   double preparation_s = 0;   ///< nominal stances, swept volumes, ground map
-  double graph_s = 0;         ///< until every edge of the route was confirmed
+  double graph_s = 0;         ///< until every edge of the first route was confirmed
   double confirmation_s = 0;  ///< spent in confirmation jobs
-  double motion_s = 0;        ///< refining the route and generating its motion
+  double motion_s = 0;        ///< looking for a quicker route and generating its motion
   double verification_s = 0;
+};
+
+/// How the route was found: whose edges it is made of, and what was gained after the first route.
+struct SearchReport {
+  std::vector<std::string>
+      explorers;              ///< that found edges of the route: "straight", "lattice", ...
+  double first_duration = 0;  ///< expected, of the first confirmed route, s
+  double duration = 0;        ///< expected, of the route, s
+  double lower_bound = 0;     ///< of what was searched, s; 0: none is known
 };
 
 /// What `possibility plan` finds (format possibility-plan/1, docs/file_formats.md).
@@ -99,7 +111,8 @@ struct Plan {
   std::vector<std::string> joints;  ///< names, in the order of q[7...], v[6...] and tau
   std::vector<Segment> segments;
   ExploredGraph explored;
-  std::optional<NoPlan> no;  ///< instead of segments
+  std::optional<SearchReport> search;  ///< absent in plans that say nothing of it
+  std::optional<NoPlan> no;            ///< instead of segments
 
   double duration() const;  ///< s
 };

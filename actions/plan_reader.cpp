@@ -167,8 +167,16 @@ void ExpectTime(const JsonCursor& cursor, double expected) {
 }
 
 Segment ReadSegment(const JsonCursor& cursor, std::size_t num_joints) {
-  cursor.ExpectKeys({"action", "start_s", "duration_s", "phases"});
+  cursor.ExpectKeys({"action", "start_s", "duration_s", "phases"}, {"vertices"});
   Segment segment;
+  if (cursor.Has("vertices")) {
+    const JsonCursor vertices = cursor["vertices"];
+    if (vertices.ArraySize() != 2) vertices.Fail("expected [from, to]");
+    for (std::size_t i = 0; i < 2; ++i) {
+      segment.vertices[i] =
+          static_cast<int>(vertices[i].Integer(0, std::numeric_limits<int>::max()));
+    }
+  }
   segment.action = cursor["action"].String();
   const JsonCursor phases = cursor["phases"];
   if (phases.ArraySize() == 0) phases.Fail("expected at least one phase");
@@ -262,14 +270,25 @@ Barrier ReadBarrier(const JsonCursor& cursor) {
   return barrier;
 }
 
+SearchReport ReadSearch(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"explorers", "first_duration_s", "expected_duration_s", "lower_bound_s"});
+  return {ReadStrings(cursor["explorers"]), ReadSeconds(cursor["first_duration_s"]),
+          ReadSeconds(cursor["expected_duration_s"]), ReadSeconds(cursor["lower_bound_s"])};
+}
+
+/// Segments name vertices of the graph that the plan holds.
+void CheckVertices(const JsonCursor& segments, const Plan& plan) {
+  const int last = static_cast<int>(plan.explored.vertices.size()) - 1;
+  for (std::size_t i = 0; i < plan.segments.size(); ++i) {
+    if (plan.segments[i].vertices[0] < 0) continue;
+    for (std::size_t end = 0; end < 2; ++end) segments[i]["vertices"][end].Integer(0, last);
+  }
+}
+
 NoPlan ReadNo(const JsonCursor& cursor) {
   NoPlan no;
-  if (cursor.value().is_object() && cursor.value().contains("barrier")) {
-    cursor.ExpectKeys({"status", "explanation", "barrier"});
-    no.barrier = ReadBarrier(cursor["barrier"]);
-  } else {
-    cursor.ExpectKeys({"status", "explanation"});
-  }
+  cursor.ExpectKeys({"status", "explanation"}, {"barrier"});
+  if (cursor.Has("barrier")) no.barrier = ReadBarrier(cursor["barrier"]);
   no.status = cursor["status"].String();
   no.explanation = cursor["explanation"].String();
   return no;
@@ -277,14 +296,9 @@ NoPlan ReadNo(const JsonCursor& cursor) {
 
 Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   root.ExpectFormat(kFormat);
-  const bool is_no = root.value().contains("no");
-  if (is_no) {
-    root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics",
-                     "joints", "segments", "explored", "no"});
-  } else {
-    root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics",
-                     "joints", "segments", "explored"});
-  }
+  root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
+                   "segments", "explored"},
+                  {"search", "no"});
   Plan plan;
   const JsonCursor robot = root["robot"];
   robot.ExpectKeys({"file", "hash"});
@@ -306,7 +320,9 @@ Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   const JsonCursor timings = root["timings"];
   ExpectTime(timings["plan_duration_s"], plan.duration());
   plan.explored = ReadExplored(root["explored"]);
-  if (is_no) plan.no = ReadNo(root["no"]);
+  CheckVertices(segments, plan);
+  if (root.Has("search")) plan.search = ReadSearch(root["search"]);
+  if (root.Has("no")) plan.no = ReadNo(root["no"]);
   if (plan.no && !plan.segments.empty()) {
     root["no"].Fail("expected none where there are segments");
   }

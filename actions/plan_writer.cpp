@@ -85,6 +85,7 @@ Json ToJson(const Segment& segment) {
   json["action"] = segment.action;
   json["start_s"] = Exact(start);
   json["duration_s"] = Exact(duration);
+  if (segment.vertices[0] >= 0) json["vertices"] = segment.vertices;
   json["phases"] = Json::array();
   for (const Phase& phase : segment.phases) json["phases"].push_back(ToJson(phase));
   return json;
@@ -116,6 +117,15 @@ Json ToJson(const ExploredGraph& graph) {
   for (const ExploredGraph::Edge& edge : graph.edges) {
     json["edges"].push_back(Json::array({edge.from, edge.to, edge.action}));
   }
+  return json;
+}
+
+Json ToJson(const SearchReport& search) {
+  Json json;
+  json["explorers"] = search.explorers;
+  json["first_duration_s"] = Rounded(search.first_duration);
+  json["expected_duration_s"] = Rounded(search.duration);
+  json["lower_bound_s"] = Rounded(search.lower_bound);
   return json;
 }
 
@@ -170,6 +180,7 @@ Json ToJson(const Plan& plan, const std::filesystem::path& folder) {
   json["segments"] = Json::array();
   for (const Segment& segment : plan.segments) json["segments"].push_back(ToJson(segment));
   json["explored"] = ToJson(plan.explored);
+  if (plan.search) json["search"] = ToJson(*plan.search);
   if (plan.no) json["no"] = ToJson(*plan.no);
   return json;
 }

@@ -10,6 +10,7 @@
 #include "actions/exploration_pose.h"
 #include "actions/flood_oracle.h"
 #include "actions/guarded_manoeuvre.h"
+#include "actions/lattice_explorer.h"
 #include "actions/locomotion_model.h"
 #include "actions/long_jump.h"
 #include "actions/plan_explanation.h"
@@ -17,8 +18,8 @@
 #include "actions/request_checks.h"
 #include "actions/route.h"
 #include "actions/route_motion.h"
-#include "actions/route_refinement.h"
-#include "actions/route_suggestion.h"
+#include "actions/shortcut_explorer.h"
+#include "graph/random_explorer.h"
 #include "models/ground_map.h"
 #include "models/input_error.h"
 
@@ -105,7 +106,10 @@ class TraversalPlanner {
     result.plan.timings.preparation_s = preparation_s_;
     for (std::uint64_t attempt = 0;; ++attempt) {
       const graph::PathResult path = Explore(attempt);
-      result.plan.timings.graph_s += path.seconds;
+      const bool found = path.status == graph::PathStatus::kFound;
+      const double first_s = found ? path.first_path_seconds : path.seconds;
+      result.plan.timings.graph_s += first_s;
+      result.plan.timings.motion_s += path.seconds - first_s;
       for (const graph::ConfirmationReport& job : path.confirmations) {
         result.plan.timings.confirmation_s += job.seconds;
         if (job.outcome != graph::JobOutcome::kFailed) continue;
@@ -195,8 +199,9 @@ class TraversalPlanner {
     settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
     settings.confirmation_threads = std::max(0, request_.threads - 1);
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
-    settings.straight_first = switches_.suggestions;
-    if (switches_.suggestions) settings.suggestion = [this] { return Suggestion(); };
+    settings.straight_first = switches_.lattice;
+    settings.explorers = Explorers();
+    if (switches_.improvement) settings.improvement_share = scenario_.planner.improvement_share;
     if (switches_.floods) settings.oracle = [this] { return floods_.Ask(start_, goals_); };
     if (request_.progress) {
       settings.progress = [this](const graph::FindPathProgress& progress) {
@@ -211,9 +216,14 @@ class TraversalPlanner {
     return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
   }
 
-  std::vector<graph::PathEdge> Suggestion() const {
-    return SuggestRoute({&model_, &actions_, &guarded_}, start_, goals_,
-                        [this] { return Remaining() > 0; });
+  /// Whoever is quick to say something comes first.
+  std::vector<graph::ExplorerFactory> Explorers() const {
+    const RouteSpace space{&model_, &actions_, &guarded_};
+    std::vector<graph::ExplorerFactory> explorers;
+    if (switches_.improvement) explorers.push_back(ShortcutExploration(space, goals_));
+    if (switches_.lattice) explorers.push_back(LatticeExploration(space, start_, goals_));
+    if (switches_.random) explorers.push_back(graph::RandomExploration());
+    return explorers;
   }
 
   void Record(const graph::PathResult& path, PlanResult* result) const {
@@ -232,7 +242,11 @@ class TraversalPlanner {
       explored.edges.push_back({edge.from, edge.to, all[edge.action]->name()});
     }
     result->status = StatusOf(path.status);
-    if (path.status == graph::PathStatus::kFound) return;
+    if (path.status == graph::PathStatus::kFound) {
+      result->plan.search =
+          SearchReport{path.found_by, path.first_duration, path.duration, path.lower_bound};
+      return;
+    }
     SayNo(result->status, Explain(*result), result);
     if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
   }
@@ -264,13 +278,18 @@ class TraversalPlanner {
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
     Route route = RouteAlong(model_, manoeuvres_, path.path);
-    if (switches_.refinement) {
-      route = RefineRoute(model_, route, actions_, [this] { return Remaining() > 0; });
-    }
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
     result->plan.timings.motion_s += motion_clock.seconds();
+    if (moved) NameVertices(path, &result->plan);
     return moved && IsVerified(route, result);
+  }
+
+  /// A pause is no edge of the graph.
+  static void NameVertices(const graph::PathResult& path, actions::Plan* plan) {
+    for (size_t i = 0; i < path.path.size(); ++i) {
+      plan->segments[i].vertices = {path.path[i].from, path.path[i].to};
+    }
   }
 
   bool Generate(const Route& route, actions::Plan* plan) {

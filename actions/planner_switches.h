@@ -15,10 +15,10 @@ struct PlannerSwitches {
   /// Solved motions are read from PlanRequest::library; if not, only how far the robot jumps is,
   /// which is part of C_N.
   bool solved_motions = true;
-  /// A deterministic search proposes a route before the random one begins.
-  bool suggestions = true;
-  bool floods = true;      ///< a search over the whole space may end the random one with "no"
-  bool refinement = true;  ///< a quicker route is sought among the positions of the found one
+  bool lattice = true;      ///< straight ways and lattices are explored first (LatticeExplorer)
+  bool random = true;       ///< Algorithms 2 to 4
+  bool floods = true;       ///< a search over the whole space may end the random one with "no"
+  bool improvement = true;  ///< quicker routes than the first confirmed one are looked for
   std::optional<double> skip_jumps;  ///< instead of the scenario's probability
 };
 
@@ -26,9 +26,9 @@ inline PlannerSwitches SwitchesOf(PlannerPreset preset) {
   PlannerSwitches switches;
   if (preset == PlannerPreset::kPaper) {
     switches.solved_motions = false;
-    switches.suggestions = false;
+    switches.lattice = false;
     switches.floods = false;
-    switches.refinement = false;
+    switches.improvement = false;
     switches.skip_jumps = 0.9;  // section "Experimental Results"
   }
   return switches;

@@ -46,8 +46,9 @@ std::vector<Contender> Ours(const SingleGaitSearch& search, double time_limit) {
       return search.Find(preset, seed, time_limit);
     };
   };
-  return {{"possibility graph", false, find(actions::PlannerPreset::kDefault)},
-          {"possibility graph, paper preset", false, find(actions::PlannerPreset::kPaper)}};
+  return {{"possibility graph (straight, lattice, random)", false,
+           find(actions::PlannerPreset::kDefault)},
+          {"possibility graph (random)", false, find(actions::PlannerPreset::kPaper)}};
 }
 
 #ifdef POSSIBILITY_WITH_OMPL

@@ -27,7 +27,7 @@ inline PlanarQuery QueryOf(const SingleGaitSearch& search) {
 }
 
 inline FoundPath PathOf(const PeerSearch& search) {
-  FoundPath path{search.found, search.seconds, {}};
+  FoundPath path{search.found, search.seconds, {}, {}};
   for (const PeerPose& pose : search.path) path.poses.push_back({pose.x, pose.y, pose.yaw});
   return path;
 }

@@ -1,6 +1,7 @@
 #include "experiments/plan_summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -28,6 +29,20 @@ std::string RouteText(const actions::Plan& plan) {
         fmt::format("{:<14} {:>8.2f} s  from {:>8.2f} s", leg.action, leg.duration, leg.begin);
     text += Row(text.empty() ? "route" : "", row);
   }
+  return text;
+}
+
+/// Who found the route, and what was gained after the first one.
+std::string SearchText(const actions::Plan& plan) {
+  if (!plan.search || plan.search->explorers.empty()) return {};
+  const actions::SearchReport& search = *plan.search;
+  std::string text = Row("found by", fmt::format("{}", fmt::join(search.explorers, ", ")));
+  text += Row(
+      "expected",
+      fmt::format("{:.2f} s, the first route {:.2f} s{}", search.duration, search.first_duration,
+                  search.lower_bound > 0
+                      ? fmt::format(", no less than {:.2f} s on its lattice", search.lower_bound)
+                      : std::string()));
   return text;
 }
 
@@ -63,6 +78,7 @@ std::string SummaryText(const actions::PlanResult& result, const PlanFiles& file
   if (Found(result)) {
     text += RouteText(plan);
     text += Row("plan duration", Seconds(plan.duration()));
+    text += SearchText(plan);
   }
   text += Row("preparation", Seconds(plan.timings.preparation_s));
   text += Row("graph", Seconds(plan.timings.graph_s));
@@ -95,6 +111,12 @@ std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& file
     json["plan_duration_s"] = plan.duration();
     json["real_time_ratio"] = ratio ? Json(*ratio) : Json(nullptr);
     json["goal"] = plan.goal;
+    if (plan.search) {
+      json["explorers"] = plan.search->explorers;
+      json["expected_duration_s"] = plan.search->duration;
+      json["first_duration_s"] = plan.search->first_duration;
+      json["lower_bound_s"] = plan.search->lower_bound;
+    }
     json["route"] = Json::array();
     for (const RouteLeg& leg : RouteByAction(plan)) {
       json["route"].push_back(

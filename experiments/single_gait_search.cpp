@@ -5,7 +5,8 @@
 #include <chrono>
 #include <utility>
 
-#include "actions/route_suggestion.h"
+#include "actions/lattice_explorer.h"
+#include "graph/random_explorer.h"
 #include "models/input_error.h"
 
 namespace possibility::experiments {
@@ -56,12 +57,6 @@ bool SingleGaitSearch::IsValid(const PlanarPose& from, const PlanarPose& to) con
   return gaits_[0]->CS(graph::PointPair{PointAt(from), PointAt(to)});
 }
 
-std::vector<graph::PathEdge> SingleGaitSearch::SuggestRoute() const {
-  const std::vector<std::shared_ptr<actions::Manoeuvre>> none;
-  const double z = scenario_.start.z;
-  return actions::SuggestRoute({&model_, &gaits_, &none}, {0, start_, z}, {{0, goal_, z}}, {});
-}
-
 FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t seed,
                                  double time_limit) const {
   using Clock = std::chrono::steady_clock;
@@ -69,9 +64,13 @@ FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t se
   settings.time_limit = time_limit;
   settings.seed = seed;
   settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
-  if (actions::SwitchesOf(preset).suggestions) {
+  const std::vector<std::shared_ptr<actions::Manoeuvre>> no_manoeuvres;
+  if (actions::SwitchesOf(preset).lattice) {
     settings.straight_first = true;
-    settings.suggestion = [this] { return SuggestRoute(); };
+    const double z = scenario_.start.z;
+    settings.explorers = {actions::LatticeExploration({&model_, &gaits_, &no_manoeuvres},
+                                                      {0, start_, z}, {{0, goal_, z}}),
+                          graph::RandomExploration()};
   }
   // The question is put before the clock starts, as it is to other planners.
   const graph::Point start = PointAt(start_);
@@ -83,6 +82,7 @@ FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t se
   path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   path.found = result.status == graph::PathStatus::kFound;
   if (!path.found) return path;
+  path.explorers = result.found_by;
   path.poses.push_back(start_);
   for (const graph::PathEdge& edge : result.path) path.poses.push_back(PoseAt(edge.points.to));
   return path;

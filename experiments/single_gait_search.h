@@ -19,7 +19,8 @@ namespace possibility::experiments {
 
 struct FoundPath {
   bool found = false;
-  double seconds = 0;  ///< until it was found and confirmed, or given up
+  double seconds = 0;                  ///< until it was found and confirmed, or given up
+  std::vector<std::string> explorers;  ///< that found its edges
   std::vector<actions::PlanarPose> poses;
 };
 
@@ -49,7 +50,6 @@ class SingleGaitSearch {
  private:
   graph::Point PointAt(const actions::PlanarPose& pose) const;
   actions::PlanarPose PoseAt(const graph::Point& point) const;
-  std::vector<graph::PathEdge> SuggestRoute() const;
 
   actions::LocomotionModel model_;
   models::Scenario scenario_;

@@ -1,9 +1,11 @@
 #include "experiments/table_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "experiments/experiment_page.h"
@@ -47,12 +49,21 @@ std::string Printed(const PrintedFigure& figure) {
 
 std::string Percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
 
+/// Whose edges the routes are made of, in any of the trials.
+std::string ExplorersOf(const TrialGroup& group) {
+  std::set<std::string> all;
+  for (const TrialRecord& trial : group.trials) {
+    if (!trial.explorers.empty()) all.insert(trial.explorers);
+  }
+  return all.empty() ? kNone : fmt::format("{}", fmt::join(all, "; "));
+}
+
 /// The paper's table, its figures beside ours.
 TextTable SideBySide(const std::vector<TrialGroup>& groups) {
   TextTable table;
-  table.header = {"Scenario",         "N_a",        "Preset",  "Graph (s)",
-                  "Motion (s)",       "\u03b3",     "Success", "Verified",
-                  "Paper: graph (s)", "motion (s)", "\u03b3",  "success"};
+  table.header = {"Scenario",   "N_a",     "Preset",           "Found by",
+                  "Graph (s)",  "Motion (s)", "\u03b3",        "Success",
+                  "Verified",   "Paper: graph (s)", "motion (s)", "\u03b3", "success"};
   for (const TrialGroup& group : groups) {
     const TableRow* row = Find(group.row);
     if (row == nullptr) continue;
@@ -61,7 +72,7 @@ TextTable SideBySide(const std::vector<TrialGroup>& groups) {
     };
     const double count = static_cast<double>(group.trials.size());
     table.rows.push_back({row->title, fmt::format("{}", row->actions.size()), group.preset,
-                          ours("graph_s"), ours("motion_s"), ours("real_time_ratio"),
+                          ExplorersOf(group), ours("graph_s"), ours("motion_s"), ours("real_time_ratio"),
                           Percent(group.successes() / count), Percent(group.verified() / count),
                           Printed(row->graph), Printed(row->motion), Printed(row->real_time_ratio),
                           Percent(row->success)});

@@ -69,6 +69,7 @@ Json TrialRecord::Json() const {
   json["length_m"] = length;
   json["speed_m_s"] = OrNull(speed());
   json["counters"] = counters;
+  json["explorers"] = explorers;
   json["plan_hash"] = OrNull(plan_hash);
   json["scenario_hash"] = identity.scenario_hash;
   json["robot_hash"] = identity.robot_hash;
@@ -96,6 +97,7 @@ TrialRecord TrialRecord::FromJson(const experiments::Json& json) {
   record.plan_duration = json.at("plan_duration_s");
   record.length = json.at("length_m");
   record.counters = json.at("counters").get<std::map<std::string, std::int64_t>>();
+  record.explorers = Find<std::string>(json, "explorers").value_or("");
   record.plan_hash = Find<std::string>(json, "plan_hash").value_or("");
   record.machine = json.at("machine");
   return record;
@@ -105,7 +107,7 @@ bool SameButTimings(const TrialRecord& a, const TrialRecord& b) {
   const auto facts = [](const TrialRecord& r) {
     return std::tie(r.key, r.identity.experiment, r.identity.scenario_hash, r.identity.robot_hash,
                     r.identity.settings_hash, r.parameter, r.value, r.success, r.verified, r.no,
-                    r.counters, r.plan_duration, r.length, r.plan_hash);
+                    r.counters, r.explorers, r.plan_duration, r.length, r.plan_hash);
   };
   return facts(a) == facts(b);
 }

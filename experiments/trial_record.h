@@ -45,6 +45,7 @@ struct TrialRecord {
   double memory_mb = 0;  ///< the process' peak meanwhile, MB; 0: unknown
   std::optional<double> real_time_ratio;
   std::map<std::string, std::int64_t> counters;
+  std::string explorers;  ///< that found the edges of the route: "lattice, shortcuts"
 
   double plan_duration = 0;
   double length = 0;      ///< PlanarLength, m

@@ -1,6 +1,7 @@
 #include "experiments/trial_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -33,6 +34,9 @@ TrialRecord RecordOf(const TrialTask& task, const actions::PlanResult& result) {
     record.plan_duration = result.plan.duration();
     record.length = PlanarLength(result.plan);
     record.plan_hash = MotionHash(result.plan);
+    if (result.plan.search) {
+      record.explorers = fmt::format("{}", fmt::join(result.plan.search->explorers, ", "));
+    }
   } else {
     record.no = actions::ToString(result.status);
   }

@@ -55,6 +55,11 @@ class Action {
   /// action has none, which refutes the edge. The job may outlive the call but not the action, and
   /// runs beside further calls to it.
   virtual std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const = 0;
+
+  /// What all conditions that one cycle of exploration asks of this action may take together, s in
+  /// the mean. On one thread, jobs and exploration divide their time by it; who takes more than
+  /// ten times as long is charged by the clock, and one seed is no longer one search.
+  virtual double cycle_budget() const { return 1e-3; }
 };
 
 class HolonomicAction : public Action {

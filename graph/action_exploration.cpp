@@ -2,13 +2,14 @@
 
 #include <stdexcept>
 
+#include "graph/find_path.h"
 #include "graph/holonomic_exploration.h"
 #include "graph/nonholonomic_exploration.h"
 
 namespace possibility::graph {
 
 ActionExploration::ActionExploration(const Action& action, int index,
-                                     const ExplorationContext& context)
+                                     const ExplorerContext& context)
     : action_(action),
       index_(index),
       context_(context),
@@ -49,7 +50,8 @@ void ActionExploration::InsertIntoTransitionQueue(const std::vector<VertexId>& v
 
 NewElements ActionExploration::PerformTransitions() {
   NewElements found;
-  for (int i = 0; i < context_.max_transitions_per_cycle && !context_.deadline->Passed(); ++i) {
+  for (int i = 0; i < context_.settings->max_transitions_per_cycle && !context_.deadline->Passed();
+       ++i) {
     const auto v = transition_queue_.PopRandom(context_.generator);
     if (!v) {
       break;
@@ -98,7 +100,7 @@ std::int64_t* ActionExploration::Counter(const std::string& what) const {
 }
 
 std::unique_ptr<ActionExploration> MakeActionExploration(const Action& action, int index,
-                                                         const ExplorationContext& context) {
+                                                         const ExplorerContext& context) {
   if (const auto* holonomic = dynamic_cast<const HolonomicAction*>(&action)) {
     return std::make_unique<HolonomicExploration>(*holonomic, index, context);
   }

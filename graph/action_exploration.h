@@ -1,39 +1,24 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "graph/action.h"
 #include "graph/action_graph.h"
-#include "graph/deadline.h"
+#include "graph/explorer.h"
 #include "graph/possibility_graph.h"
 #include "graph/transition_queue.h"
 
 namespace possibility::graph {
-
-/// What was tried and what came of it, by name.
-using Counters = std::map<std::string, std::int64_t>;
-
-/// What the explorations of all actions share; everything in it outlives them.
-struct ExplorationContext {
-  const std::vector<std::shared_ptr<const Action>>* actions = nullptr;
-  const ExplorationSpace* space = nullptr;
-  PossibilityGraph* master = nullptr;
-  RandomGenerator* generator = nullptr;
-  const Deadline* deadline = nullptr;
-  Counters* counters = nullptr;
-  int max_transitions_per_cycle = 0;
-};
 
 /// The exploring half of the paper's Action: one action together with its own graph Gamma_a and
 /// its queue Q_Transition. How it grows depends on the kind of action.
 class ActionExploration {
  public:
   /// `index` is the action's number in the master graph.
-  ActionExploration(const Action& action, int index, const ExplorationContext& context);
+  ActionExploration(const Action& action, int index, const ExplorerContext& context);
   virtual ~ActionExploration() = default;
   ActionExploration(const ActionExploration&) = delete;
   ActionExploration& operator=(const ActionExploration&) = delete;
@@ -56,7 +41,7 @@ class ActionExploration {
  protected:
   const Action& action() const { return action_; }
   int index() const { return index_; }
-  const ExplorationContext& context() const { return context_; }
+  const ExplorerContext& context() const { return context_; }
 
   bool SamePoint(const Point& a, const Point& b) const;
   /// Whether the master graph once held an edge of this action (or that of a given number) that
@@ -72,7 +57,7 @@ class ActionExploration {
 
   const Action& action_;
   int index_;
-  ExplorationContext context_;
+  ExplorerContext context_;
   ActionGraph action_graph_;
   TransitionQueue transition_queue_;
   std::int64_t* transitions_made_;
@@ -82,6 +67,6 @@ class ActionExploration {
 /// The exploration that suits the kind of `action`.
 /// @throws std::invalid_argument if its kind is unknown.
 std::unique_ptr<ActionExploration> MakeActionExploration(const Action& action, int index,
-                                                         const ExplorationContext& context);
+                                                         const ExplorerContext& context);
 
 }  // namespace possibility::graph

@@ -1,25 +1,19 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "graph/action.h"
 #include "graph/confirmation_report.h"
 #include "graph/exploration_space.h"
+#include "graph/explorer.h"
+#include "graph/path_edge.h"
 
 namespace possibility::graph {
-
-/// One edge of a path: by which action, between which points.
-struct PathEdge {
-  int action = 0;
-  PointPair points;
-};
 
 enum class PathStatus {
   kFound,             ///< every edge of the path is confirmed
@@ -29,7 +23,7 @@ enum class PathStatus {
 };
 
 /// What a search over the whole space (not a random one) can say about routes from the start to
-/// any goal; asked once, after FindPathSettings::ask_oracle_after cycles without a path.
+/// any goal; asked once at most, see FindPathSettings::ask_oracle_after.
 enum class RouteOracleAnswer { kUnknown, kProvenInfeasible, kExhausted };
 using RouteOracle = std::function<RouteOracleAnswer()>;
 
@@ -45,20 +39,24 @@ struct FindPathProgress {
 struct FindPathSettings {
   double time_limit = 60;  ///< s
   std::uint64_t seed = 1;
+  /// Who proposes vertices and edges, in the order of their turns. Empty: the paper's exploration
+  /// (RandomExploration).
+  std::vector<ExplorerFactory> explorers = {};
   int max_transitions_per_cycle = 5;   ///< Algorithm 2
   int confirmation_threads = 0;        ///< 0: jobs run one by one between cycles, never beside them
   double confirmation_job_limit = 30;  ///< s that one job may run before it has failed
   std::int64_t max_cycles = -1;        ///< -1: until the time limit
-  std::int64_t ask_oracle_after = 200;  ///< cycles
-  RouteOracle oracle = {};              ///< may be empty
+  /// The oracle is asked after this many cycles without a confirmed path, or as soon as an explorer
+  /// has nothing left to explore while no job is open.
+  std::int64_t ask_oracle_after = 200;
+  RouteOracle oracle = {};  ///< may be empty
   /// Before anything else, every action is asked whether C_S lets it go straight from the start to
-  /// a goal; one that does is the path, and nothing is explored.
+  /// a goal; one that does is the first path.
   bool straight_first = false;
-  /// A route that somebody who knows the space thinks worth exploring first: edges end to end from
-  /// the start. What of it the actions accept becomes part of the graph. Asked before the first
-  /// cycle, and again, a few times, when jobs have refuted edges since. May be empty, or give
-  /// nothing; then the oracle is asked at once.
-  std::function<std::vector<PathEdge>()> suggestion = {};
+  /// Once a path is confirmed, this share of the time limit may go by in the search for a quicker
+  /// one, among the explorers that take part in it. It ends before if nothing gets quicker any
+  /// more.
+  double improvement_share = 0;
   /// Per name of an action: with what probability a cycle grows it not (paper: 0.9 for jumping).
   std::map<std::string, double> skip_growth = {};
   std::function<void(const FindPathProgress&)> progress = {};  ///< called at most 10 times a second
@@ -77,11 +75,18 @@ struct GraphSnapshot {
 
 struct PathResult {
   PathStatus status = PathStatus::kTimeLimit;
-  std::vector<PathEdge> path;  ///< from the start to a goal, if kFound
-  int goal = -1;               ///< index of the goal reached
-  double seconds = 0;
+  /// From the start to a goal, if kFound: of all paths in `graph` the one with the least expected
+  /// duration, unless time ran out.
+  std::vector<PathEdge> path;
+  std::vector<std::string> found_by;  ///< explorers that found the edges of `path`, each once
+  int goal = -1;                      ///< index of the goal reached
+  double seconds = 0;                 ///< of the whole search
+  double first_path_seconds = 0;      ///< until a path was confirmed
+  double first_duration = 0;          ///< expected, of that path, s
+  double duration = 0;                ///< expected, of `path`, s
+  double lower_bound = 0;  ///< of what explorers can propose, s; 0 if none of them knows one
   FindPathProgress statistics;
-  std::map<std::string, std::int64_t> counters;   ///< what was tried and rejected, by name
+  Counters counters;                              ///< what was tried and rejected, by name
   std::vector<ConfirmationReport> confirmations;  ///< jobs that ended, in that order
   GraphSnapshot graph;
 };
@@ -89,7 +94,7 @@ struct PathResult {
 /// Algorithm 1: explores the possibilities of `actions` from `start` until a path to one of
 /// `goals` is confirmed, nothing is left to try, or time is up.
 /// @throws std::invalid_argument if there is no action or no goal, an action is null or of a kind
-/// that FindPath cannot grow, the points differ in size or are not finite, a setting is out of
+/// that the explorers cannot grow, the points differ in size or are not finite, a setting is out of
 /// range or names an unknown action, or an expected duration is negative or not finite.
 PathResult FindPath(const Point& start, const std::vector<Point>& goals,
                     const std::vector<std::shared_ptr<const Action>>& actions,

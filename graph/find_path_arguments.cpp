@@ -33,6 +33,10 @@ template <typename Number>
   Throw("action " + std::to_string(action) + " is null, expected an action");
 }
 
+[[noreturn, gnu::cold]] void ThrowEmptyExplorer() {
+  Throw("an explorer is empty, expected a function that makes one");
+}
+
 constexpr int kStart = -1;
 
 /// `which`: kStart or the index of a goal.
@@ -55,6 +59,12 @@ void CheckSettings(const FindPathSettings& settings) {
   }
   if (settings.confirmation_threads < 0) {
     ThrowOutOfRange("confirmation_threads", settings.confirmation_threads, ">= 0");
+  }
+  if (!(settings.improvement_share >= 0 && settings.improvement_share <= 1)) {
+    ThrowOutOfRange("improvement_share", settings.improvement_share, "a number from 0 to 1");
+  }
+  for (const ExplorerFactory& explorer : settings.explorers) {
+    if (!explorer) ThrowEmptyExplorer();
   }
 }
 

@@ -5,7 +5,7 @@
 namespace possibility::graph {
 
 HolonomicExploration::HolonomicExploration(const HolonomicAction& action, int index,
-                                           const ExplorationContext& context)
+                                           const ExplorerContext& context)
     : ActionExploration(action, index, context),
       action_(action),
       vertices_rejected_(Counter("extend rejected at vertex")),

@@ -10,7 +10,7 @@ namespace possibility::graph {
 /// Algorithm 3: grows the graph of a holonomic action and connects its subgraphs.
 class HolonomicExploration : public ActionExploration {
  public:
-  HolonomicExploration(const HolonomicAction& action, int index, const ExplorationContext& context);
+  HolonomicExploration(const HolonomicAction& action, int index, const ExplorerContext& context);
 
   NewElements GrowTowards(const Point& p_target) override;
 

@@ -31,7 +31,7 @@ void SetToFalse(const DirectedGraph& topology, VertexId v, Reachability::Directi
 }  // namespace
 
 NonholonomicExploration::NonholonomicExploration(const NonholonomicAction& action, int index,
-                                                 const ExplorationContext& context)
+                                                 const ExplorerContext& context)
     : ActionExploration(action, index, context),
       action_(action),
       rejected_(Counter("growth rejected")),

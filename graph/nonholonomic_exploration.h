@@ -13,7 +13,7 @@ namespace possibility::graph {
 class NonholonomicExploration : public ActionExploration {
  public:
   NonholonomicExploration(const NonholonomicAction& action, int index,
-                          const ExplorationContext& context);
+                          const ExplorerContext& context);
 
   NewElements GrowTowards(const Point& p_target) override;
 

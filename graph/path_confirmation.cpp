@@ -14,6 +14,8 @@ constexpr const char* kCounterOf[] = {"jobs confirmed", "jobs refuted", "jobs fa
 /// Two passes over the whole graph are too much for every cycle.
 constexpr int kCollectionsPerRevaluation = 50;
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 }  // namespace
 
 PathConfirmation::PathConfirmation(const std::vector<std::shared_ptr<const Action>>& actions,
@@ -139,6 +141,7 @@ std::vector<JobResult> PathConfirmation::Report() {
     Examination& examined = examinations_[result.tag];
     examined.open = false;
     ++(*counters_)[kCounterOf[static_cast<int>(result.outcome)]];
+    num_refuted_ += result.outcome == JobOutcome::kRefuted ? 1 : 0;
     reports_.push_back({.action = examined.asked,
                         .points = PointsFor(examined.edge, examined.asked),
                         .outcome = result.outcome,
@@ -146,6 +149,11 @@ std::vector<JobResult> PathConfirmation::Report() {
                         .seconds = result.seconds});
   }
   return results;
+}
+
+void PathConfirmation::SetBound(double duration) {
+  bound_ = duration;
+  RevalueJobs();
 }
 
 void PathConfirmation::CancelJobs() {
@@ -180,6 +188,8 @@ void PathConfirmation::RevalueJobs() {
     queue_->SetCost(i, examined.route_duration);
     if (IsOutdone(examined.edge)) {
       queue_->Cancel(i, "confirmed edges lead the same way as quickly");
+    } else if (examined.route_duration >= bound_ && bound_ < kUnbounded) {
+      queue_->Cancel(i, "a route as quick is confirmed");
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,10 +32,17 @@ class PathConfirmation {
   /// revalues the jobs that are under way, by the graph as it is now.
   void CollectResults();
 
+  /// A path of this expected duration is confirmed: jobs whose answer cannot lead to a quicker one
+  /// are cancelled, now and whenever jobs are revalued.
+  void SetBound(double duration);
+
   /// Ends all jobs.
   void CancelJobs();
 
   int num_jobs() const { return num_jobs_; }
+
+  /// Jobs that refuted their edges.
+  int num_refuted() const { return num_refuted_; }
 
   /// Takes what the jobs found out so far.
   std::vector<ConfirmationReport> TakeReports() { return std::exchange(reports_, {}); }
@@ -76,6 +84,8 @@ class PathConfirmation {
   std::vector<Examination> examinations_;  ///< the queue's tags are indices into it
   std::vector<ConfirmationReport> reports_;
   int num_jobs_ = 0;
+  int num_refuted_ = 0;
+  double bound_ = std::numeric_limits<double>::infinity();  ///< s
   int collections_since_revaluation_ = 0;
 };
 

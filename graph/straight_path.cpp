@@ -16,31 +16,43 @@ std::optional<int> FirstSure(const PointPair& edge,
   return std::nullopt;
 }
 
+void SetFound(const Deadline& deadline, PathResult* result) {
+  const PathEdge& edge = result->path.front();
+  result->status = PathStatus::kFound;
+  result->found_by.emplace_back(kStraightExplorer);
+  result->first_duration = result->duration;
+  result->counters.emplace("edges confirmed by C_S", 1);
+  result->graph.vertices.reserve(2);
+  result->graph.vertices.push_back(edge.points.from);
+  result->graph.vertices.push_back(edge.points.to);
+  result->graph.edges.push_back({0, 1, edge.action});
+  result->seconds = result->first_path_seconds = deadline.Elapsed();
+  result->statistics.seconds = result->seconds;
+  result->statistics.vertices = 2;
+  result->statistics.edges = 1;
+}
+
 }  // namespace
 
 [[gnu::hot]] bool GoStraight(const Point& start, const std::vector<Point>& goals,
                              const std::vector<std::shared_ptr<const Action>>& actions,
                              const Deadline& deadline, PathResult* result) {
+  result->goal = -1;
   for (std::size_t g = 0; g < goals.size(); ++g) {
-    if (start == goals[g]) continue;
+    if (start == goals[g]) return false;
     PointPair edge{start, goals[g]};
     const std::optional<int> action = FirstSure(edge, actions, deadline);
     if (!action) continue;
-    result->status = PathStatus::kFound;
+    const double duration = actions[*action]->ExpectedDuration(edge);
+    if (result->goal >= 0 && duration >= result->duration) continue;
     result->goal = static_cast<int>(g);
-    result->counters.emplace("edges confirmed by C_S", 1);
-    result->graph.vertices.reserve(2);
-    result->graph.vertices.push_back(start);
-    result->graph.vertices.push_back(goals[g]);
-    result->graph.edges.push_back({0, 1, *action});
-    result->path.push_back({*action, std::move(edge)});
-    result->seconds = deadline.Elapsed();
-    result->statistics.seconds = result->seconds;
-    result->statistics.vertices = 2;
-    result->statistics.edges = 1;
-    return true;
+    result->duration = duration;
+    result->path.clear();
+    result->path.push_back({*action, std::move(edge), 0, 1});
   }
-  return false;
+  if (result->goal < 0) return false;
+  SetFound(deadline, result);
+  return true;
 }
 
 }  // namespace possibility::graph

@@ -67,19 +67,25 @@ void JsonCursor::ExpectFormat(std::string_view format) const {
   }
 }
 
-void JsonCursor::ExpectKeys(std::initializer_list<std::string_view> keys) const {
+void JsonCursor::ExpectKeys(std::initializer_list<std::string_view> keys,
+                            std::initializer_list<std::string_view> optional) const {
   if (!value_->is_object()) {
     Fail(fmt::format("expected an object, got {}", value_->type_name()));
   }
   for (const std::string_view key : keys) {
     if (!value_->contains(key)) Fail(fmt::format("missing key \"{}\"", key));
   }
+  const auto is_among = [](const std::string& key, const auto& names) {
+    return std::find(names.begin(), names.end(), key) != names.end();
+  };
   for (const auto& [key, ignored] : value_->items()) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+    if (!is_among(key, keys) && !is_among(key, optional)) {
       Fail(fmt::format("unknown key {}, expected {}", Printable(key), fmt::join(keys, ", ")));
     }
   }
 }
+
+bool JsonCursor::Has(const char* key) const { return value_->is_object() && value_->contains(key); }
 
 JsonCursor JsonCursor::operator[](const char* key) const {
   JsonCursor cursor(value_->at(key), *this);

@@ -27,8 +27,13 @@ class JsonCursor {
   /// @throws InputError unless this is an object whose "format" is this.
   void ExpectFormat(std::string_view format) const;
 
-  /// @throws InputError unless this is an object with exactly these keys, in any order.
-  void ExpectKeys(std::initializer_list<std::string_view> keys) const;
+  /// @throws InputError unless this is an object with all of `keys` and none but them and
+  /// `optional`, in any order.
+  void ExpectKeys(std::initializer_list<std::string_view> keys,
+                  std::initializer_list<std::string_view> optional = {}) const;
+
+  /// Whether this is an object with such a key.
+  bool Has(const char* key) const;
 
   /// Members; the key or index must exist.
   JsonCursor operator[](const char* key) const;

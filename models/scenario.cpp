@@ -61,7 +61,7 @@ std::vector<std::string> ReadActions(const YamlNode& list) {
 
 PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   node.MapOf({"step", "rotation_weight", "max_transitions_per_cycle", "flood_after_cycles",
-              "flood_resolution", "skip_jumps"});
+              "flood_resolution", "skip_jumps", "improvement_share"});
   PlannerSettings settings;
   if (const auto step = node.Find("step")) settings.step = step->Number(0.001, 100);
   if (const auto weight = node.Find("rotation_weight")) {
@@ -75,6 +75,9 @@ PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   }
   if (const auto cell = node.Find("flood_resolution")) {
     settings.flood_resolution = cell->Number(0.005, 10);
+  }
+  if (const auto share = node.Find("improvement_share")) {
+    settings.improvement_share = share->Number(0, 1);
   }
   if (const auto skip = node.Find("skip_jumps")) settings.skip_jumps = skip->Number(0, 1);
   return settings;

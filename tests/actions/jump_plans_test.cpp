@@ -68,7 +68,7 @@ TEST(JumpPlansLong, EverySceneIsCrossed) {
 }
 TEST(JumpPlansLong, FourThreadsPlanTheHallway) { ExpectVerifiedPlans("hallway", 10, true, 4); }
 
-// At random, as the paper does: with suggestions, one seed is like the other.
+// At random, as the paper does: with lattices, one seed is like the other.
 TEST(JumpPlansLong, FiftySeedsOfThreeRoutesA) { ExpectRandomPlans("three_routes_a", false); }
 TEST(JumpPlansLong, FiftySeedsOfThreeRoutesB) { ExpectRandomPlans("three_routes_b", false); }
 TEST(JumpPlansLong, FiftySeedsOfThreeRoutesC) { ExpectRandomPlans("three_routes_c", true); }

@@ -6,7 +6,7 @@
 
 #include "actions/exploration_pose.h"
 #include "actions/route_flood.h"
-#include "actions/route_search.h"
+#include "actions/lattice_search.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
@@ -193,8 +193,10 @@ TEST_F(NecessaryFloodTest, NeverProvesAWayAwayThatASearchFinds) {
     }
     const std::vector<std::shared_ptr<Manoeuvre>> manoeuvres;
     const GroundedStance start{0, {-1.5, 0, 0}, 0}, goal{0, {1.5, 0, 0}, 0};
-    const std::vector<graph::PathEdge> route = SearchRoute(
-        {&model_, &gaits, &manoeuvres}, start, {goal}, {.step = 0.2, .headings = 8}, {});
+    LatticeSearch search({&model_, &gaits, &manoeuvres}, start, {goal},
+                         {.step = 0.2, .headings = 8});
+    std::vector<graph::PathEdge> route;
+    if (search.Advance(100000, {}) == LatticeSearch::Status::kFound) route = search.Route();
     const bool found =
         !route.empty() && std::all_of(route.begin(), route.end(), [&](const auto& e) {
           return bounds.contains(Vector2d(e.points.to.template head<2>()));

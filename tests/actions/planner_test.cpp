@@ -217,7 +217,7 @@ TEST(PlannerTest, BadStancesAndActionsAreNamed) {
   EXPECT_NE(MessageOf(good, Request(1, {"crawl"})).find("start.action"), std::string::npos);
 }
 
-// At random, as the paper does: with suggestions, one seed is like the other.
+// At random, as the paper does: with lattices, one seed is like the other.
 TEST(PlannerLong, FiftySeedsOfThreeRoutesAWalking) {
   ExpectVerifiedPlans("three_routes_a", {"walk"}, 50, PlannerPreset::kPaper);
 }

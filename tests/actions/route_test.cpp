@@ -1,10 +1,11 @@
-// Refinement of routes, and the floods that answer "no".
+// Shortcuts of routes, and the floods that answer "no".
 
 #include <gtest/gtest.h>
 
 #include "actions/exploration_pose.h"
+#include "actions/route.h"
 #include "actions/route_flood.h"
-#include "actions/route_refinement.h"
+#include "actions/shortcuts.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/random_scene.h"
@@ -52,13 +53,31 @@ class RouteTest : public testing::Test {
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;
 };
 
-TEST_F(RouteTest, RefinedRoutesAreConnectedSufficientAndNoSlower) {
+/// By shortcuts until there are none.
+Route Shortened(const LocomotionModel& model,
+                const std::vector<std::shared_ptr<QuasiStaticAction>>& actions,
+                const Route& route) {
+  const std::vector<std::shared_ptr<Manoeuvre>> none;
+  std::vector<graph::PathEdge> edges;
+  for (const RouteLeg& leg : route) edges.push_back({EndGait(model, leg), LegEdge(model, leg)});
+  double duration = ExpectedDuration(model, route);
+  for (int pass = 0; pass < 20; ++pass) {
+    edges = FindShortcuts({&model, &actions, &none}, edges, {}, {});
+    const double shorter = ExpectedDuration(model, RouteAlong(model, none, edges));
+    EXPECT_LE(shorter, duration + 1e-9);
+    if (shorter > duration - 1e-6) break;
+    duration = shorter;
+  }
+  return RouteAlong(model, none, edges);
+}
+
+TEST_F(RouteTest, ShortenedRoutesAreConnectedSufficientAndNoSlower) {
   std::mt19937 generator(4);
   for (int trial = 0; trial < 10; ++trial) {
     Load(RandomEnvironment(&generator, 8));
     const Route route = RandomRoute(&generator, 12);
     if (route.empty()) continue;
-    const Route refined = RefineRoute(model_, route, actions_);
+    const Route refined = Shortened(model_, actions_, route);
     EXPECT_LE(ExpectedDuration(model_, refined), ExpectedDuration(model_, route) + 1e-9);
     EXPECT_LT((refined.front().from.position() - route.front().from.position()).norm(), 1e-9);
     EXPECT_LT((refined.back().to.position() - route.back().to.position()).norm(), 1e-9);
@@ -71,6 +90,68 @@ TEST_F(RouteTest, RefinedRoutesAreConnectedSufficientAndNoSlower) {
       EXPECT_LT((refined[i - 1].to.position() - refined[i].from.position()).norm(), 1e-9);
       EXPECT_NEAR(refined[i - 1].to.yaw, refined[i].from.yaw, 1e-9);
     }
+  }
+}
+
+/// What lies between two stances of one gait is a detour if the straight way is clear and quicker.
+TEST_F(RouteTest, AShortenedRouteHasNoDetours) {
+  std::mt19937 generator(14);
+  int detours = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    Load(RandomEnvironment(&generator, 8));
+    const Route route = RandomRoute(&generator, 30);
+    if (route.empty()) continue;
+    const auto expect_none = [&](const Route& legs, bool expected) {
+      for (size_t i = 0; i < legs.size(); ++i) {
+        for (size_t j = i + 1; j < legs.size(); ++j) {
+          RouteLeg direct = legs[i];
+          direct.to = legs[j].to;
+          direct.to.yaw = direct.from.yaw + WrapAngle(direct.to.yaw - direct.from.yaw);
+          const Route between(legs.begin() + static_cast<std::ptrdiff_t>(i),
+                              legs.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+          const bool is_detour =
+              ExpectedDuration(model_, {direct}) < ExpectedDuration(model_, between) - 1e-6 &&
+              actions_[direct.gait]->CS(LegEdge(model_, direct));
+          if (expected) {
+            EXPECT_FALSE(is_detour) << trial << ": " << i << ".." << j;
+          } else {
+            detours += is_detour ? 1 : 0;
+          }
+        }
+      }
+    };
+    expect_none(route, false);
+    expect_none(Shortened(model_, actions_, route), true);
+  }
+  EXPECT_GT(detours, 1000);
+}
+
+/// Down, up again where it went down, and on: a route that searches do put together.
+TEST_F(RouteTest, ASitDownThatLeadsNowhereIsLeftOut) {
+  Load(ShippedScenario("three_routes_a").environment);
+  const PlanarPose a{2, 2.9, 0};
+  const PlanarPose& down = model_.transitions[0].motion->displacement();
+  const auto leg = [](int gait, const PlanarPose& from, const PlanarPose& to) {
+    RouteLeg straight;
+    straight.gait = gait;
+    straight.from = from;
+    straight.to = to;
+    return straight;
+  };
+  RouteLeg sit = leg(0, a, a * down);
+  sit.transition = 0;
+  RouteLeg stand = leg(0, a * down, a);
+  stand.transition = 0;
+  stand.backwards = true;
+  ASSERT_EQ(model_.transitions[0].from, 0);
+  const Route after_a_landing = {leg(1, a * PlanarPose{-0.4, 0, 0} * down, a * down), stand, sit,
+                                 stand, leg(0, a, a * PlanarPose{0.8, 0, 0})};
+  for (const Route& route : {Route(after_a_landing.begin() + 1, after_a_landing.end()),
+                             Route(after_a_landing.begin() + 2, after_a_landing.end())}) {
+    const Route shortened = Shortened(model_, actions_, route);
+    int transitions = 0;
+    for (const RouteLeg& step : shortened) transitions += step.transition >= 0 ? 1 : 0;
+    EXPECT_EQ(transitions, StartGait(model_, route.front()) == 0 ? 0 : 1);
   }
 }
 

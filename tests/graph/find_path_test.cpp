@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
+#include "graph/random_explorer.h"
 #include "tests/graph/path_checks.h"
 #include "tests/graph/scripted_job.h"
 #include "tests/graph/stick_figure.h"
@@ -159,46 +162,85 @@ std::vector<PathEdge> WayUnderTheBar() {
   return way;
 }
 
-TEST(Suggestion, IsTakenBeforeAnythingElseIsExplored) {
+/// Proposes routes that somebody else has thought out, one a turn.
+class ScriptedExplorer : public Explorer {
+ public:
+  using Script = std::function<Findings()>;
+  explicit ScriptedExplorer(Script script) : script_(std::move(script)) {}
+  std::string name() const override { return "script"; }
+  bool TakesPart(SearchStage stage) const override { return stage == SearchStage::kFirstRoute; }
+  Findings Explore() override { return script_(); }
+  double work_of_turn() const override { return 1e-3; }
+  bool OnRefuted() override { return true; }
+
+ private:
+  Script script_;
+};
+
+/// A script, and the paper's exploration after it.
+std::vector<ExplorerFactory> First(const ScriptedExplorer::Script& script) {
+  return {[script](const ExplorerContext&) { return std::make_unique<ScriptedExplorer>(script); },
+          RandomExploration()};
+}
+
+TEST(Explorers, WhoComesFirstIsAskedBeforeOthersExplore) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   FindPathSettings settings{.time_limit = 10};
-  settings.suggestion = WayUnderTheBar;
+  settings.explorers = First([] { return Findings{Outlook::kOver, WayUnderTheBar()}; });
   const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
   ExpectValidPath(result, Start(), {Goal()}, actions);
   EXPECT_EQ(result.path.size(), 5);
   EXPECT_EQ(result.statistics.vertices, 6);
   EXPECT_EQ(result.counters.at("walk: extend made"), 0);
+  EXPECT_EQ(result.found_by, std::vector<std::string>{"script"});
 }
 
-TEST(Suggestion, OfWhatNoActionAcceptsIsWorthNothing) {
+TEST(Explorers, OfWhatNoActionAcceptsNothingEntersTheGraph) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FindPathSettings settings{.time_limit = 10, .seed = seed};
-    settings.suggestion = [] {
-      return std::vector<PathEdge>{{0, {Start(), Goal()}}};  // straight through the bar
-    };
+    settings.explorers = First([] {
+      return Findings{Outlook::kOver, {{0, {Start(), Goal()}}}};  // straight through the bar
+    });
     const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
     ExpectValidPath(result, Start(), {Goal()}, actions);
     EXPECT_GT(result.path.size(), 1);
+    EXPECT_EQ(result.found_by, std::vector<std::string>{"random"});
   }
 }
 
-TEST(Suggestion, IsAPlaceToGrowFromAsFarAsItGoes) {
+TEST(Explorers, WhatOneHasFoundIsAPlaceToGrowFromForOthers) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   FindPathSettings settings{.time_limit = 10};
-  settings.suggestion = [] {
+  settings.explorers = First([] {
     std::vector<PathEdge> way = WayUnderTheBar();
     way.resize(3);
-    return way;
-  };
+    return Findings{Outlook::kOver, way};
+  });
   const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
   ExpectValidPath(result, Start(), {Goal()}, actions);
   EXPECT_EQ(result.graph.vertices[4], MakePoint(7, 0.3));  // after start, goal and two more
+  EXPECT_EQ(result.found_by.size(), 2);
 }
 
-TEST(Suggestion, IfThereIsNoneTheOracleIsAskedAtOnce) {
+TEST(Explorers, WhoLeadsOnHasTheTurnAlone) {
+  const Actions actions = {MakeWalk(), MakeCrawl()};
+  for (const Outlook outlook : {Outlook::kLeadsOn, Outlook::kOpen}) {
+    int turns = 0;
+    FindPathSettings settings{.time_limit = 10, .max_cycles = 5};
+    settings.explorers = First([&] {
+      ++turns;
+      return Findings{outlook, {}};
+    });
+    const PathResult result = FindPath(Start(), {MakePoint(5, 0.05)}, actions, kRoom, settings);
+    EXPECT_EQ(turns, 5);
+    EXPECT_EQ(result.counters.at("walk: extend made") > 0, outlook == Outlook::kOpen);
+  }
+}
+
+TEST(Explorers, WhenOneHasNothingLeftTheOracleIsAskedAtOnce) {
   FindPathSettings settings{.time_limit = 10, .max_cycles = 80, .ask_oracle_after = 50};
-  settings.suggestion = [] { return std::vector<PathEdge>(); };
+  settings.explorers = First([] { return Findings{Outlook::kOver, {}}; });
   settings.oracle = [] { return RouteOracleAnswer::kExhausted; };
   const PathResult result =
       FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom, settings);
@@ -206,19 +248,141 @@ TEST(Suggestion, IfThereIsNoneTheOracleIsAskedAtOnce) {
   EXPECT_EQ(result.counters.at("walk: extend made"), 0);
 }
 
-TEST(Suggestion, IsAskedForAgainWhenItsEdgesAreRefuted) {
+TEST(Explorers, AreAskedAgainWhenJobsRefuteEdges) {
   const auto leap = std::make_shared<UncertainAction>("leap", Interval{0.7, 1.0}, 0.85,
                                                       Interval{4, 6}, Always(Ending::kRefute, 2));
   const Actions actions = {leap, MakeCrawl()};
   int asked = 0;
   FindPathSettings settings{.time_limit = 10};
-  settings.suggestion = [&asked] {
-    if (++asked > 1) return WayUnderTheBar();
-    return std::vector<PathEdge>{{0, {Start(), Goal()}}};
-  };
+  settings.explorers = First([&asked] {
+    if (++asked > 1) return Findings{Outlook::kOver, WayUnderTheBar()};
+    return Findings{Outlook::kOver, {{0, {Start(), Goal()}}}};
+  });
   const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
   ExpectValidPath(result, Start(), {Goal()}, actions);
   EXPECT_EQ(asked, 2);
+}
+
+/// Halves the part of the way that leads past what is known to be free: a new way each turn.
+class Improver : public Explorer {
+ public:
+  std::string name() const override { return "improver"; }
+  bool TakesPart(SearchStage stage) const override { return stage == SearchStage::kImprovement; }
+  Findings Explore() override {
+    ++turns;
+    std::vector<PathEdge> way = WayUnderTheBar();
+    const Point down = MakePoint(4 - 0.1 * turns, 0.3);
+    way = {{0, {Start(), MakePoint(down[0], 0.85)}},
+           {1, {MakePoint(down[0], 0.85), down}},
+           {1, {down, MakePoint(7, 0.3)}},
+           way[3],
+           way[4]};
+    return {turns < 4 ? Outlook::kOpen : Outlook::kOver, way};
+  }
+  double work_of_turn() const override { return 1e-3; }
+  bool OnRoute(const std::vector<PathEdge>& route, double duration) override {
+    durations.push_back(duration);
+    double sum = 0;
+    for (const PathEdge& edge : route) sum += (edge.points.to - edge.points.from).norm();
+    EXPECT_NEAR(sum, duration, 1e-9);
+    return true;
+  }
+  double lower_bound() const override { return 8; }
+
+  int turns = 0;
+  std::vector<double> durations;
+};
+
+/// Random exploration, and one that shortens what it has found.
+class ImprovementTest : public testing::Test {
+ protected:
+  PathResult Find(double share, std::uint64_t seed) {
+    FindPathSettings settings{.time_limit = 10, .seed = seed, .improvement_share = share};
+    settings.explorers = {RandomExploration(), [this](const ExplorerContext&) {
+                            auto improver = std::make_unique<Improver>();
+                            improver_ = improver.get();
+                            return improver;
+                          }};
+    return FindPath(Start(), {Goal()}, actions_, kRoom, settings);
+  }
+  const Actions actions_ = {MakeWalk(), MakeCrawl()};
+  Improver* improver_ = nullptr;
+};
+
+double DurationOf(const PathResult& result) {
+  double duration = 0;
+  for (const PathEdge& edge : result.path) {
+    duration += (edge.points.to - edge.points.from).norm();
+  }
+  return duration;
+}
+
+TEST_F(ImprovementTest, ThePathIsAShortestOneOfTheExploredGraph) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PathResult first = Find(0, seed);
+    const PathResult result = Find(0.5, seed);
+    ExpectValidPath(result, Start(), {Goal()}, actions_);
+    EXPECT_NEAR(result.first_duration, first.duration, 1e-9);
+    EXPECT_NEAR(result.duration, DurationOf(result), 1e-9);
+    EXPECT_LE(result.duration, result.first_duration);
+    EXPECT_EQ(result.lower_bound, 8);
+    // Bellman and Ford, over the graph as it is reported.
+    const auto& vertices = result.graph.vertices;
+    std::vector<double> least(vertices.size(), std::numeric_limits<double>::infinity());
+    least[result.path.front().from] = 0;
+    for (std::size_t round = 0; round < vertices.size(); ++round) {
+      for (const GraphSnapshot::Edge& edge : result.graph.edges) {
+        const double length = (vertices[edge.to] - vertices[edge.from]).norm();
+        least[edge.to] = std::min(least[edge.to], least[edge.from] + length);
+      }
+    }
+    EXPECT_NEAR(result.duration, least[result.path.back().to], 1e-9);
+    for (const PathEdge& edge : result.path) {
+      EXPECT_EQ(vertices[edge.from], edge.points.from);
+      EXPECT_EQ(vertices[edge.to], edge.points.to);
+    }
+  }
+}
+
+TEST_F(ImprovementTest, EndsWhenNothingIsLeftToExploreThoughTheLimitIsFar) {
+  const PathResult result = Find(1, 3);
+  EXPECT_EQ(result.status, PathStatus::kFound);
+  EXPECT_LT(result.seconds, 5);
+}
+
+TEST(Improvement, OfSeveralGoalsTheNearestIsTaken) {
+  const Actions actions = {MakeWalk()};
+  const std::vector<Point> goals = {MakePoint(3, 0.9), MakePoint(1, 0.8), Start()};
+  const PathResult result =
+      FindPath(Start(), goals, actions, kRoom, {.time_limit = 10, .straight_first = true});
+  EXPECT_EQ(result.status, PathStatus::kFound);
+  FindPathSettings settings{.time_limit = 10, .straight_first = true, .improvement_share = 0.1};
+  EXPECT_EQ(FindPath(Start(), {goals[0], goals[1]}, actions, kRoom, settings).goal, 1);
+  EXPECT_EQ(FindPath(Start(), goals, actions, kRoom, settings).goal, 2);
+}
+
+/// An action whose conditions take longer than it says.
+class SlowAction : public UncertainAction {
+ public:
+  using UncertainAction::UncertainAction;
+  bool CN(const Point& vertex) const override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return UncertainAction::CN(vertex);
+  }
+  bool CN(const PointPair& edge) const override { return UncertainAction::CN(edge); }
+};
+
+TEST(Turns, OfJobsComeInTimeThoughConditionsAreSlow) {
+  // Two turns: the first, of 1000 steps, is in vain.
+  const auto job = [](const PointPair&) {
+    return std::make_unique<ScriptedJob>(Ending::kConfirm, 1500, std::chrono::microseconds(500));
+  };
+  const Actions actions = {std::make_shared<SlowAction>("leap", Interval{0.7, 1.0}, 0.85,
+                                                        Interval{4.5, 4.6}, job)};
+  const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, {.time_limit = 20});
+  EXPECT_EQ(result.status, PathStatus::kFound);
+  EXPECT_GE(result.counters.at("jobs confirmed"), 1);
+  EXPECT_LT(result.statistics.cycles, 1000);
 }
 
 TEST(StraightFirst, IsThePathWhereAnActionIsSureOfIt) {

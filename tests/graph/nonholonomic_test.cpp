@@ -267,11 +267,11 @@ class Growth : public ::testing::Test {
     exploration_ = MakeActionExploration(*world_.jump, kJump,
                                          {.actions = &actions_,
                                           .space = &kRoom,
+                                          .settings = &settings_,
                                           .master = master_.get(),
                                           .generator = &generator_,
                                           .deadline = &deadline_,
-                                          .counters = &counters_,
-                                          .max_transitions_per_cycle = 100});
+                                          .counters = &counters_});
     exploration_->AddInitialVertex(master_->start());
     exploration_->AddInitialVertex(master_->goals()[0]);
   }
@@ -287,6 +287,7 @@ class Growth : public ::testing::Test {
   World world_;
   Actions actions_;
   Counters counters_;
+  FindPathSettings settings_{.max_transitions_per_cycle = 100};
   RandomGenerator generator_{1};
   Deadline deadline_{std::numeric_limits<double>::infinity()};
   std::unique_ptr<PossibilityGraph> master_;

@@ -1,11 +1,11 @@
-#include "actions/route_search.h"
+#include "actions/lattice_search.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "actions/exploration_pose.h"
+#include "actions/lattice_explorer.h"
 #include "actions/long_jump.h"
-#include "actions/route_suggestion.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
 
@@ -29,19 +29,28 @@ class Scene {
     if (with_jumps) AddJumps();
   }
 
-  std::vector<graph::PathEdge> Search(const RouteSearchSettings& settings) const {
-    const RouteSearchSpace space{&DrcHubo1Locomotion(), &gaits_, &manoeuvres_};
-    std::vector<GroundedStance> goals;
-    for (const models::Stance& goal : scenario_.goals) goals.push_back(Grounded(goal));
-    return SearchRoute(space, Grounded(scenario_.start), goals, settings, {});
+  std::vector<graph::PathEdge> Search(const LatticeSettings& settings) const {
+    LatticeSearch search(space(), Grounded(scenario_.start), goals(), settings);
+    LatticeSearch::Status status = LatticeSearch::Status::kSearching;
+    while (status == LatticeSearch::Status::kSearching) status = search.Advance(100, {});
+    if (status == LatticeSearch::Status::kGivenUp) return {};
+    return search.Route();
   }
 
-  std::vector<graph::PathEdge> Suggestion() const {
-    std::vector<GroundedStance> goals;
-    for (const models::Stance& goal : scenario_.goals) goals.push_back(Grounded(goal));
-    return SuggestRoute({&DrcHubo1Locomotion(), &gaits_, &manoeuvres_}, Grounded(scenario_.start),
-                        goals, {});
+  /// What a LatticeExplorer proposes first.
+  std::vector<graph::PathEdge> Proposal() const {
+    const graph::Deadline deadline(60);
+    const graph::ExplorerContext context{.deadline = &deadline};
+    LatticeExplorer explorer(space(), Grounded(scenario_.start), goals(), context);
+    for (;;) {
+      graph::Findings findings = explorer.Explore();
+      if (!findings.route.empty() || findings.outlook == graph::Outlook::kOver) {
+        return findings.route;
+      }
+    }
   }
+
+  RouteSpace space() const { return {&DrcHubo1Locomotion(), &gaits_, &manoeuvres_}; }
 
   void Block(const graph::PathEdge& edge) {
     const int gaits = static_cast<int>(gaits_.size());
@@ -65,6 +74,12 @@ class Scene {
   }
 
   const models::Scenario& scenario() const { return scenario_; }
+  GroundedStance start() const { return Grounded(scenario_.start); }
+  std::vector<GroundedStance> goals() const {
+    std::vector<GroundedStance> goals;
+    for (const models::Stance& goal : scenario_.goals) goals.push_back(Grounded(goal));
+    return goals;
+  }
   int num_gaits() const { return static_cast<int>(gaits_.size()); }
 
  private:
@@ -91,7 +106,7 @@ class Scene {
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
 };
 
-constexpr RouteSearchSettings kFast = {.step = 0.2, .headings = 8, .greed = 4};
+constexpr LatticeSettings kFast = {.step = 0.2, .headings = 8, .greed = 4};
 
 void ExpectRoute(const Scene& scene, const std::vector<graph::PathEdge>& route) {
   ASSERT_FALSE(route.empty());
@@ -104,7 +119,7 @@ void ExpectRoute(const Scene& scene, const std::vector<graph::PathEdge>& route) 
   }
 }
 
-TEST(RouteSearch, FindsRoutesOnWhichEveryConditionHolds) {
+TEST(LatticeSearch, FindsRoutesOnWhichEveryConditionHolds) {
   for (const char* name : {"three_routes_a", "three_routes_b"}) {
     const Scene scene(name, false);
     ExpectRoute(scene, scene.Search(kFast));
@@ -112,7 +127,7 @@ TEST(RouteSearch, FindsRoutesOnWhichEveryConditionHolds) {
   }
 }
 
-TEST(RouteSearch, JumpsWhereNothingElseLeads) {
+TEST(LatticeSearch, JumpsWhereNothingElseLeads) {
   for (const char* name : {"three_routes_c", "hallway", "double_jump"}) {
     const Scene scene(name, true);
     const std::vector<graph::PathEdge> route = scene.Search(kFast);
@@ -124,7 +139,7 @@ TEST(RouteSearch, JumpsWhereNothingElseLeads) {
   }
 }
 
-TEST(RouteSearch, ShortStridesLeadToWhereManoeuvresBegin) {
+TEST(LatticeSearch, ShortStridesLeadToWhereManoeuvresBegin) {
   for (const char* name : {"three_routes_c", "hallway", "double_jump"}) {
     for (const double step : {0.4, 0.6, 0.8, 1.0}) {
       const Scene scene(name, true);
@@ -134,7 +149,7 @@ TEST(RouteSearch, ShortStridesLeadToWhereManoeuvresBegin) {
   }
 }
 
-TEST(RouteSearch, GoesStraightOnInOneEdge) {
+TEST(LatticeSearch, GoesStraightOnInOneEdge) {
   const Scene scene("double_jump", true);
   const std::vector<graph::PathEdge> route = scene.Search(kFast);
   ASSERT_FALSE(route.empty());
@@ -147,27 +162,27 @@ TEST(RouteSearch, GoesStraightOnInOneEdge) {
   }
 }
 
-TEST(RouteSearch, AvoidsWhatIsForbidden) {
+TEST(LatticeSearch, AvoidsWhatIsForbidden) {
   for (const char* name : {"three_routes_a", "three_routes_c"}) {
     Scene scene(name, true);
     for (int i = 0; i < 5; ++i) {
-      const std::vector<graph::PathEdge> route = scene.Suggestion();
+      const std::vector<graph::PathEdge> route = scene.Proposal();
       ExpectRoute(scene, route);
       for (const graph::PathEdge& edge : route) scene.Block(edge);
     }
   }
 }
 
-TEST(RouteSuggestion, IsThatOfTheFirstSettingsThatFindOne) {
+TEST(LatticeExplorer, ProposesWhatTheFirstLatticeFindsThatFindsAnything) {
   for (const char* name : {"three_routes_a", "three_routes_b", "three_routes_c", "hallway",
                            "double_jump", "hallway_infeasible"}) {
     const Scene scene(name, true);
     std::vector<graph::PathEdge> expected;
-    for (const RouteSearchSettings& settings : SuggestionLadder()) {
+    for (const LatticeSettings& settings : FirstRouteLadder()) {
       expected = scene.Search(settings);
       if (!expected.empty()) break;
     }
-    const std::vector<graph::PathEdge> route = scene.Suggestion();
+    const std::vector<graph::PathEdge> route = scene.Proposal();
     EXPECT_EQ(route.empty(), std::string(name) == "hallway_infeasible");
     if (!route.empty()) ExpectRoute(scene, route);
     ASSERT_EQ(route.size(), expected.size()) << name;
@@ -178,18 +193,53 @@ TEST(RouteSuggestion, IsThatOfTheFirstSettingsThatFindOne) {
   }
 }
 
-TEST(RouteSearch, FindsNothingWhereThereIsNoWay) {
+TEST(LatticeSearch, FindsNothingWhereThereIsNoWay) {
   EXPECT_TRUE(Scene("closed_room", false).Search(kFast).empty());
   EXPECT_TRUE(Scene("hallway_infeasible", true).Search(kFast).empty());
 }
 
-TEST(RouteSearch, GivesUpWhenItHasExaminedEnough) {
-  RouteSearchSettings settings = kFast;
+TEST(LatticeSearch, GivesUpWhenItHasExaminedEnough) {
+  LatticeSettings settings = kFast;
   settings.most_stances = 10;
   EXPECT_TRUE(Scene("three_routes_a", false).Search(settings).empty());
 }
 
-TEST(RouteSearch, AlwaysGivesTheSameRoute) {
+/// In small portions as in one go.
+TEST(LatticeSearch, MayBeInterruptedAtAnyStance) {
+  const Scene scene("three_routes_b", false);
+  const std::vector<graph::PathEdge> whole = scene.Search(kFast);
+  LatticeSearch search(scene.space(), scene.start(), scene.goals(), kFast);
+  while (search.Advance(1, {}) == LatticeSearch::Status::kSearching) {
+  }
+  const std::vector<graph::PathEdge> portions = search.Route();
+  ASSERT_EQ(portions.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(portions[i].points.to, whole[i].points.to);
+  }
+}
+
+/// The route of a patient search is no slower than its own bound, and none is slower than a hasty
+/// one's.
+TEST(LatticeSearch, WithoutGreedNoRouteIsQuicker) {
+  for (const char* name : {"three_routes_a", "three_routes_b"}) {
+    const Scene scene(name, false);
+    const auto bound = [&](double greed, double known) {
+      LatticeSearch search(scene.space(), scene.start(), scene.goals(),
+                           {.step = 0.4, .headings = 8, .greed = greed, .most_stances = 100000});
+      search.SetBound(known);
+      const LatticeSearch::Status status = search.Advance(200000, {});
+      EXPECT_EQ(status == LatticeSearch::Status::kFound, known > 1e3) << name << greed;
+      return search.LowerBound();
+    };
+    const double least = bound(1, 1e6);
+    EXPECT_GT(least, 50);
+    EXPECT_LE(least, bound(4, 1e6) + 1e-9);
+    // Told of a route that is as quick, it finds none.
+    EXPECT_NEAR(bound(1, least), least, 1e-9);
+  }
+}
+
+TEST(LatticeSearch, AlwaysGivesTheSameRoute) {
   const Scene scene("double_jump", true);
   const std::vector<graph::PathEdge> once = scene.Search(kFast);
   const std::vector<graph::PathEdge> again = scene.Search(kFast);

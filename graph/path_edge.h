@@ -1,0 +1,16 @@
+#pragma once
+
+#include "graph/action.h"
+#include "graph/directed_graph.h"
+
+namespace possibility::graph {
+
+/// One edge of a path: by which action, between which points.
+struct PathEdge {
+  int action = 0;
+  PointPair points;
+  VertexId from = -1;  ///< of GraphSnapshot; -1 if the edge was only proposed
+  VertexId to = -1;    ///< likewise
+};
+
+}  // namespace possibility::graph

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/action_exploration.h"
+#include "graph/explorer.h"
+
+namespace possibility::graph {
+
+/// The paper's exploration: every action performs transitions (Algorithm 2) and grows towards
+/// random targets (Algorithms 3 and 4). A turn is one round of Algorithm 1.
+class RandomExplorer : public Explorer {
+ public:
+  /// @throws std::invalid_argument if an action is of a kind that cannot be grown.
+  explicit RandomExplorer(const ExplorerContext& context);
+
+  std::string name() const override { return "random"; }
+  bool TakesPart(SearchStage stage) const override { return stage == SearchStage::kFirstRoute; }
+  Findings Explore() override;
+  double work_of_turn() const override { return work_of_turn_; }
+  void TakeOver(const Discovery& discovery) override;
+
+ private:
+  bool Skips(std::size_t action);
+  void OfferToOthers(std::size_t action, const NewElements& found);
+
+  ExplorerContext context_;
+  std::vector<std::unique_ptr<ActionExploration>> explorations_;
+  std::vector<double> skip_growth_;  ///< per action
+  double work_of_turn_ = 0;
+};
+
+/// Makes a RandomExplorer.
+ExplorerFactory RandomExploration();
+
+}  // namespace possibility::graph
