@@ -3,6 +3,8 @@
 #include <limits>
 #include <memory>
 
+#include "actions/shortcuts.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -14,6 +16,9 @@ constexpr int kPatientTurns = 8;
 
 /// Routes that jobs refute and that are replaced by others.
 constexpr int kMostProposals = 8;
+
+/// What is left to gain is for the ShortcutExplorer to find.
+constexpr int kShortcutPasses = 2;
 
 /// A route is looked for that is quicker by this share of the known one.
 constexpr double kWorthwhileGain = 0.02;
@@ -33,7 +38,8 @@ std::span<const LatticeSettings> FirstRouteLadder() {
 std::span<const LatticeSettings> ImprovementLadder() {
   static constexpr LatticeSettings kLadder[] = {
       {.step = 0.8, .headings = 8, .greed = 1, .most_stances = 20000},
-      {.step = 0.4, .headings = 8, .greed = 1, .most_stances = 40000}};
+      {.step = 0.4, .headings = 8, .greed = 1, .most_stances = 40000},
+      {.step = 0.4, .headings = 16, .greed = 1, .most_stances = 80000}};
   return kLadder;
 }
 
@@ -65,16 +71,20 @@ graph::Findings LatticeExplorer::Explore() {
   return {OutlookOfSearch(), {}};
 }
 
-/// A first route that is refuted is replaced by another on the same lattice; with a greed of 1
-/// there is none that is quicker.
+/// A first route that is refuted is replaced by another on the same lattice. With a greed of 1
+/// there is none that is quicker; shortened, even one that is not quicker as it is may become so.
 graph::Findings LatticeExplorer::Propose() {
   graph::Findings findings{graph::Outlook::kOver, search_->Route()};
   ++proposals_;
   if (bound_ == 0) {
     search_.reset();
-  } else {
-    findings.outlook = NextLattice().outlook;
+    return findings;
   }
+  for (int pass = 0; pass < kShortcutPasses; ++pass) {
+    findings.route =
+        FindShortcuts(space_, findings.route, goals_, [this] { return !deadline_->Passed(); });
+  }
+  findings.outlook = NextLattice().outlook;
   return findings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -33,6 +34,7 @@ LatticeSearch::LatticeSearch(const RouteSpace& space, const GroundedStance& star
     const models::GaitParameters& parameters = gait->stance.gait->parameters;
     // A stride more on a way that has strides already: what it takes to stop comes but once.
     stride_times_.push_back(gait->motion->ExpectedDuration(2) - gait->motion->ExpectedDuration(1));
+    stop_times_.push_back(gait->motion->ExpectedDuration(1) - stride_times_.back());
     least_seconds_per_metre_ =
         std::min(least_seconds_per_metre_,
                  stride_times_.back() / std::max(parameters.forward, parameters.lateral));
@@ -149,19 +151,22 @@ bool LatticeSearch::MayLaunch(int gait) const {
 /// begin there.
 void LatticeSearch::Halve(int blocked) {
   const Node node = nodes_[blocked];
-  if (!node.is_ahead || node.halvings == kMostHalvings || !MayLaunch(node.stance.gait)) return;
-  StrideAhead(node.parent, node.halvings + 1);
+  if (node.direction != kAhead || node.halvings == kMostHalvings) return;
+  if (!MayLaunch(node.stance.gait)) return;
+  const int halvings = node.halvings + 1;
+  StrideTo(node.parent, kAhead, {settings_.step / (1 << halvings), 0, 0}, halvings);
 }
 
-void LatticeSearch::StrideAhead(int node, int halvings) {
+void LatticeSearch::StrideTo(int node, int direction, const PlanarPose& displacement,
+                             int halvings) {
   const GroundedStance& from = nodes_[node].stance;
-  const PlanarPose displacement{settings_.step / (1 << halvings), 0, 0};
-  Node next{.stance = from,
-            .parent = node,
-            .action = from.gait,
-            .cost = nodes_[node].cost + StrideTime(from.gait, displacement),
-            .halvings = halvings,
-            .is_ahead = true};
+  Node next{
+      .stance = from,
+      .parent = node,
+      .action = from.gait,
+      .cost = nodes_[node].cost + StopTime(node, direction) + StrideTime(from.gait, displacement),
+      .halvings = halvings,
+      .direction = direction};
   next.stance.pose = from.pose * displacement;
   Offer(next);
 }
@@ -188,16 +193,18 @@ double LatticeSearch::StrideTime(int gait, const PlanarPose& displacement) const
          stride_times_[gait];
 }
 
+/// Every straight way ends with a stop.
+double LatticeSearch::StopTime(int node, int direction) const {
+  return nodes_[node].direction == direction ? 0 : stop_times_[nodes_[node].stance.gait];
+}
+
 void LatticeSearch::Stride(int node) {
-  const GroundedStance from = nodes_[node].stance;
   const double step = settings_.step;
-  StrideAhead(node, 0);
-  for (const PlanarPose& displacement :
-       {PlanarPose{-step, 0, 0}, PlanarPose{0, step, 0}, PlanarPose{0, -step, 0},
-        PlanarPose{0, 0, turn()}, PlanarPose{0, 0, -turn()}}) {
-    GroundedStance next = from;
-    next.pose = from.pose * displacement;
-    Offer(node, next, from.gait, StrideTime(from.gait, displacement));
+  const PlanarPose displacements[] = {{step, 0, 0},  {-step, 0, 0},  {0, step, 0},
+                                      {0, -step, 0}, {0, 0, turn()}, {0, 0, -turn()}};
+  for (int direction = kAhead; direction < static_cast<int>(std::size(displacements));
+       ++direction) {
+    StrideTo(node, direction, displacements[direction], 0);
   }
 }
 
@@ -227,7 +234,7 @@ void LatticeSearch::Finish(int node) {
     if (goal.gait != from.gait || std::abs(goal.z - from.z) > 1e-6) continue;
     if (left.position().norm() > 2 * settings_.step) continue;
     const PlanarPose way{left.x, left.y, WrapAngle(left.yaw)};
-    const double duration = StrideTime(from.gait, way);
+    const double duration = StopTime(node, kNone) + StrideTime(from.gait, way);
     Push({.stance = goal,
           .parent = node,
           .action = from.gait,

@@ -51,6 +51,10 @@ class LatticeSearch {
   double LowerBound() const;
 
  private:
+  /// Of strides: straight ahead first.
+  static constexpr int kNone = -1;
+  static constexpr int kAhead = 0;
+
   struct Node {
     GroundedStance stance;
     int parent = -1;
@@ -58,7 +62,7 @@ class LatticeSearch {
     double cost = 0;   ///< s
     int halvings = 0;  ///< of the stride that leads here
     bool is_goal = false;
-    bool is_ahead = false;  ///< reached by a stride forward
+    int direction = kNone;  ///< of the stride that leads here
   };
   struct Candidate {
     double priority = 0;
@@ -80,6 +84,7 @@ class LatticeSearch {
   double TimeLeft(const PlanarPose& pose) const;
   double Patience(int gait) const;
   double StrideTime(int gait, const PlanarPose& displacement) const;
+  double StopTime(int node, int direction) const;
 
   void Push(const Node& node);
   bool Offer(const Node& next);
@@ -88,7 +93,7 @@ class LatticeSearch {
   void Expand(int node);
   bool MayLaunch(int gait) const;
   void Halve(int blocked);
-  void StrideAhead(int node, int halvings);
+  void StrideTo(int node, int direction, const PlanarPose& displacement, int halvings);
   void Stride(int node);
   void Change(int node);
   void Finish(int node);
@@ -104,6 +109,7 @@ class LatticeSearch {
   std::vector<GroundedStance> goals_;
   LatticeSettings settings_;
   std::vector<double> stride_times_;  ///< s, by gait
+  std::vector<double> stop_times_;    ///< s, by gait: after strides in one direction
   double least_seconds_per_metre_ = std::numeric_limits<double>::infinity();
   double bound_ = std::numeric_limits<double>::infinity();
   double closest_approach_ = std::numeric_limits<double>::infinity();

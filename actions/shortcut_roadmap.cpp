@@ -18,6 +18,8 @@ constexpr double kPlaceSpacing = 0.4;
 
 constexpr double kSamePlace = 1e-9;
 
+bool SameHeight(double a, double b) { return std::abs(a - b) < kSamePlace; }
+
 }  // namespace
 
 ShortcutRoadmap::ShortcutRoadmap(const RouteSpace& space, const std::vector<RouteStop>& stops,
@@ -41,7 +43,8 @@ void ShortcutRoadmap::AddPlaces() {
   const double spacing = std::max(kPlaceSpacing, length / static_cast<double>(room + 1));
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const GroundedStance& stance = stops_[i].stance;
-    if (i > 0 && stops_[i - 1].stance.gait == stance.gait && stops_[i - 1].stance.z == stance.z) {
+    if (i > 0 && stops_[i - 1].stance.gait == stance.gait &&
+        SameHeight(stops_[i - 1].stance.z, stance.z)) {
       const GroundedStance& before = stops_[i - 1].stance;
       const double leg = (stance.pose.position() - before.pose.position()).norm();
       AddPlacesWithin(before, stance, static_cast<int>(leg / spacing));
@@ -90,14 +93,14 @@ void ShortcutRoadmap::AddDirectHops() {
     for (std::size_t j = i + 2; j < stops_.size(); ++j) {
       const GroundedStance& a = stops_[i].stance;
       const GroundedStance& b = stops_[j].stance;
-      if (a.gait != b.gait || a.z != b.z) continue;
+      if (a.gait != b.gait || !SameHeight(a.z, b.z)) continue;
       AddHop({.from = place_of_stop_[i], .to = place_of_stop_[j]}, {a, b});
     }
   }
 }
 
 void ShortcutRoadmap::AddHopsBetween(int i, int j) {
-  if (places_[i].z != places_[j].z) return;
+  if (!SameHeight(places_[i].z, places_[j].z)) return;
   if (places_[i].gait != places_[j].gait) {
     AddHopsThatEndElsewhere(i, j);
     return;

@@ -21,6 +21,9 @@ namespace {
 /// Durations are added up in different orders, s.
 constexpr double kSameDuration = 1e-9;
 
+/// For jobs that may lead to a quicker path than a confirmed one, s.
+constexpr double kPatience = 0.1;
+
 std::vector<ExplorerFactory> ExplorersOf(const FindPathSettings& settings) {
   return settings.explorers.empty() ? std::vector<ExplorerFactory>{RandomExploration()}
                                     : settings.explorers;
@@ -70,7 +73,7 @@ class PathFinder {
       }
       FindConfirmedPath();
       if (settings_.confirmation_threads == 0 && !ImprovementIsOver()) {
-        turns_.RunTurnIfDue(exploration_.work(), ExplorationIsOver(), deadline_);
+        RunConfirmationTurn();
       }
       ReportProgress();
     }
@@ -158,11 +161,33 @@ class PathFinder {
            exploration_.IsOver(stage());
   }
 
+  /// Jobs that are open when nothing is left to explore get one turn more, or as much time as the
+  /// first path has taken: nobody waits long for what may be a little quicker.
   bool ImprovementIsOver() const {
     if (!best_) return false;
+    if (ImprovementTime() <= 0) return true;
+    if (!ExplorationIsOver()) return false;
+    if (q_confirmation_.num_open() == 0) return true;
+    return settings_.confirmation_threads > 0
+               ? deadline_.Elapsed() > 2 * result_.first_path_seconds + kPatience
+               : last_turn_is_over_;
+  }
+
+  /// What is left of its share, s.
+  double ImprovementTime() const {
     const double share = settings_.improvement_share * settings_.time_limit;
-    return !(deadline_.Elapsed() - result_.first_path_seconds < share) ||
-           (ExplorationIsOver() && q_confirmation_.num_open() == 0);
+    return result_.first_path_seconds + share - deadline_.Elapsed();
+  }
+
+  void RunConfirmationTurn() {
+    if (!best_) {
+      turns_.RunTurnIfDue(exploration_.work(), ExplorationIsOver(), deadline_);
+      return;
+    }
+    const bool is_last = ExplorationIsOver();
+    turns_.RunTurnIfDue(exploration_.work(), is_last,
+                        Deadline(std::min(ImprovementTime(), deadline_.Remaining())));
+    last_turn_is_over_ = is_last;
   }
 
   /// Whether the oracle, if it is its time, ends the search.
@@ -256,6 +281,7 @@ class PathFinder {
   std::int64_t cycles_ = 0;
   int refuted_ = 0;
   bool oracle_asked_ = false;
+  bool last_turn_is_over_ = false;
   double next_progress_ = 0;
   double best_route_seconds_ = 0;
 };
