@@ -65,6 +65,14 @@ double ChainLength(const models::RobotModel& robot, const models::ContactPatch& 
   return length;
 }
 
+double BearingReach(const models::RobotModel& robot, const models::Gait& gait) {
+  double reach = 0;
+  for (const models::GaitLimb& limb : gait.limbs) {
+    reach = std::max(reach, ChainLength(robot, robot.contacts[limb.contact]));
+  }
+  return reach;
+}
+
 [[gnu::hot]] std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,
                                                     const Eigen::Isometry3d& X_WR) {
   constexpr double kTiltTolerance = 1e-6;

@@ -54,6 +54,10 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
 /// do, m.
 double ChainLength(const models::RobotModel& robot, const models::ContactPatch& patch);
 
+/// Upper bound of the distance from the root's origin to where any limb of the gait bears, soles
+/// and points alike, m.
+double BearingReach(const models::RobotModel& robot, const models::Gait& gait);
+
 /// The robot standing in a gait's nominal posture on a ground level.
 struct GroundedStance {
   int gait = 0;

@@ -77,7 +77,6 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
   for (const LocomotionModel::TransitionEntry& transition : model.transitions) {
     transition_sweeps_.emplace_back(transition.sweep);
   }
-  const models::RobotModel& robot = *model.robot;
   for (const auto& entry : model.gaits) {
     double radius = 0;
     for (const std::vector<Vector2d>& points : entry->stance.bearing_points) {
@@ -89,10 +88,7 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
     const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
     sweep_radius_ = std::max(sweep_radius_, far.norm());
   }
-  for (const models::GaitLimb& limb : model.gaits[gait]->stance.gait->limbs) {
-    if (!limb.hold_orientation) continue;
-    leg_reach_ = std::max(leg_reach_, ChainLength(robot, robot.contacts[limb.contact]));
-  }
+  bearing_reach_ = BearingReach(*model.robot, *model.gaits[gait]->stance.gait);
 }
 
 std::string QuasiStaticAction::name() const { return model_->gaits[gait_]->stance.gait->name; }
@@ -117,7 +113,7 @@ graph::Point QuasiStaticAction::Project(const graph::Point& v) const {
 
 bool QuasiStaticAction::CN(const graph::Point& vertex) const {
   const Isometry3d X_WR = ToPose(vertex);
-  return pelvis_.IsFree(X_WR) && SomeFootReachesGround(X_WR);
+  return pelvis_.IsFree(X_WR) && SomeLimbReachesGround(X_WR);
 }
 
 bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
@@ -127,17 +123,17 @@ bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
   const int samples = 1 + static_cast<int>(length / kNecessarySpacing);
   for (int i = 0; i <= samples; ++i) {
     const Isometry3d X_WR = Interpolate(from, to, static_cast<double>(i) / samples);
-    if (!pelvis_.IsFree(X_WR) || !SomeFootReachesGround(X_WR)) return false;
+    if (!pelvis_.IsFree(X_WR) || !SomeLimbReachesGround(X_WR)) return false;
   }
   return true;
 }
 
-bool QuasiStaticAction::SomeFootReachesGround(const Isometry3d& X_WR) const {
+bool QuasiStaticAction::SomeLimbReachesGround(const Isometry3d& X_WR) const {
   const std::vector<double>& levels = world_.ground->levels();
   for (size_t level = 0; level < levels.size(); ++level) {
     const double height = X_WR.translation().z() - levels[level];
-    if (std::abs(height) > leg_reach_) continue;
-    const double reach = std::sqrt(leg_reach_ * leg_reach_ - height * height);
+    if (std::abs(height) > bearing_reach_) continue;
+    const double reach = std::sqrt(bearing_reach_ * bearing_reach_ - height * height);
     if (world_.ground->Clearance(static_cast<int>(level), X_WR.translation().head<2>()) >= -reach) {
       return true;
     }

@@ -104,7 +104,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
       const std::array<Eigen::Isometry3d, 2>& ends, GroundedStance* start) const;
   bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
                          const GroundedStance& start) const;
-  bool SomeFootReachesGround(const Eigen::Isometry3d& X_WR) const;
+  bool SomeLimbReachesGround(const Eigen::Isometry3d& X_WR) const;
 
   const LocomotionModel* model_;
   int gait_;
@@ -118,7 +118,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
   std::vector<models::UprightBoxes> transition_sweeps_;  ///< by index of the model's transitions
   double sweep_radius_ = 0;            ///< farthest point of the sweep from the stance's axis, m
   std::vector<double> bearing_radii_;  ///< by gait: farthest bearing point from the axis, m
-  double leg_reach_ = 0;               ///< no foot point is farther from the root, m
+  double bearing_reach_ = 0;           ///< no limb bears farther from the root, m
   std::vector<graph::PointPair> forbidden_;
 };
 
