@@ -36,7 +36,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     auto entry = std::make_unique<LocomotionModel::GaitEntry>();
     entry->stance = SolveNominalStance(robot, robot.GaitNamed(action));
     entry->motion = std::make_unique<GaitMotion>(robot, entry->stance);
-    entry->sweep = SweepGait(robot, entry->stance, keep_going).Boxes();
+    entry->volumes = SweepGait(robot, entry->stance, keep_going);
     model.gaits.push_back(std::move(entry));
   }
   for (const models::Transition& transition : robot.transitions) {

@@ -16,12 +16,12 @@
 namespace possibility::actions {
 
 /// Everything about how one robot moves that does not depend on where: the nominal stance and
-/// swept volume of each gait, and the transitions between gaits. Immutable, safe to share.
+/// swept volumes of each gait, and the transitions between gaits. Immutable, safe to share.
 struct LocomotionModel {
   struct GaitEntry {
     NominalStance stance;
     std::unique_ptr<GaitMotion> motion;
-    std::vector<Eigen::AlignedBox3d> sweep;  ///< in the stance frame
+    GaitVolumes volumes;
   };
   struct TransitionEntry {
     int from = 0;  ///< indices into gaits
