@@ -27,38 +27,6 @@ Vector3d At(const PlanarPose& pose, const Vector3d& p, double z) {
 
 }  // namespace
 
-double StrideEffort(const models::GaitParameters& parameters, const PlanarPose& d) {
-  return std::abs(d.x) / parameters.forward + std::abs(d.y) / parameters.lateral +
-         std::abs(d.yaw) / parameters.turn;
-}
-
-std::vector<PlanarPose> PlanStrides(const models::GaitParameters& parameters,
-                                    const PlanarPose& from, const PlanarPose& to) {
-  const double turn = WrapAngle(to.yaw - from.yaw);
-  const auto displacement = [&](double yaw, int strides) {
-    const Vector2d d =
-        Eigen::Rotation2Dd(-yaw) * Vector2d(to.position() - from.position()) / strides;
-    return PlanarPose{d.x(), d.y(), turn / strides};
-  };
-  const auto fits = [&](int strides) {
-    for (int i = 0; i < strides; ++i) {
-      const double yaw = from.yaw + turn * i / strides;
-      if (StrideEffort(parameters, displacement(yaw, strides)) > 1 + 1e-9) return false;
-    }
-    return true;
-  };
-  if (StrideEffort(parameters, displacement(from.yaw, 1)) < 1e-9) return {from};
-  int count = std::max(
-      1, static_cast<int>(std::ceil(
-             StrideEffort(parameters, displacement(from.yaw, 1)) / std::sqrt(2.0) - 1e-9)));
-  while (!fits(count)) ++count;
-  std::vector<PlanarPose> strides;
-  for (int i = 0; i <= count; ++i) {
-    strides.push_back(Interpolate(from, to, static_cast<double>(i) / count));
-  }
-  return strides;
-}
-
 /// Where everything is while the phases are laid out; the robot is at rest.
 struct GaitMotion::Progress {
   std::vector<PlanarPose> limbs;  ///< stance that each limb stands at

@@ -5,18 +5,10 @@
 #include "actions/motion_builder.h"
 #include "actions/nominal_stance.h"
 #include "actions/planar_pose.h"
+#include "actions/stride.h"
 #include "models/robot_model.h"
 
 namespace possibility::actions {
-
-/// Stances that a gait places its limbs at on the way between two stances: the first is `from`,
-/// the last has `to`'s position and heading (yaw continues from `from`, unwrapped); each
-/// displacement is within the gait's bounds of one stride. Only `from` if `to` is the same stance.
-std::vector<PlanarPose> PlanStrides(const models::GaitParameters& parameters,
-                                    const PlanarPose& from, const PlanarPose& to);
-
-/// Fraction of a stride's bounds that a displacement (in the frame of the stance) uses.
-double StrideEffort(const models::GaitParameters& parameters, const PlanarPose& displacement);
 
 /// A quasi-static gait: in every stride each limb swings once from one stance to the next, one at
 /// a time, while the others bear; between swings the centre of mass shifts over the limbs that

@@ -36,7 +36,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     auto entry = std::make_unique<LocomotionModel::GaitEntry>();
     entry->stance = SolveNominalStance(robot, robot.GaitNamed(action));
     entry->motion = std::make_unique<GaitMotion>(robot, entry->stance);
-    entry->sweep = SweepGait(robot, entry->stance, keep_going).Boxes();
+    entry->volumes = SweepGait(robot, entry->stance, keep_going);
     model.gaits.push_back(std::move(entry));
   }
   for (const models::Transition& transition : robot.transitions) {
@@ -63,6 +63,14 @@ double ChainLength(const models::RobotModel& robot, const models::ContactPatch& 
     }
   }
   return length;
+}
+
+double BearingReach(const models::RobotModel& robot, const models::Gait& gait) {
+  double reach = 0;
+  for (const models::GaitLimb& limb : gait.limbs) {
+    reach = std::max(reach, ChainLength(robot, robot.contacts[limb.contact]));
+  }
+  return reach;
 }
 
 [[gnu::hot]] std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,

@@ -16,12 +16,12 @@
 namespace possibility::actions {
 
 /// Everything about how one robot moves that does not depend on where: the nominal stance and
-/// swept volume of each gait, and the transitions between gaits. Immutable, safe to share.
+/// swept volumes of each gait, and the transitions between gaits. Immutable, safe to share.
 struct LocomotionModel {
   struct GaitEntry {
     NominalStance stance;
     std::unique_ptr<GaitMotion> motion;
-    std::vector<Eigen::AlignedBox3d> sweep;  ///< in the stance frame
+    GaitVolumes volumes;
   };
   struct TransitionEntry {
     int from = 0;  ///< indices into gaits
@@ -53,6 +53,10 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
 /// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
 /// do, m.
 double ChainLength(const models::RobotModel& robot, const models::ContactPatch& patch);
+
+/// Upper bound of the distance from the root's origin to where any limb of the gait bears, soles
+/// and points alike, m.
+double BearingReach(const models::RobotModel& robot, const models::Gait& gait);
 
 /// The robot standing in a gait's nominal posture on a ground level.
 struct GroundedStance {

@@ -112,8 +112,8 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
       room_.extend(box.translated(Eigen::Vector3d(x, 0, 0)));
     }
   };
-  add(model().gaits[from()]->sweep, 0);
-  add(model().gaits[to()]->sweep, 0);
+  add(model().gaits[from()]->volumes.sweep(StrideClass::kStraight), 0);
+  add(model().gaits[to()]->volumes.sweep(StrideClass::kStraight), 0);
   if (transition_ != nullptr) add(transition_->sweep, -transition_->motion->displacement().x);
 }
 

@@ -14,7 +14,7 @@ struct LandingRange {
 
 /// How far a manoeuvre takes the pelvis from the ground.
 struct FlightBounds {
-  double rise = 0;   ///< m, never higher than this above a place where a leg reaches ground
+  double rise = 0;   ///< m, never higher than this above a place where a limb reaches ground
   double range = 0;  ///< m, never farther than this from such a place, seen from above
 };
 

@@ -66,15 +66,11 @@ Ball LargestBall(const models::Link& link) {
   return largest;
 }
 
-/// Upper bound of how far a leg's ground contact can be from the root.
-double LegReach(const LocomotionModel& model) {
+/// Upper bound of how far from the root the robot can bear on ground, in any gait.
+double FarthestBearing(const LocomotionModel& model) {
   double reach = 0;
   for (const auto& gait : model.gaits) {
-    for (const models::GaitLimb& limb : gait->stance.gait->limbs) {
-      if (limb.hold_orientation) {
-        reach = std::max(reach, ChainLength(*model.robot, model.robot->contacts[limb.contact]));
-      }
-    }
+    reach = std::max(reach, BearingReach(*model.robot, *gait->stance.gait));
   }
   return reach;
 }
@@ -94,7 +90,7 @@ class NecessaryFlood {
         world_(world),
         ball_(LargestBall(model.robot->links[model.robot->pelvis_shape_link])),
         resolution_(std::min(resolution, 1.8 * ball_.radius / std::numbers::sqrt3)),
-        reach_(LegReach(model) + ball_.centre_R.norm() + resolution_),
+        reach_(FarthestBearing(model) + ball_.centre_R.norm() + resolution_),
         flight_(FarthestFlight(flights)),
         checker_(*world.environment),
         whole_(models::Shape::Sphere(std::max(kLeastRadius, ball_.radius))),

@@ -45,15 +45,21 @@ Eigen::AlignedBox3d Swept(const Eigen::AlignedBox3d& box, const Excursion& excur
   return {box.min() - grown, box.max() + grown};
 }
 
-std::vector<Eigen::AlignedBox3d> Inflated(const std::vector<Eigen::AlignedBox3d>& boxes,
-                                          double inflation) {
-  const Vector3d sideways(inflation, inflation, 0);
-  std::vector<Eigen::AlignedBox3d> inflated;
-  inflated.reserve(boxes.size());
+double RadiusOf(const std::vector<Eigen::AlignedBox3d>& boxes) {
+  double radius = 0;
   for (const Eigen::AlignedBox3d& box : boxes) {
-    inflated.emplace_back(box.min() - sideways, box.max() + sideways);
+    const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
+    radius = std::max(radius, far.norm());
   }
-  return inflated;
+  return radius;
+}
+
+/// How far strides of a class may move a volume along its axes between two samples, in which no
+/// point moves farther than `inflation`, m.
+Vector2d BetweenSamples(StrideClass strides, double inflation) {
+  if (strides == StrideClass::kStraight) return {inflation, 0};
+  if (strides == StrideClass::kSideways) return {0, inflation};
+  return {inflation, inflation};
 }
 
 bool SamePoint(const graph::Point& a, const graph::Point& b) {
@@ -72,12 +78,13 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
       step_(step),
       checker_(*world.environment),
       pelvis_(*model.robot, checker_),
-      sweep_(model.gaits[gait]->sweep),
-      inflated_sweep_(Inflated(model.gaits[gait]->sweep, kEdgeInflation)) {
+      standing_(model.gaits[gait]->volumes.standing) {
+  for (size_t i = 0; i < kStrideClasses.size(); ++i) {
+    sweeps_[i] = SweepOf(model.gaits[gait]->volumes, kStrideClasses[i]);
+  }
   for (const LocomotionModel::TransitionEntry& transition : model.transitions) {
     transition_sweeps_.emplace_back(transition.sweep);
   }
-  const models::RobotModel& robot = *model.robot;
   for (const auto& entry : model.gaits) {
     double radius = 0;
     for (const std::vector<Vector2d>& points : entry->stance.bearing_points) {
@@ -85,14 +92,21 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
     }
     bearing_radii_.push_back(radius);
   }
-  for (const Eigen::AlignedBox3d& box : model.gaits[gait]->sweep) {
-    const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
-    sweep_radius_ = std::max(sweep_radius_, far.norm());
+  bearing_reach_ = BearingReach(*model.robot, *model.gaits[gait]->stance.gait);
+}
+
+QuasiStaticAction::Sweep QuasiStaticAction::SweepOf(const GaitVolumes& volumes,
+                                                    StrideClass strides) {
+  Sweep sweep;
+  sweep.radius = RadiusOf(volumes.sweep(strides));
+  const Vector2d growth = BetweenSamples(strides, kEdgeInflation);
+  std::vector<Eigen::AlignedBox3d> inflated;
+  for (const Eigen::AlignedBox3d& box : volumes.sweep(strides)) {
+    const Vector3d margin(growth.x(), growth.y(), 0);
+    inflated.emplace_back(box.min() - margin, box.max() + margin);
   }
-  for (const models::GaitLimb& limb : model.gaits[gait]->stance.gait->limbs) {
-    if (!limb.hold_orientation) continue;
-    leg_reach_ = std::max(leg_reach_, ChainLength(robot, robot.contacts[limb.contact]));
-  }
+  sweep.boxes = models::UprightBoxes(std::move(inflated));
+  return sweep;
 }
 
 std::string QuasiStaticAction::name() const { return model_->gaits[gait_]->stance.gait->name; }
@@ -117,7 +131,7 @@ graph::Point QuasiStaticAction::Project(const graph::Point& v) const {
 
 bool QuasiStaticAction::CN(const graph::Point& vertex) const {
   const Isometry3d X_WR = ToPose(vertex);
-  return pelvis_.IsFree(X_WR) && SomeFootReachesGround(X_WR);
+  return pelvis_.IsFree(X_WR) && SomeLimbReachesGround(X_WR);
 }
 
 bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
@@ -127,17 +141,17 @@ bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
   const int samples = 1 + static_cast<int>(length / kNecessarySpacing);
   for (int i = 0; i <= samples; ++i) {
     const Isometry3d X_WR = Interpolate(from, to, static_cast<double>(i) / samples);
-    if (!pelvis_.IsFree(X_WR) || !SomeFootReachesGround(X_WR)) return false;
+    if (!pelvis_.IsFree(X_WR) || !SomeLimbReachesGround(X_WR)) return false;
   }
   return true;
 }
 
-bool QuasiStaticAction::SomeFootReachesGround(const Isometry3d& X_WR) const {
+bool QuasiStaticAction::SomeLimbReachesGround(const Isometry3d& X_WR) const {
   const std::vector<double>& levels = world_.ground->levels();
   for (size_t level = 0; level < levels.size(); ++level) {
     const double height = X_WR.translation().z() - levels[level];
-    if (std::abs(height) > leg_reach_) continue;
-    const double reach = std::sqrt(leg_reach_ * leg_reach_ - height * height);
+    if (std::abs(height) > bearing_reach_) continue;
+    const double reach = std::sqrt(bearing_reach_ * bearing_reach_ - height * height);
     if (world_.ground->Clearance(static_cast<int>(level), X_WR.translation().head<2>()) >= -reach) {
       return true;
     }
@@ -208,13 +222,13 @@ bool QuasiStaticAction::IsWithinBounds(const GroundedStance& stance) const {
 StanceFault QuasiStaticAction::Examine(const GroundedStance& stance) const {
   if (!IsWithinBounds(stance)) return StanceFault::kOutOfBounds;
   if (!GroundHolds(stance, 0)) return StanceFault::kOffGround;
-  if (!BoxesFree(sweep_, stance)) return StanceFault::kCollision;
+  if (!BoxesFree(standing_, stance)) return StanceFault::kCollision;
   return StanceFault::kNone;
 }
 
 std::string QuasiStaticAction::FirstBlocker(const GroundedStance& stance) const {
   std::vector<models::PosedShape> boxes;
-  for (const Eigen::AlignedBox3d& box : model_->gaits[gait_]->sweep) {
+  for (const Eigen::AlignedBox3d& box : standing_.boxes()) {
     Isometry3d X_SB = Isometry3d::Identity();
     X_SB.translation() = box.center();
     boxes.push_back({models::Shape::Box(box.sizes()), stance.pose.At(stance.z) * X_SB});
@@ -229,18 +243,23 @@ bool QuasiStaticAction::CS(const graph::Point& vertex) const {
 }
 
 /// A straight way between two stances and the samples of it that decide whether it is clear, each
-/// in the middle of its share of the way.
+/// in the middle of its share of the way. Feet stand all along the way. The frames of its strides,
+/// in which the room is asked for, lie half a stride within its ends, or are taken to go all the
+/// way where strides turn.
 struct QuasiStaticAction::StraightWay {
   GroundedStance from;
   PlanarPose to;
-  double travel = 0;  ///< no point of the sweep goes farther, m
+  StrideClass strides = StrideClass::kAny;
+  bool stands = false;     ///< the ends are the same
+  double first_frame = 0;  ///< as a fraction of the way
+  double travel = 0;       ///< no point of the sweep goes farther, m
   int samples = 1;
 
-  GroundedStance At(double sample) const {
-    GroundedStance stance = from;
-    stance.pose = Interpolate(from.pose, to, sample / samples);
-    return stance;
+  GroundedStance At(double sample) const { return AtFraction(sample / samples); }
+  GroundedStance FrameAt(double sample) const {
+    return AtFraction(first_frame + FramesShare() * sample / samples);
   }
+  double FramesShare() const { return 1 - 2 * first_frame; }
   double TravelOfSample() const { return travel / (2 * samples); }
 
   /// From the middle to either end of the samples `first` to `last` - 1 and their shares.
@@ -250,11 +269,16 @@ struct QuasiStaticAction::StraightWay {
   Vector2d HalfWay(int first, int last) const {
     return HalfShare(first, last) * (to.position() - from.pose.position());
   }
+  GroundedStance AtFraction(double fraction) const {
+    GroundedStance stance = from;
+    stance.pose = Interpolate(from.pose, to, fraction);
+    return stance;
+  }
 };
 
 bool QuasiStaticAction::SampleIsClear(const StraightWay& way, int sample) const {
-  const GroundedStance stance = way.At(sample + 0.5);
-  return GroundHolds(stance, way.TravelOfSample()) && BoxesFree(inflated_sweep_, stance);
+  return GroundHolds(way.At(sample + 0.5), way.TravelOfSample()) &&
+         BoxesFree(way.stands ? standing_ : sweep(way.strides).boxes, way.FrameAt(sample + 0.5));
 }
 
 /// True only if the samples `first` to `last` - 1 stand on ground all round, and the ends of their
@@ -303,14 +327,15 @@ bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int 
       !PartIsOverGround(way, *level, first, last)) {
     return false;
   }
-  const GroundedStance middle = way.At((first + last) / 2.0);
+  const GroundedStance middle = way.FrameAt((first + last) / 2.0);
   const Isometry3d X_WS = middle.pose.At(middle.z);
-  const Excursion excursion{
-      X_WS.linear().topLeftCorner<2, 2>().transpose() * way.HalfWay(first, last),
-      std::sin(half_turn), 1 - std::cos(half_turn)};
+  const Vector2d half_way = way.FramesShare() * way.HalfWay(first, last);
+  const Excursion excursion{X_WS.linear().topLeftCorner<2, 2>().transpose() * half_way,
+                            std::sin(half_turn), 1 - std::cos(half_turn)};
+  const models::UprightBoxes& boxes = sweep(way.strides).boxes;
   std::vector<models::Prism> swept;
-  swept.reserve(inflated_sweep_.boxes().size());
-  for (const Eigen::AlignedBox3d& box : inflated_sweep_.boxes()) {
+  swept.reserve(boxes.boxes().size());
+  for (const Eigen::AlignedBox3d& box : boxes.boxes()) {
     swept.emplace_back(Swept(box, excursion), X_WS);
   }
   return checker_.AreCertainlyFree(swept);
@@ -339,9 +364,16 @@ bool QuasiStaticAction::SamplesAreClear(const StraightWay& way) const {
 
 QuasiStaticAction::StraightWay QuasiStaticAction::WayBetween(const GroundedStance& from,
                                                              const GroundedStance& to) const {
-  StraightWay way{from, to.pose, 0, 1};
+  StraightWay way{from, to.pose, ClassOfStrides(from.pose, to.pose)};
+  if (KeepsHeading(way.strides)) {
+    const models::GaitParameters& parameters = model_->gaits[gait_]->stance.gait->parameters;
+    const int count = StrideCount(parameters, from.pose, to.pose);
+    way.stands = count == 0;
+    way.first_frame = 0.5 / std::max(1, count);
+  }
   const double turn = std::abs(WrapAngle(to.pose.yaw - from.pose.yaw));
-  way.travel = (to.pose.position() - from.pose.position()).norm() + sweep_radius_ * turn;
+  way.travel =
+      (to.pose.position() - from.pose.position()).norm() + sweep(way.strides).radius * turn;
   way.samples = std::max(1, static_cast<int>(std::ceil(way.travel / (2 * kEdgeInflation))));
   return way;
 }

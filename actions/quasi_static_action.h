@@ -25,11 +25,12 @@ struct World {
 enum class StanceFault { kNone, kOutOfBounds, kOffGround, kCollision };
 
 /// Walking and crawling (paper, section "Walk and Crawl"): holonomic, with sufficient conditions
-/// on a swept volume and flat ground in the nominal orientation, and necessary conditions on the
-/// pelvis alone. One exploring thread per instance.
+/// on flat ground in the nominal orientation and on room, for the nominal posture at a vertex and
+/// for the strides of an edge along it, and necessary conditions on the pelvis alone. One exploring
+/// thread per instance.
 class QuasiStaticAction : public graph::HolonomicAction {
  public:
-  /// Between samples of an edge, no point of the swept volume moves farther than this, m.
+  /// Between samples of an edge, no point of a swept volume moves farther than this, m.
   static constexpr double kEdgeInflation = 0.02;
 
   /// `model` and `world` must outlive the action. `step`: longest ExtendTowards in the metric of
@@ -58,7 +59,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
 
   /// Sufficient conditions on a stance of this gait and on the straight way between two.
   StanceFault Examine(const GroundedStance& stance) const;
-  /// Name of the first obstacle in the swept volume at `stance`; empty if none.
+  /// Name of the first obstacle where the robot would stand at `stance`; empty if none.
   std::string FirstBlocker(const GroundedStance& stance) const;
   bool IsClear(const GroundedStance& from, const GroundedStance& to) const;
   /// C_S of the straight way between two stances of this gait, and of these.
@@ -79,6 +80,16 @@ class QuasiStaticAction : public graph::HolonomicAction {
 
  private:
   struct StraightWay;
+
+  /// Of the strides of one class.
+  struct Sweep {
+    models::UprightBoxes boxes;  ///< inflated by what they move between samples
+    double radius = 0;           ///< farthest point of the volume from the stance's axis, m
+  };
+  static Sweep SweepOf(const GaitVolumes& volumes, StrideClass strides);
+  const Sweep& sweep(StrideClass strides) const {
+    return sweeps_[static_cast<std::size_t>(strides)];
+  }
 
   bool BoxesFree(const models::UprightBoxes& boxes, const GroundedStance& stance) const {
     return checker_.AreFree(boxes, stance.pose.At(stance.z));
@@ -104,7 +115,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
       const std::array<Eigen::Isometry3d, 2>& ends, GroundedStance* start) const;
   bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
                          const GroundedStance& start) const;
-  bool SomeFootReachesGround(const Eigen::Isometry3d& X_WR) const;
+  bool SomeLimbReachesGround(const Eigen::Isometry3d& X_WR) const;
 
   const LocomotionModel* model_;
   int gait_;
@@ -113,12 +124,11 @@ class QuasiStaticAction : public graph::HolonomicAction {
   double step_;
   models::CollisionChecker checker_;
   PelvisClearance pelvis_;
-  models::UprightBoxes sweep_;
-  models::UprightBoxes inflated_sweep_;
+  models::UprightBoxes standing_;
+  std::array<Sweep, kStrideClasses.size()> sweeps_;
   std::vector<models::UprightBoxes> transition_sweeps_;  ///< by index of the model's transitions
-  double sweep_radius_ = 0;            ///< farthest point of the sweep from the stance's axis, m
   std::vector<double> bearing_radii_;  ///< by gait: farthest bearing point from the axis, m
-  double leg_reach_ = 0;               ///< no foot point is farther from the root, m
+  double bearing_reach_ = 0;           ///< no limb bears farther from the root, m
   std::vector<graph::PointPair> forbidden_;
 };
 

@@ -68,8 +68,8 @@ GroundedStance CheckedStance(const models::Stance& stance, const std::string& ke
           where, stance.action, Describe(stance), stance.z));
     default:
       throw InputError(fmt::format(
-          "{}: the {} stance at {} is in collision with '{}' (the whole swept volume of the gait "
-          "must be free there)",
+          "{}: the {} stance at {} is in collision with '{}' (there must be room for the nominal "
+          "posture)",
           where, stance.action, Describe(stance), gaits[gait]->FirstBlocker(grounded)));
   }
 }

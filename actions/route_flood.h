@@ -43,7 +43,7 @@ FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const std::vector<FloodManoeuvre>& manoeuvres = {}, int halvings = 0);
 
 /// Flood over C_N: cells of the position of the largest ball inside the pelvis that may be free
-/// and within a leg's reach of ground, whatever the orientation. `resolution` is refined until
+/// and within a limb's reach of ground, whatever the orientation. `resolution` is refined until
 /// the ball is larger than a cell. `flights`: of all manoeuvres.
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,

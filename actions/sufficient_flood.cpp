@@ -42,9 +42,11 @@ class SufficientFlood {
         checker_(*world.environment),
         grid_(GridSize()) {
     for (const auto& gait : model.gaits) {
-      whole_.emplace_back(gait->sweep);
+      // Wherever a way leads, there is room to stand: every swept volume holds that (GaitVolumes).
+      const std::vector<Eigen::AlignedBox3d>& standing = gait->volumes.standing;
+      whole_.emplace_back(standing);
       shrunk_.emplace_back();
-      for (int i = 0; i <= halvings; ++i) shrunk_.back().push_back(Shrink(gait->sweep, 1 << i));
+      for (int i = 0; i <= halvings; ++i) shrunk_.back().push_back(Shrink(standing, 1 << i));
     }
   }
 

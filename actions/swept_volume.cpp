@@ -62,6 +62,31 @@ void SampleMotion(const models::RobotModel& robot, const std::vector<MotionPhase
   }
 }
 
+SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& stance,
+                        const GaitMotion& gait, const PlanarPose& displacement,
+                        const std::function<bool()>& keep_going) {
+  SweptVolume volume;
+  const PlanarPose start;
+  try {
+    SampleMotion(robot, gait.Phases({start, displacement}, 0, 1), stance.q, keep_going,
+                 [&](const std::vector<Eigen::Isometry3d>& X_WL) {
+                   volume.Add(robot, X_WL, GaitMotion::StrideFrame(start, displacement));
+                 });
+  } catch (const MotionError& error) {
+    throw InputError(fmt::format(
+        "{}: gaits.{}.parameters: the stride ({:.3f} m, {:.3f} m, {:.3f} rad) is not possible: {}",
+        robot.file.string(), stance.gait->name, displacement.x, displacement.y, displacement.yaw,
+        error.what()));
+  }
+  return volume;
+}
+
+/// Whether one box around both holds little more than they do. Empty ones add nothing.
+bool AddsLittle(const AlignedBox3d& a, const AlignedBox3d& b) {
+  if (a.isEmpty() || b.isEmpty()) return true;
+  return a.merged(b).volume() <= (1 + kMergeSlack) * (a.volume() + b.volume());
+}
+
 }  // namespace
 
 void SweptVolume::Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
@@ -83,46 +108,71 @@ void SweptVolume::Add(const models::RobotModel& robot, const std::vector<Eigen::
   }
 }
 
+void SweptVolume::Add(const SweptVolume& other) {
+  if (other.slabs_.size() > slabs_.size()) slabs_.resize(other.slabs_.size());
+  for (size_t slab = 0; slab < other.slabs_.size(); ++slab) slabs_[slab].extend(other.slabs_[slab]);
+}
+
 std::vector<AlignedBox3d> SweptVolume::Boxes() const {
-  std::vector<AlignedBox3d> boxes;
-  for (const AlignedBox3d& slab : slabs_) {
-    if (slab.isEmpty()) continue;
-    AlignedBox3d grown = slab;
-    grown.min().array() -= kSamplingMargin;
-    grown.max().array() += kSamplingMargin;
-    grown.min().z() = std::max(grown.min().z(), kGroundGap);
-    if (!boxes.empty()) {
-      const AlignedBox3d merged = boxes.back().merged(grown);
-      if (merged.volume() <= (1 + kMergeSlack) * (boxes.back().volume() + grown.volume())) {
-        boxes.back() = merged;
-        continue;
+  return BoxesOf({*this}, {kSamplingMargin}).front();
+}
+
+std::vector<std::vector<AlignedBox3d>> SweptVolume::BoxesOf(const std::vector<SweptVolume>& volumes,
+                                                            const std::vector<double>& margins) {
+  std::vector<std::vector<AlignedBox3d>> boxes(volumes.size());
+  size_t slabs = 0;
+  for (const SweptVolume& volume : volumes) slabs = std::max(slabs, volume.slabs_.size());
+  for (size_t slab = 0; slab < slabs; ++slab) {
+    std::vector<AlignedBox3d> grown;
+    bool merges = slab > 0;
+    for (size_t i = 0; i < volumes.size(); ++i) {
+      grown.push_back(volumes[i].Grown(slab, margins[i]));
+      merges = merges && AddsLittle(boxes[i].back(), grown.back());
+    }
+    for (size_t i = 0; i < volumes.size(); ++i) {
+      if (merges) {
+        boxes[i].back().extend(grown[i]);
+      } else {
+        boxes[i].push_back(grown[i]);
       }
     }
-    boxes.push_back(grown);
+  }
+  for (std::vector<AlignedBox3d>& list : boxes) {
+    std::erase_if(list, [](const AlignedBox3d& box) { return box.isEmpty(); });
   }
   return boxes;
 }
 
-SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stance,
+AlignedBox3d SweptVolume::Grown(size_t slab, double margin) const {
+  AlignedBox3d grown = slab < slabs_.size() ? slabs_[slab] : AlignedBox3d();
+  if (grown.isEmpty()) return grown;
+  grown.min().array() -= margin;
+  grown.max().array() += margin;
+  grown.min().z() = std::max(grown.min().z(), kGroundGap);
+  return grown;
+}
+
+GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
                       const std::function<bool()>& keep_going) {
   const GaitMotion gait(robot, stance);
-  SweptVolume volume;
+  std::vector<SweptVolume> volumes(kStrideClasses.size() + 1);
+  std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
   for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
-    const PlanarPose start;
-    try {
-      SampleMotion(robot, gait.Phases({start, displacement}, 0, 1), stance.q, keep_going,
-                   [&](const std::vector<Eigen::Isometry3d>& X_WL) {
-                     volume.Add(robot, X_WL, GaitMotion::StrideFrame(start, displacement));
-                   });
-    } catch (const MotionError& error) {
-      throw InputError(fmt::format(
-          "{}: gaits.{}.parameters: the stride ({:.3f} m, {:.3f} m, {:.3f} rad) is not possible: "
-          "{}",
-          robot.file.string(), stance.gait->name, displacement.x, displacement.y, displacement.yaw,
-          error.what()));
+    const SweptVolume swept = SweepStride(robot, stance, gait, displacement, keep_going);
+    for (size_t i = 0; i < kStrideClasses.size(); ++i) {
+      if (Includes(kStrideClasses[i], displacement)) volumes[i].Add(swept);
     }
   }
-  return volume;
+  dynamics::TreeKinematics kinematics(robot);
+  kinematics.SetPosition(stance.q);
+  volumes.back().Add(robot, kinematics.X_WL(), PlanarPose());
+  margins.push_back(SweptVolume::kStandingMargin);
+
+  std::vector<std::vector<AlignedBox3d>> boxes = SweptVolume::BoxesOf(volumes, margins);
+  GaitVolumes result;
+  result.standing = std::move(boxes.back());
+  std::move(boxes.begin(), boxes.end() - 1, result.sweeps.begin());
+  return result;
 }
 
 SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMotion& transition) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <functional>
 #include <vector>
 
 #include "actions/gait_motion.h"
 #include "actions/motion_builder.h"
+#include "actions/stride.h"
 #include "actions/transition_motion.h"
 #include "models/robot_model.h"
 
@@ -19,25 +21,48 @@ class SweptVolume {
   /// Added on every side: motions are sampled in time and displacement, the robot moves on between
   /// the samples. The property tests of C_S hold this figure to account.
   static constexpr double kSamplingMargin = 0.005;
+  /// The same for a posture, which does not move.
+  static constexpr double kStandingMargin = 0.002;
   static constexpr double kGroundGap = 0.001;
   static constexpr double kSlabHeight = 0.1;
 
   /// Adds the links at the poses `X_WL`, seen from `frame` on ground of height 0.
   void Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
            const PlanarPose& frame);
+  void Add(const SweptVolume& other);
 
   /// Merges neighbouring slabs where that adds little volume, and adds the sampling margin.
   std::vector<Eigen::AlignedBox3d> Boxes() const;
 
+  /// One list of boxes per volume, with `margins[i]` (m) on every side of volume i. Neighbouring
+  /// slabs are merged in all volumes or in none, so that the boxes of a volume that lies inside
+  /// another one lie inside that one's, too.
+  static std::vector<std::vector<Eigen::AlignedBox3d>> BoxesOf(
+      const std::vector<SweptVolume>& volumes, const std::vector<double>& margins);
+
  private:
+  Eigen::AlignedBox3d Grown(std::size_t slab, double margin) const;
+
   std::vector<Eigen::AlignedBox3d> slabs_;
 };
 
-/// Volume swept by every stride that the gait's bounds allow, in StrideFrame.
+/// What a gait needs room for.
+struct GaitVolumes {
+  /// The nominal posture, in the stance frame.
+  std::vector<Eigen::AlignedBox3d> standing;
+  /// By class: every stride of the class that the bounds allow, in StrideFrame. Each holds
+  /// `standing` wherever it may be moved by half such a stride without a turn.
+  std::array<std::vector<Eigen::AlignedBox3d>, kStrideClasses.size()> sweeps;
+
+  const std::vector<Eigen::AlignedBox3d>& sweep(StrideClass strides) const {
+    return sweeps[static_cast<std::size_t>(strides)];
+  }
+};
+
 /// @throws InputError naming the stride if the robot cannot execute one of the bounds' extremes
 ///   within its limits, without colliding with itself; Abandoned if `keep_going` (may be empty)
 ///   says no.
-SweptVolume SweepGait(const models::RobotModel& robot, const NominalStance& stance,
+GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
                       const std::function<bool()>& keep_going = {});
 
 /// Volume swept by a transition, in the first gait's stance frame.

@@ -5,59 +5,13 @@
 #include <random>
 #include <set>
 
-#include "actions/exploration_pose.h"
-#include "actions/quasi_static_action.h"
-#include "actions/route_motion.h"
 #include "actions/verification_report.h"
-#include "actions/verifier.h"
-#include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/leg_scene.h"
 #include "tests/actions/random_scene.h"
 
 namespace possibility::actions {
 namespace {
-
-/// One random world with its actions.
-class Scene {
- public:
-  Scene(std::mt19937* generator, int obstacles)
-      : environment_(RandomEnvironment(generator, obstacles)),
-        ground_(environment_),
-        world_{&environment_, &ground_} {
-    const auto space =
-        std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_.levels(), 0.137);
-    for (size_t gait = 0; gait < model_.gaits.size(); ++gait) {
-      actions_.push_back(
-          std::make_unique<QuasiStaticAction>(model_, static_cast<int>(gait), world_, space, 0.25));
-    }
-  }
-
-  const QuasiStaticAction& action(int gait) const { return *actions_[gait]; }
-
-  /// What the verifier says of the leg as a whole plan.
-  VerificationReport VerifyLeg(const RouteLeg& leg) const {
-    Plan plan;
-    plan.robot_hash = DrcHubo1().content_hash;
-    for (const models::Joint& joint : DrcHubo1().joints) plan.joints.push_back(joint.name);
-    plan.segments = GenerateMotion(model_, {leg}, 1, {});
-    models::Scenario scenario;
-    scenario.environment = environment_;
-    scenario.start = StanceOf(StartGait(model_, leg), leg.from, leg.z);
-    scenario.goals = {StanceOf(EndGait(model_, leg), leg.to, leg.z)};
-    return Verify(plan, DrcHubo1(), scenario);
-  }
-
- private:
-  models::Stance StanceOf(int gait, const PlanarPose& pose, double z) const {
-    return {model_.gaits[gait]->stance.gait->name, pose.x, pose.y, z, pose.yaw};
-  }
-
-  const LocomotionModel& model_ = DrcHubo1Locomotion();
-  models::Environment environment_;
-  models::GroundMap ground_;
-  World world_;
-  std::vector<std::unique_ptr<QuasiStaticAction>> actions_;
-};
 
 RouteLeg RandomExtension(std::mt19937* generator, int gait) {
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -86,7 +40,7 @@ void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_le
   std::mt19937 generator(seed);
   int verified = 0;
   while (verified < count) {
-    const Scene scene(&generator, 12);
+    const LegScene scene(model, RandomEnvironment(&generator, 12));
     for (int attempt = 0; attempt < 200 && verified < count; ++attempt) {
       const RouteLeg leg = make_leg(&generator);
       const QuasiStaticAction& action = scene.action(EndGait(model, leg));
@@ -107,7 +61,7 @@ void ExpectVerifiedLegsMeetNecessaryConditions(int count, unsigned seed) {
   std::mt19937 generator(seed);
   int verified = 0, beyond_sufficient = 0;
   while (verified < count || beyond_sufficient == 0) {
-    const Scene scene(&generator, 40);
+    const LegScene scene(model, RandomEnvironment(&generator, 40));
     for (int attempt = 0; attempt < 20; ++attempt) {
       const RouteLeg leg = RandomExtension(&generator, attempt % 2);
       if (!scene.VerifyLeg(leg).accepted()) continue;

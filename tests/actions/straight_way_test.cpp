@@ -53,14 +53,17 @@ class StraightWays {
   }
 
   bool StanceBySample(const PlanarPose& pose) const {
-    return environment_.bounds.contains(PointAt(pose).head<2>()) && SampleIsClear(pose, 0, 0);
+    return environment_.bounds.contains(PointAt(pose).head<2>()) && HasRoomToStand(pose);
   }
 
-  /// The rule as it is written: samples in the middle of equal shares, each for what the sweep
-  /// moves by within its share.
+  /// The rule as it is written: samples in the middle of equal shares, the ground each for what the
+  /// sweep moves by within its share, the room in the frames of the strides.
   bool WayBySamples(const PlanarPose& from, const PlanarPose& to) const {
+    if (from.position() == to.position() && from.yaw == to.yaw) return HasRoomToStand(from);
+    const StrideClass strides = ClassOfStrides(from, to);
+    const std::vector<AlignedBox3d>& boxes = volumes().sweep(strides);
     double radius = 0;
-    for (const AlignedBox3d& box : model_.gaits[gait_]->sweep) {
+    for (const AlignedBox3d& box : boxes) {
       const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
       radius = std::max(radius, far.norm());
     }
@@ -68,16 +71,30 @@ class StraightWays {
     const double travel =
         (to.position() - from.position()).norm() + radius * std::abs(WrapAngle(to.yaw - from.yaw));
     const int samples = std::max(1, static_cast<int>(std::ceil(travel / (2 * inflation))));
+    const std::vector<PlanarPose> stances =
+        PlanStrides(model_.gaits[gait_]->stance.gait->parameters, from, to);
+    const double half_stride = KeepsHeading(strides) ? 0.5 / (stances.size() - 1.0) : 0;
     for (int i = 0; i < samples; ++i) {
-      const PlanarPose pose = Interpolate(from, to, (i + 0.5) / samples);
-      if (!SampleIsClear(pose, travel / (2 * samples), inflation)) return false;
+      const double share = (i + 0.5) / samples;
+      const PlanarPose frame = Interpolate(from, to, half_stride + (1 - 2 * half_stride) * share);
+      if (!GroundHolds(Interpolate(from, to, share), travel / (2 * samples))) return false;
+      if (!BoxesAreFree(frame, boxes, Growth(strides))) return false;
     }
     return true;
   }
 
  private:
-  bool SampleIsClear(const PlanarPose& pose, double travel, double inflation) const {
-    return GroundHolds(pose, travel) && BoxesAreFree(pose, inflation);
+  bool HasRoomToStand(const PlanarPose& pose) const {
+    return GroundHolds(pose, 0) && BoxesAreFree(pose, volumes().standing, Vector2d::Zero());
+  }
+
+  const GaitVolumes& volumes() const { return model_.gaits[gait_]->volumes; }
+
+  /// How far strides of the class may move boxes along their axes within a share.
+  static Vector2d Growth(StrideClass strides) {
+    const double inflation = QuasiStaticAction::kEdgeInflation;
+    return {strides == StrideClass::kSideways ? 0 : inflation,
+            strides == StrideClass::kStraight ? 0 : inflation};
   }
 
   bool GroundHolds(const PlanarPose& pose, double clearance) const {
@@ -99,11 +116,12 @@ class StraightWays {
     return true;
   }
 
-  bool BoxesAreFree(const PlanarPose& pose, double inflation) const {
-    for (const AlignedBox3d& box : model_.gaits[gait_]->sweep) {
+  bool BoxesAreFree(const PlanarPose& pose, const std::vector<AlignedBox3d>& boxes,
+                    const Vector2d& growth) const {
+    for (const AlignedBox3d& box : boxes) {
       Isometry3d X_SB = Isometry3d::Identity();
       X_SB.translation() = box.center();
-      const Vector3d size = box.sizes() + Vector3d(2 * inflation, 2 * inflation, 0);
+      const Vector3d size = box.sizes() + 2 * Vector3d(growth.x(), growth.y(), 0);
       if (!checker_.IsFree(models::Shape::Box(size), pose.At(0) * X_SB, 0)) return false;
     }
     return true;
@@ -128,8 +146,13 @@ TEST(StraightWay, AnswersAreThoseOfItsSamples) {
     for (int trial = 0; trial < 40; ++trial) {
       const PlanarPose from = RandomStance(&generator, 3);
       const double reach = trial % 2 == 0 ? 0.3 : 3;
-      const PlanarPose to{from.x + reach * unit(generator), from.y + reach * unit(generator),
-                          from.yaw + (trial % 3 == 0 ? 0 : 3 * unit(generator))};
+      PlanarPose displacement{reach * unit(generator), reach * unit(generator),
+                              3 * unit(generator)};
+      const StrideClass strides = kStrideClasses[trial % kStrideClasses.size()];
+      if (!Includes(strides, {1, 0, 0})) displacement.x = 0;
+      if (!Includes(strides, {0, 1, 0})) displacement.y = 0;
+      if (!Includes(strides, {0, 0, 1})) displacement.yaw = 0;
+      const PlanarPose to = from * displacement;
       const bool by_samples = ways.WayBySamples(from, to);
       EXPECT_EQ(ways.action().IsClear(ways.At(from), ways.At(to)), by_samples);
       const bool ends = ways.StanceBySample(from) && ways.StanceBySample(to);

@@ -29,12 +29,12 @@ models::Environment Corridor(double width) {
   return environment;
 }
 
-/// The narrowest that walking fits through, whatever it heads for.
-double NarrowestWalk() {
+/// The narrowest that the walker fits through, whatever it heads for.
+double NarrowestStance() {
   double narrowest = std::numeric_limits<double>::infinity();
   for (double yaw = 0; yaw < std::numbers::pi; yaw += 0.001) {
     double least = 0, most = 0;
-    for (const Eigen::AlignedBox3d& box : DrcHubo1Locomotion().gaits[0]->sweep) {
+    for (const Eigen::AlignedBox3d& box : DrcHubo1Locomotion().gaits[0]->volumes.standing) {
       for (const double x : {box.min().x(), box.max().x()}) {
         for (const double y : {box.min().y(), box.max().y()}) {
           const double across = std::sin(yaw) * x + std::cos(yaw) * y;
@@ -58,7 +58,7 @@ bool MayPass(double width, int halvings) {
 }
 
 TEST(SufficientFlood, HalvedCellsTellHowNarrowACorridorMayBe) {
-  const double narrowest = NarrowestWalk();
+  const double narrowest = NarrowestStance();
   EXPECT_TRUE(MayPass(narrowest + 0.01, 0));
   EXPECT_TRUE(MayPass(narrowest + 0.01, 3));
   EXPECT_TRUE(MayPass(narrowest - 0.1, 0));
