@@ -18,13 +18,14 @@ namespace {
 
 // How far a motion may depart between two samples from the straight line between them: there are
 // as many samples as this takes.
-constexpr double kPointResolution = 1e-4;       // m, of bearing points
-constexpr double kPointSpeedResolution = 5e-4;  // m/s, likewise
-constexpr double kForceResolution = 0.01;       // of the weight (N; N m over 1 m), on the root
-constexpr double kTorqueResolution = 0.01;      // of each joint's effort limit
+constexpr double kPointResolution = 1e-4;        // m, of bearing points
+constexpr double kPointSpeedResolution = 5e-4;   // m/s, likewise
+constexpr double kForceResolution = 0.01;        // of the weight (N; N m over 1 m), on the root
+constexpr double kTorqueResolution = 0.01;       // of each joint's effort limit, but at least
+constexpr double kLeastTorqueResolution = 1e-5;  // of the weight (N; N m over 1 m)
 /// Beyond so many samples between two knots a few are looked at before all.
 constexpr int kManySteps = 64;
-/// Forces that take more samples than this between two knots are a thousand times the weight.
+/// Forces that take more samples than this between two knots are thousands of times the weight.
 constexpr int kMostSteps = 2000;
 
 /// A run of knot intervals of one phase: what a thread takes at a time. The division does not
@@ -169,10 +170,9 @@ class Worker {
                              bounds_.force_change() / (kForceResolution * weight_),
                              bounds_.moment_change() / (kForceResolution * weight_)});
     for (int j = 0; j < subject_->robot.num_joints(); ++j) {
-      const double effort = subject_->robot.joints[j].effort;
-      if (effort > 0) {
-        ratio = std::max(ratio, bounds_.JointTorqueChange(j) / (kTorqueResolution * effort));
-      }
+      const double wanted = std::max(kTorqueResolution * subject_->robot.joints[j].effort,
+                                     kLeastTorqueResolution * weight_);
+      ratio = std::max(ratio, bounds_.JointTorqueChange(j) / wanted);
     }
     return ratio;
   }

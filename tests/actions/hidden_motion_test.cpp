@@ -225,6 +225,18 @@ TEST(HiddenMotion, CornersThatBearByTurnsDoNotGlide) {
   }
 }
 
+/// A jump of velocity at every other knot, explained by impulses of soles that stand on the ground
+/// already.
+TEST(HiddenMotion, AnImpactNeedsSomethingThatComesDown) {
+  VerifierSubject subject = ValidSubject();
+  CutAtEveryKnot(&subject.plan);
+  std::vector<Phase*> phases = PhasesOf(&subject.plan);
+  for (std::size_t i = 1; i < phases.size(); i += 2) {
+    phases[i]->impulses = Matrix3Xd::Zero(3, phases[i]->knots.front().forces.cols());
+  }
+  ExpectRefused(subject, ViolationKind::kImpact);
+}
+
 /// A hop is one motion, however its phases are shared out among segments.
 TEST(HiddenMotion, AHopInPiecesIsSimulatedAsOne) {
   VerifierSubject subject = testing::HopPlan(DrcHubo1().file.string());
