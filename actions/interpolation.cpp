@@ -163,6 +163,22 @@ Knot KnotInterpolant::At(double t) const {
   return knot;
 }
 
+KnotInterpolant::Coefficients KnotInterpolant::ControlPoints() const {
+  // s^i is the sum over j of binomial(j, i) / binomial(5, i) times the j-th Bernstein polynomial.
+  static const Eigen::Matrix<double, 6, 6> kBernsteinOfPowers = [] {
+    Eigen::Matrix<double, 6, 6> matrix;
+    for (int i = 0; i < 6; ++i) {
+      double entry = 1;  // binomial(j, i) / binomial(5, i), from j = 5 downwards
+      for (int j = 5; j >= 0; --j) {
+        matrix(i, j) = entry;
+        if (j > 0) entry *= static_cast<double>(j - i) / j;
+      }
+    }
+    return matrix;
+  }();
+  return c_ * kBernsteinOfPowers;
+}
+
 Knot Interpolate(const Knot& k0, const Knot& k1, double t) { return KnotInterpolant(k0, k1).At(t); }
 
 }  // namespace possibility::actions

@@ -21,12 +21,19 @@ class KnotInterpolant {
   /// @throws std::invalid_argument if sizes disagree or k1.t <= k0.t.
   KnotInterpolant(const Knot& k0, const Knot& k1);
 
+  using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
   /// `t` is clamped to [k0.t, k1.t]; at both ends the knots themselves are returned.
   Knot At(double t) const;
 
- private:
-  using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+  double start() const { return k0_->t; }  ///< s
+  double duration() const { return h_; }   ///< s
 
+  /// Bernstein coefficients over [k0.t, k1.t] of what the knots are interpolated by: rotation
+  /// vector (3 rows), root position (3), joints. No value is outside of its row's coefficients.
+  Coefficients ControlPoints() const;
+
+ private:
   const Knot* k0_;
   const Knot* k1_;
   double h_;

@@ -214,10 +214,11 @@ bool RolloutDrift::follows() const {
          end_orientation <= kRolloutOrientation && (!ends_at_rest || end_speed <= kRolloutSpeed);
 }
 
+bool IsDynamic(const Phase& phase) { return phase.contacts.empty() || phase.impulses.cols() > 0; }
+
 bool IsDynamic(const Segment& segment) {
-  return std::any_of(segment.phases.begin(), segment.phases.end(), [](const Phase& phase) {
-    return phase.contacts.empty() || phase.impulses.cols() > 0;
-  });
+  return std::any_of(segment.phases.begin(), segment.phases.end(),
+                     [](const Phase& phase) { return IsDynamic(phase); });
 }
 
 RolloutDrift RollOutSegment(const Segment& segment, const models::RobotModel& robot,

@@ -42,7 +42,8 @@ inline constexpr double kRolloutPosition = 0.05;    // m
 inline constexpr double kRolloutOrientation = 0.1;  // rad
 inline constexpr double kRolloutSpeed = 0.05;       // m/s and rad/s
 
-/// Whether a segment needs more than standing on something all the time: flight or impacts.
+/// Whether a motion needs more than standing on something all the time: flight or impacts.
+bool IsDynamic(const Phase& phase);
 bool IsDynamic(const Segment& segment);
 
 /// Simulates the robot from the state in which `segment` begins, with the plan's torques and

@@ -26,7 +26,7 @@ std::string Line(const Violation& violation) {
   return line + "\n";
 }
 
-std::string Line(const SegmentRollout& rollout) {
+std::string Line(const StretchRollout& rollout) {
   const RolloutDrift& drift = rollout.drift;
   std::string line = fmt::format("  simulated segment {} ({:.3f} to {:.3f} s): ", rollout.segment,
                                  drift.start, drift.end);
@@ -38,10 +38,11 @@ std::string Line(const SegmentRollout& rollout) {
                     drift.end_position, drift.end_orientation);
 }
 
-nlohmann::ordered_json ToJson(const SegmentRollout& rollout) {
+nlohmann::ordered_json ToJson(const StretchRollout& rollout) {
   const RolloutDrift& drift = rollout.drift;
   nlohmann::ordered_json json;
   json["segment"] = rollout.segment;
+  json["last_segment"] = rollout.last_segment;
   json["start_s"] = drift.start;
   json["end_s"] = drift.end;
   json["worst_position_m"] = drift.worst_position;
@@ -61,8 +62,12 @@ std::string FormatText(const VerificationReport& report) {
   std::string text = fmt::format("{}: {} samples at most {:.3g} ms apart, checked in {:.2f} s\n",
                                  report.accepted() ? "accepted" : "rejected", report.samples,
                                  1e3 * report.resolution, report.seconds);
+  if (report.force_resolution > 0) {
+    text += fmt::format("  between samples within {:.2g} m and {:.2g} N of a straight line\n",
+                        report.position_resolution, report.force_resolution);
+  }
   for (const Violation& violation : report.violations) text += Line(violation);
-  for (const SegmentRollout& rollout : report.rollouts) text += Line(rollout);
+  for (const StretchRollout& rollout : report.rollouts) text += Line(rollout);
   return text;
 }
 
@@ -71,6 +76,8 @@ std::string FormatJson(const VerificationReport& report) {
   json["accepted"] = report.accepted();
   json["samples"] = report.samples;
   json["resolution_s"] = report.resolution;
+  json["resolution_m"] = report.position_resolution;
+  json["resolution_n"] = report.force_resolution;
   json["seconds"] = report.seconds;
   json["violations"] = nlohmann::ordered_json::array();
   for (const Violation& violation : report.violations) {
@@ -85,7 +92,7 @@ std::string FormatJson(const VerificationReport& report) {
     json["violations"].push_back(std::move(entry));
   }
   if (!report.rollouts.empty()) json["rollout"] = nlohmann::ordered_json::array();
-  for (const SegmentRollout& rollout : report.rollouts) json["rollout"].push_back(ToJson(rollout));
+  for (const StretchRollout& rollout : report.rollouts) json["rollout"].push_back(ToJson(rollout));
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -48,18 +48,23 @@ struct Violation {
   std::string unit;  ///< empty if the violation has no measure
 };
 
-/// What became of a segment with flight or impacts in a simulation.
-struct SegmentRollout {
-  int segment = 0;  ///< index
+/// What became of a stretch of motion with flight or impacts in a simulation.
+struct StretchRollout {
+  int segment = 0;       ///< index of the first
+  int last_segment = 0;  ///< index
   RolloutDrift drift;
 };
 
 struct VerificationReport {
   std::vector<Violation> violations;  ///< at most one (the worst) of each kind; empty: accepted
-  /// By dynamic segment, in order. Empty if something else is wrong with the plan.
-  std::vector<SegmentRollout> rollouts;
+  /// By dynamic stretch, in order. Empty if something else is wrong with the plan.
+  std::vector<StretchRollout> rollouts;
   std::int64_t samples = 0;
   double resolution = 0;  ///< s, largest time between samples
+  /// Bounds on how far anything departs between two samples from the straight line between them:
+  /// bearing points (m), and joint torques and the wrench on the root (N; N m, over 1 m).
+  double position_resolution = 0;
+  double force_resolution = 0;
   double seconds = 0;
   bool abandoned = false;  ///< VerifierSettings::keep_going said so
   bool accepted() const { return violations.empty() && !abandoned; }
@@ -69,8 +74,8 @@ struct VerifierSettings {
   /// Asked now and then, from any thread, with the fraction done; false abandons the rest. May be
   /// empty.
   std::function<bool(double)> keep_going;
-  double resolution = 0.005;  ///< s
-  /// Whether segments with flight or impacts are simulated, too: seconds for each.
+  double resolution = 0.005;  ///< s, at most; wild motions are looked at more closely
+  /// Whether stretches with flight or impacts are simulated, too: seconds for each.
   bool simulates = true;
   int threads = 1;  ///< samples are independent; the report does not depend on it
 };
@@ -78,7 +83,7 @@ struct VerifierSettings {
 /// Re-derives from the plan, the robot and the scenario alone that the plan can be executed.
 /// Never uses the planner's constraint functions: its own sampling, exact geometry, Simbody
 /// inverse dynamics. If the plan's structure is broken, or the robot or scenario do not fit its
-/// sizes, only kFileMismatch and kStructure are looked at. Segments with flight or impacts are
+/// sizes, only kFileMismatch and kStructure are looked at. Stretches with flight or impacts are
 /// simulated if nothing else is wrong.
 /// @throws std::invalid_argument if the resolution or the number of threads is not positive;
 ///   InputError if the scenario names an action for which the robot has no gait.

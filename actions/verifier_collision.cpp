@@ -12,9 +12,9 @@ using models::Proximity;
 
 constexpr double kTolerance = 1e-4;        // m, the checker's accuracy
 constexpr double kGroundTolerance = 1e-3;  // m, of links that bear, against ground
-/// m/s: how much faster than at both ends of an interval a link may be inside it. Holds while
-/// jerks stay below 8 kSpeedAllowance / interval^2, 3200 m/s^3 at 5 ms.
-constexpr double kSpeedAllowance = 0.01;
+/// m/s: how much faster a link is thought to be soon. If it is faster, pairs that come near are
+/// found by subdivision.
+constexpr double kSpeedAllowance = 0.05;
 
 double DistanceIn(const std::vector<Proximity>& proximities, const Proximity& pair,
                   double threshold) {
@@ -33,19 +33,21 @@ bool MayOverlap(double d0, double d1, double travel, double tolerance) {
   return (d0 + d1 - travel) / 2 < -tolerance;
 }
 
-/// Whether pairs that are listed at neither end, for being farther apart than what the state there
-/// suggested, may overlap after all: only if the robot speeds up much within the interval.
-bool UnlistedMayOverlap(const VerifierState& s0, const CollisionSnapshot& c0,
-                        const VerifierState& s1, const CollisionSnapshot& c1) {
-  const double interval = s1.knot.t - s0.knot.t;
-  const double speed = std::max(s0.max_speed, s1.max_speed);
-  return MayOverlap(c0.environment_threshold, c1.environment_threshold,
-                    (speed + kSpeedAllowance) * interval, kTolerance) ||
-         MayOverlap(c0.self_threshold, c1.self_threshold, (2 * speed + kSpeedAllowance) * interval,
-                    kTolerance);
-}
-
 }  // namespace
+
+/// Two instants and what is known of the time between. A vector is there within h^2 / 8 times its
+/// second derivative of the line between its values at the ends, and so is no longer than the
+/// longer of them and that.
+struct CollisionVerifier::Between {
+  const VerifierState& s0;
+  const VerifierState& s1;
+  const DerivativeBounds& bounds;
+  double interval = s1.knot.t - s0.knot.t;
+
+  double Bulge(double second_derivative) const {
+    return interval * interval / 8 * second_derivative;
+  }
+};
 
 CollisionVerifier::CollisionVerifier(const models::RobotModel& robot,
                                      const models::Environment& environment,
@@ -60,7 +62,7 @@ CollisionVerifier::CollisionVerifier(const models::RobotModel& robot,
 
 CollisionSnapshot CollisionVerifier::Check(const VerifierState& state, double interval,
                                            const Instant& at, ViolationLog* log) {
-  const double travel = (1.1 * state.max_speed + 5 * kSpeedAllowance) * interval;
+  const double travel = (1.1 * state.max_speed + kSpeedAllowance) * interval;
   CollisionSnapshot snapshot;
   snapshot.environment_threshold = travel / 2;
   snapshot.self_threshold = travel;
@@ -84,29 +86,40 @@ CollisionSnapshot CollisionVerifier::Check(const VerifierState& state, double in
 }
 
 bool CollisionVerifier::NeedsSubdivision(const VerifierState& s0, const CollisionSnapshot& c0,
-                                         const VerifierState& s1,
-                                         const CollisionSnapshot& c1) const {
-  const double interval = s1.knot.t - s0.knot.t;
+                                         const VerifierState& s1, const CollisionSnapshot& c1,
+                                         const DerivativeBounds& bounds) const {
+  const Between between{s0, s1, bounds};
   const auto environment_needs = [&](const Proximity& pair) {
-    const double speed = std::max(EnvironmentSpeed(s0, pair.link), EnvironmentSpeed(s1, pair.link));
     return MayOverlap(DistanceIn(c0.environment, pair, c0.environment_threshold),
                       DistanceIn(c1.environment, pair, c1.environment_threshold),
-                      (speed + kSpeedAllowance) * interval,
+                      LinkSpeed(between, pair.link) * between.interval,
                       EnvironmentTolerance(pair.link, pair.other));
   };
   const auto self_needs = [&](const Proximity& pair) {
-    const double speed =
-        std::max(SelfSpeed(s0, pair.link, pair.other), SelfSpeed(s1, pair.link, pair.other));
     return MayOverlap(DistanceIn(c0.self, pair, c0.self_threshold),
                       DistanceIn(c1.self, pair, c1.self_threshold),
-                      (speed + kSpeedAllowance) * interval, kTolerance);
+                      SelfSpeed(between, pair.link, pair.other) * between.interval, kTolerance);
   };
   const auto any = [](const auto& pairs, const auto& needs) {
     return std::any_of(pairs.begin(), pairs.end(), needs);
   };
-  return UnlistedMayOverlap(s0, c0, s1, c1) || any(c0.environment, environment_needs) ||
+  return UnlistedMayOverlap(between, c0, c1) || any(c0.environment, environment_needs) ||
          any(c1.environment, environment_needs) || any(c0.self, self_needs) ||
          any(c1.self, self_needs);
+}
+
+/// Whether pairs that are listed at neither end, for being farther apart than what the state there
+/// suggested, may overlap after all: only if the robot speeds up much within the interval.
+bool CollisionVerifier::UnlistedMayOverlap(const Between& between, const CollisionSnapshot& c0,
+                                           const CollisionSnapshot& c1) const {
+  double bulge = 0;
+  for (int link = 0; link < robot_->num_links(); ++link) {
+    bulge = std::max(bulge, between.bounds.Point(link, (*link_radii_)[link], 3));
+  }
+  const double speed = std::max(between.s0.max_speed, between.s1.max_speed) + between.Bulge(bulge);
+  return MayOverlap(c0.environment_threshold, c1.environment_threshold, speed * between.interval,
+                    kTolerance) ||
+         MayOverlap(c0.self_threshold, c1.self_threshold, 2 * speed * between.interval, kTolerance);
 }
 
 double CollisionVerifier::EnvironmentTolerance(int link, int obstacle) const {
@@ -114,19 +127,41 @@ double CollisionVerifier::EnvironmentTolerance(int link, int obstacle) const {
                                                                              : kTolerance;
 }
 
-double CollisionVerifier::EnvironmentSpeed(const VerifierState& state, int link) const {
-  return state.v_WL[link].norm() + state.w_WL[link].norm() * (*link_radii_)[link];
+/// Bound on the speed of any point of a link.
+double CollisionVerifier::LinkSpeed(const Between& between, int link) const {
+  const double radius = (*link_radii_)[link];
+  const auto speed = [&](const VerifierState& state) {
+    return state.v_WL[link].norm() + state.w_WL[link].norm() * radius;
+  };
+  const double from_ends = std::max(speed(between.s0), speed(between.s1)) +
+                           between.Bulge(between.bounds.Point(link, radius, 3));
+  return std::min(from_ends, between.bounds.Point(link, radius, 1));
 }
 
 /// Bound on the speed of any point of one link as seen from the other: the best of three.
-double CollisionVerifier::SelfSpeed(const VerifierState& state, int link, int other) const {
-  const auto seen_from = [&](int a, int b) {
-    const Vector3d arm = state.X_WL[b].translation() - state.X_WL[a].translation();
-    return (state.v_WL[b] - state.v_WL[a] - state.w_WL[a].cross(arm)).norm() +
-           (state.w_WL[b] - state.w_WL[a]).norm() * (*link_radii_)[b];
+double CollisionVerifier::SelfSpeed(const Between& between, int link, int other) const {
+  return std::min({SeenFrom(between, link, other), SeenFrom(between, other, link),
+                   LinkSpeed(between, link) + LinkSpeed(between, other)});
+}
+
+double CollisionVerifier::SeenFrom(const Between& between, int link, int other) const {
+  const double radius = (*link_radii_)[other];
+  const auto arm = [&](const VerifierState& state) -> Vector3d {
+    return state.X_WL[other].translation() - state.X_WL[link].translation();
   };
-  return std::min({seen_from(link, other), seen_from(other, link),
-                   EnvironmentSpeed(state, link) + EnvironmentSpeed(state, other)});
+  const auto speed = [&](const VerifierState& state) {
+    return (state.v_WL[other] - state.v_WL[link] - state.w_WL[link].cross(arm(state))).norm() +
+           (state.w_WL[other] - state.w_WL[link]).norm() * radius;
+  };
+  const DerivativeBounds& bounds = between.bounds;
+  const Derivatives& turning = bounds.Rotation(link);
+  const auto apart = [&](int k) { return bounds.Origin(link)[k] + bounds.Origin(other)[k]; };
+  const double farthest =
+      std::max(arm(between.s0).norm(), arm(between.s1).norm()) + between.interval * apart(1);
+  const double second_derivative = apart(3) + turning[3] * farthest + 2 * turning[2] * apart(1) +
+                                   turning[1] * apart(2) +
+                                   (turning[3] + bounds.Rotation(other)[3]) * radius;
+  return std::max(speed(between.s0), speed(between.s1)) + between.Bulge(second_derivative);
 }
 
 }  // namespace possibility::actions

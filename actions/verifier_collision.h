@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "actions/derivative_bounds.h"
 #include "actions/verifier_log.h"
 #include "actions/verifier_state.h"
 #include "models/collision.h"
@@ -30,15 +31,21 @@ class CollisionVerifier {
                           ViolationLog* log);
 
   /// Whether some pair might overlap between two instants at neither of which it does: its
-  /// distances there are not large enough for how fast it moves.
+  /// distances there are not large enough for how fast it moves. `bounds`: of a time that holds
+  /// both.
   bool NeedsSubdivision(const VerifierState& s0, const CollisionSnapshot& c0,
-                        const VerifierState& s1, const CollisionSnapshot& c1) const;
+                        const VerifierState& s1, const CollisionSnapshot& c1,
+                        const DerivativeBounds& bounds) const;
 
  private:
   /// Penetration that is let pass between a link and an obstacle, m.
   double EnvironmentTolerance(int link, int obstacle) const;
-  double EnvironmentSpeed(const VerifierState& state, int link) const;
-  double SelfSpeed(const VerifierState& state, int link, int other) const;
+  struct Between;
+  double LinkSpeed(const Between& between, int link) const;
+  double SelfSpeed(const Between& between, int link, int other) const;
+  double SeenFrom(const Between& between, int link, int other) const;
+  bool UnlistedMayOverlap(const Between& between, const CollisionSnapshot& c0,
+                          const CollisionSnapshot& c1) const;
 
   const models::RobotModel* robot_;
   const models::Environment* environment_;

@@ -35,16 +35,19 @@ void FoldMimics(const models::RobotModel& robot, VectorXd* rows) {
   }
 }
 
+/// `sum`: by row, of this impact and those before it.
 void CheckEquation(const Impact& impact, const MatrixXd& mass, const models::RobotModel& robot,
-                   const dynamics::SimbodyDynamics& dynamics, double weight, ViolationLog* log) {
+                   const dynamics::SimbodyDynamics& dynamics, double weight, VectorXd* sum,
+                   ViolationLog* log) {
   VectorXd rest = mass * (impact.after.v - impact.v_before);
   for (std::size_t i = 0; i < impact.contacts.points.size(); ++i) {
     const BearingPoint& point = impact.contacts.points[i];
     rest -= dynamics.PointJacobian(point.link, point.p_L).transpose() * impact.impulses.col(i);
   }
   FoldMimics(robot, &rest);
+  *sum += rest.cwiseAbs();
   for (Eigen::Index row = 0; row < rest.size(); ++row) {
-    log->RequireAtMost(ViolationKind::kImpact, impact.at, std::abs(rest[row]), 0,
+    log->RequireAtMost(ViolationKind::kImpact, impact.at, (*sum)[row], 0,
                        kEquationTolerance * weight, "N s or N m s", [&] {
                          const std::string name =
                              row < 6 ? std::string("root") : robot.joints[row - 6].name;
@@ -64,12 +67,21 @@ void CheckImpulse(const Vector3d& impulse, const BearingPoint& point,
                      [&] { return NameOf(robot, point) + " tangential impulse"; });
 }
 
+/// What impacts are let pass adds up over the plan: a little at every phase would carry a robot.
+struct ImpactSums {
+  VectorXd rest;          ///< nv, momentum that the impulses do not explain, N s or N m s
+  double energy_won = 0;  ///< J
+};
+
 void CheckImpact(const Impact& impact, const models::RobotModel& robot, StateEvaluator* evaluator,
-                 ViolationLog* log) {
+                 ImpactSums* sums, ViolationLog* log) {
   const double weight = robot.TotalMass() * dynamics::kGravity;
+  if (!impact.contacts.lands) {
+    log->Report(ViolationKind::kImpact, impact.at, "impact in which nothing comes down");
+  }
   const VerifierState state = evaluator->Evaluate(impact.after);
   const MatrixXd mass = evaluator->dynamics().MassMatrix();
-  CheckEquation(impact, mass, robot, evaluator->dynamics(), weight, log);
+  CheckEquation(impact, mass, robot, evaluator->dynamics(), weight, &sums->rest, log);
   for (std::size_t i = 0; i < impact.contacts.points.size(); ++i) {
     const BearingPoint& point = impact.contacts.points[i];
     CheckImpulse(impact.impulses.col(i), point, robot, weight, impact.at, log);
@@ -79,7 +91,8 @@ void CheckImpact(const Impact& impact, const models::RobotModel& robot, StateEva
   }
   const double before = 0.5 * impact.v_before.dot(mass * impact.v_before);
   const double after = 0.5 * impact.after.v.dot(mass * impact.after.v);
-  log->RequireAtMost(ViolationKind::kImpact, impact.at, after - before, 0,
+  sums->energy_won += std::max(after - before, 0.0);
+  log->RequireAtMost(ViolationKind::kImpact, impact.at, sums->energy_won, 0,
                      kEnergyTolerance * weight, "J",
                      [] { return std::string("kinetic energy won in an impact"); });
 }
@@ -89,6 +102,7 @@ void CheckImpact(const Impact& impact, const models::RobotModel& robot, StateEva
 void CheckImpacts(const Plan& plan, const models::RobotModel& robot,
                   const std::vector<PhaseContacts>& contacts, StateEvaluator* evaluator,
                   ViolationLog* log) {
+  ImpactSums sums{VectorXd::Zero(robot.nv())};
   const Knot* before = nullptr;
   std::size_t index = 0;
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
@@ -97,7 +111,7 @@ void CheckImpacts(const Plan& plan, const models::RobotModel& robot,
       if (phase.impulses.cols() > 0 && before != nullptr) {
         const Impact impact{
             before->v, after, contacts[index], phase.impulses, {static_cast<int>(s), after.t}};
-        CheckImpact(impact, robot, evaluator, log);
+        CheckImpact(impact, robot, evaluator, &sums, log);
       }
       before = &phase.knots.back();
       ++index;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "actions/interpolation.h"
 #include "actions/verifier_log.h"
 #include "models/robot_model.h"
 
@@ -9,16 +10,16 @@ namespace possibility::actions {
 /// the work of looking between samples grows with speed.
 inline constexpr double kLargestRootSpeed = 20;
 
-/// Whether root and joints are as slow as they have to be.
-bool IsWithinSpeedLimits(const Knot& knot, const models::RobotModel& robot);
+/// Positions and speeds of all joints and the speed of the root against their limits, at all times
+/// between the knots of `interpolant`, not only at samples: from the extrema of its polynomials.
+/// Returns whether all speeds are within their limits. `segment` is to blame.
+bool CheckJointLimits(const KnotInterpolant& interpolant, const models::RobotModel& robot,
+                      int segment, ViolationLog* log);
 
-/// Positions and speeds of all joints against their limits, and the speed of the root.
-void CheckJointLimits(const Knot& knot, const models::RobotModel& robot, const Instant& at,
-                      ViolationLog* log);
-
-/// Positions, speeds and accelerations of mimic joints against what follows from their masters.
-void CheckJointCouplings(const Knot& knot, const models::RobotModel& robot, const Instant& at,
-                         ViolationLog* log);
+/// Positions, speeds and accelerations of mimic joints against what follows from their masters,
+/// likewise.
+void CheckJointCouplings(const KnotInterpolant& interpolant, const models::RobotModel& robot,
+                         int segment, ViolationLog* log);
 
 /// `tau` (num_joints) against the effort limits; a master bears its mimics' torques as well.
 void CheckTorqueLimits(const Eigen::VectorXd& tau, const models::RobotModel& robot,

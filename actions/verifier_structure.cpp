@@ -10,11 +10,13 @@
 namespace possibility::actions {
 namespace {
 
+using Eigen::VectorXd;
+
 constexpr double kTimeTolerance = 1e-9;   // s
 constexpr double kLongestInterval = 1.0;  // s, between two knots
 constexpr double kQuaternionTolerance = 1e-6;
 constexpr double kLargestNumber = 1e6;  // SI, of q, v, a, tau, forces and impulses
-constexpr double kContinuity = 1e-6;    // m, rad, m/s, rad/s
+constexpr double kContinuity = 1e-6;    // m, rad, m/s, rad/s, over the whole plan
 
 /// Thrown out of the walk through the plan: one structural fault is enough.
 struct Fault {
@@ -102,34 +104,61 @@ auto Jumps(const std::string& what) {
   return [what] { return what + " jumps between phases"; };
 }
 
-void CheckSamePosition(const Knot& before, const Knot& after, const models::RobotModel& robot,
-                       const Instant& at, ViolationLog* log) {
-  const Eigen::Quaterniond R0(before.q[0], before.q[1], before.q[2], before.q[3]);
-  const Eigen::Quaterniond R1(after.q[0], after.q[1], after.q[2], after.q[3]);
-  log->RequireAtMost(ViolationKind::kPositionContinuity, at, R0.angularDistance(R1), 0, kContinuity,
-                     "rad", Jumps("root orientation"));
-  log->RequireAtMost(ViolationKind::kPositionContinuity, at,
-                     (after.q - before.q).segment<3>(4).norm(), 0, kContinuity, "m",
-                     Jumps("root position"));
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    log->RequireAtMost(ViolationKind::kPositionContinuity, at,
-                       std::abs(after.q[7 + j] - before.q[7 + j]), 0, kContinuity, "rad",
-                       Jumps(robot.joints[j].name));
-  }
-}
+/// What phases and segments do not agree about, added up over the plan: a jump below the tolerance
+/// at every phase would carry a robot anywhere.
+class Jumped {
+ public:
+  explicit Jumped(const models::RobotModel& robot)
+      : robot_(robot),
+        position_(VectorXd::Zero(robot.num_joints())),
+        velocity_(VectorXd::Zero(robot.num_joints())) {}
 
-void CheckSameVelocity(const Knot& before, const Knot& after, const models::RobotModel& robot,
-                       const Instant& at, ViolationLog* log) {
-  const Eigen::VectorXd dv = after.v - before.v;
-  log->RequireAtMost(ViolationKind::kVelocityContinuity, at, dv.head<3>().norm(), 0, kContinuity,
-                     "rad/s", Jumps("root angular velocity"));
-  log->RequireAtMost(ViolationKind::kVelocityContinuity, at, dv.segment<3>(3).norm(), 0,
-                     kContinuity, "m/s", Jumps("root velocity"));
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    log->RequireAtMost(ViolationKind::kVelocityContinuity, at, std::abs(dv[6 + j]), 0, kContinuity,
-                       "rad/s", Jumps(robot.joints[j].name + " speed"));
+  void AddPosition(const Knot& before, const Knot& after, const Instant& at, ViolationLog* log) {
+    const Eigen::Quaterniond R0(before.q[0], before.q[1], before.q[2], before.q[3]);
+    const Eigen::Quaterniond R1(after.q[0], after.q[1], after.q[2], after.q[3]);
+    root_.turned += R0.angularDistance(R1);
+    root_.moved += (after.q - before.q).segment<3>(4).norm();
+    position_ += (after.q - before.q).tail(robot_.num_joints()).cwiseAbs();
+    const auto require = [&](double sum, const char* unit, const std::string& what) {
+      log->RequireAtMost(ViolationKind::kPositionContinuity, at, sum, 0, kContinuity, unit,
+                         Jumps(what));
+    };
+    require(root_.turned, "rad", "root orientation");
+    require(root_.moved, "m", "root position");
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      require(position_[j], "rad", robot_.joints[j].name);
+    }
   }
-}
+
+  void AddVelocity(const Knot& before, const Knot& after, const Instant& at, ViolationLog* log) {
+    const VectorXd dv = after.v - before.v;
+    root_.angular_velocity += dv.head<3>().norm();
+    root_.velocity += dv.segment<3>(3).norm();
+    velocity_ += dv.tail(robot_.num_joints()).cwiseAbs();
+    const auto require = [&](double sum, const char* unit, const std::string& what) {
+      log->RequireAtMost(ViolationKind::kVelocityContinuity, at, sum, 0, kContinuity, unit,
+                         Jumps(what));
+    };
+    require(root_.angular_velocity, "rad/s", "root angular velocity");
+    require(root_.velocity, "m/s", "root velocity");
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      require(velocity_[j], "rad/s", robot_.joints[j].name + " speed");
+    }
+  }
+
+ private:
+  struct Root {
+    double turned = 0;            // rad
+    double moved = 0;             // m
+    double angular_velocity = 0;  // rad/s
+    double velocity = 0;          // m/s
+  };
+
+  const models::RobotModel& robot_;
+  Root root_;
+  VectorXd position_;  // by joint, rad or m
+  VectorXd velocity_;  // likewise, rad/s or m/s
+};
 
 }  // namespace
 
@@ -158,14 +187,15 @@ bool CheckStructure(const Plan& plan, const models::RobotModel& robot, Violation
 }
 
 void CheckContinuity(const Plan& plan, const models::RobotModel& robot, ViolationLog* log) {
+  Jumped jumped(robot);
   const Knot* before = nullptr;
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
     for (const Phase& phase : plan.segments[s].phases) {
       const Knot& after = phase.knots.front();
       if (before != nullptr) {
         const Instant at{static_cast<int>(s), after.t};
-        CheckSamePosition(*before, after, robot, at, log);
-        if (phase.impulses.cols() == 0) CheckSameVelocity(*before, after, robot, at, log);
+        jumped.AddPosition(*before, after, at, log);
+        if (phase.impulses.cols() == 0) jumped.AddVelocity(*before, after, at, log);
       }
       before = &phase.knots.back();
     }
