@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "experiments/plan_picture.h"
 #include "experiments/plan_summary.h"
 #include "experiments/run_environment.h"
+#include "experiments/standard_streams.h"
 
 namespace possibility::experiments {
 namespace {
@@ -126,8 +126,7 @@ TrialProgressLine::~TrialProgressLine() {
 void TrialProgressLine::Show(std::size_t done, std::size_t all) const {
   if (!is_terminal_) return;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  fmt::print(stderr, "\r\033[K{}", DescribeTrials(done, all, elapsed.count()));
-  std::fflush(stderr);
+  PrintError("\r\033[K{}", DescribeTrials(done, all, elapsed.count()));
 }
 
 }  // namespace possibility::experiments
