@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "actions/motion_identity.h"
 #include "dynamics/tree_kinematics.h"
+#include "models/atomic_file.h"
 #include "models/file_contents.h"
 #include "models/input_error.h"
 #include "models/json_cursor.h"
@@ -33,18 +33,6 @@ JumpReach OptimisticReach(const JumpModel& model) {
   const double rise = speed * speed / (2 * dynamics::kGravity);
   const double range = speed * speed / dynamics::kGravity + 2 * leg.length;
   return {{{-rise, JumpLibrary::kDistanceStep, range}, {rise, JumpLibrary::kDistanceStep, range}}};
-}
-
-void WriteAtomically(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path partial = file.string() + ".partial";
-  std::ofstream stream(partial, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(partial, file, error);
-  if (!stream || error) {
-    throw InputError(fmt::format("{}: cannot be written", file.string()));
-  }
 }
 
 }  // namespace
@@ -142,7 +130,7 @@ void JumpLibrary::SaveReach(const JumpReach& reach) const {
     rows.push_back({row.height, row.shortest, row.farthest});
   }
   const nlohmann::json document = {{"format", kFormat}, {"identity", identity_}, {"reach", rows}};
-  WriteAtomically(folder_ / kReachFile, document.dump(1) + "\n");
+  models::WriteAtomically(folder_ / kReachFile, document.dump(1) + "\n");
 }
 
 void JumpLibrary::ReadReach() {

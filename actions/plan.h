@@ -125,7 +125,7 @@ Knot Interpolate(const Knot& k0, const Knot& k1, double t);
 
 /// Writes plan.json: one value of the same plan, the same bytes. Numbers of the motion are rounded
 /// to 12 significant digits, so the plan that is read back is the one to verify. The file is
-/// complete or absent: it is written under another name in the same folder and renamed.
+/// complete or absent (models::AtomicFile).
 /// @throws InputError if the file cannot be written; std::invalid_argument if a number is not
 ///   finite.
 void WritePlan(const Plan& plan, const std::filesystem::path& file);

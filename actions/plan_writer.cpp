@@ -1,13 +1,12 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "actions/plan.h"
+#include "models/atomic_file.h"
 #include "models/input_error.h"
 
 namespace possibility::actions {
@@ -195,35 +194,10 @@ std::string Serialise(const Plan& plan, const std::filesystem::path& file) {
   }
 }
 
-[[noreturn]] void FailToWrite(const std::filesystem::path& file, const std::string& reason) {
-  throw InputError(fmt::format("{}: cannot be written ({}), expected a path in a writable folder",
-                               file.string(), reason));
-}
-
 }  // namespace
 
 void WritePlan(const Plan& plan, const std::filesystem::path& file) {
-  const std::string text = Serialise(plan, file);
-  std::filesystem::path partial = file;
-  partial += fmt::format(".{}.partial", ::getpid());
-  std::error_code error;
-  {
-    std::ofstream stream(partial, std::ios::binary);
-    if (!stream) FailToWrite(file, "its folder is missing or read-only");
-    stream << text;
-    stream.flush();
-    if (!stream) {
-      stream.close();
-      std::filesystem::remove(partial, error);
-      FailToWrite(file, "the disk is full");
-    }
-  }
-  std::filesystem::rename(partial, file, error);
-  if (error) {
-    const std::string reason = error.message();
-    std::filesystem::remove(partial, error);
-    FailToWrite(file, reason);
-  }
+  models::WriteAtomically(file, Serialise(plan, file));
 }
 
 }  // namespace possibility::actions

@@ -8,6 +8,7 @@ find_package(fmt REQUIRED)
 find_package(Simbody REQUIRED)
 find_package(CLI11 REQUIRED)
 pkg_check_modules(urdfdom REQUIRED IMPORTED_TARGET urdfdom)
+pkg_check_modules(tinyxml2 REQUIRED IMPORTED_TARGET tinyxml2)
 # find_package(Bullet) would give the single-precision build.
 pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)

@@ -1,13 +1,11 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "collocation/stored_solution.h"
-#include "models/input_error.h"
+#include "models/atomic_file.h"
 
 namespace possibility::collocation {
 namespace {
@@ -86,20 +84,7 @@ Json ToJson(const StoredSolution& solution) {
 void WriteSolution(const std::filesystem::path& file, const StoredSolution& solution) {
   const std::string text =
       ToJson(solution).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
-  // Under another name until it is complete.
-  std::filesystem::path unfinished = file;
-  unfinished += fmt::format(".{}.unfinished", ::getpid());
-  std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(unfinished, file, error);
-  if (!stream || error) {
-    std::filesystem::remove(unfinished, error);
-    throw InputError(fmt::format(
-        "{}: cannot be written, expected a folder that exists, is writable and has space",
-        file.string()));
-  }
+  models::WriteAtomically(file, text);
 }
 
 }  // namespace possibility::collocation

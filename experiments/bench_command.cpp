@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,6 +13,7 @@
 #include "experiments/benchmark.h"
 #include "experiments/commands.h"
 #include "experiments/option_values.h"
+#include "experiments/standard_streams.h"
 #include "models/input_error.h"
 #include "models/nearest_name.h"
 
@@ -62,8 +62,7 @@ const std::map<std::string, Bench>& Benches() {
 /// "round 3 of 15" over and over on stderr, if somebody looks.
 void ShowRound(int round, int rounds) {
   if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\rround {} of {}{}", round, rounds, round == rounds ? "\r\x1b[K" : "");
-  std::fflush(stderr);
+  PrintError("\rround {} of {}{}", round, rounds, round == rounds ? "\r\x1b[K" : "");
 }
 
 ExitCode RunBench(const BenchOptions& options) {
@@ -78,9 +77,9 @@ ExitCode RunBench(const BenchOptions& options) {
   const BenchmarkReport report =
       found->second(options, models::LoadRobotModel(options.robot), &ShowRound);
   if (options.json) {
-    fmt::print("{}\n", report.Json().dump());
+    PrintOut("{}\n", report.Json().dump());
   } else {
-    fmt::print("{}", report.Text());
+    PrintOut("{}", report.Text());
   }
   return kDone;
 }

@@ -8,13 +8,12 @@
 #include <iterator>
 
 #include "actions/contact_name.h"
-#include "dynamics/tree_kinematics.h"
 #include "models/input_error.h"
 
 namespace possibility::experiments {
 namespace {
 
-constexpr double kMaxSamples = 1e7;
+constexpr double kMaxSamples = 1e8;
 constexpr const char* kRootRates[] = {"root_wx", "root_wy", "root_wz",
                                       "root_x",  "root_y",  "root_z"};
 constexpr const char* kRootPose[] = {"root_qw", "root_qx", "root_qy", "root_qz",
@@ -50,20 +49,15 @@ actions::Knot KnotAt(const actions::Phase& phase, double t) {
 
 }  // namespace
 
-std::vector<PlanSample> SamplesAtKnots(const actions::Plan& plan) {
-  std::vector<PlanSample> samples;
+void VisitKnots(const actions::Plan& plan, const VisitSample& visit) {
   for (std::size_t i = 0; i < plan.segments.size(); ++i) {
     for (const actions::Phase& phase : plan.segments[i].phases) {
-      for (const actions::Knot& knot : phase.knots) {
-        samples.push_back({static_cast<int>(i), &phase, knot});
-      }
+      for (const actions::Knot& knot : phase.knots) visit({static_cast<int>(i), &phase, knot});
     }
   }
-  return samples;
 }
 
-std::vector<PlanSample> SamplesEvery(const actions::Plan& plan, double step) {
-  std::vector<PlanSample> samples;
+void VisitEvery(const actions::Plan& plan, double step, const VisitSample& visit) {
   if (plan.duration() / step > kMaxSamples) {
     throw InputError(
         fmt::format("--step: {} s gives over {} rows, expected a longer step", step, kMaxSamples));
@@ -75,51 +69,49 @@ std::vector<PlanSample> SamplesEvery(const actions::Plan& plan, double step) {
     for (const actions::Phase& phase : plan.segments[i].phases) {
       if (last.phase == nullptr) begin = phase.knots.front().t;
       for (double t = begin + index * step; t < phase.knots.back().t; t = begin + index * step) {
-        samples.push_back({static_cast<int>(i), &phase, KnotAt(phase, t)});
+        visit({static_cast<int>(i), &phase, KnotAt(phase, t)});
         ++index;
       }
       last = {static_cast<int>(i), &phase, phase.knots.back()};
     }
   }
-  if (last.phase != nullptr) samples.push_back(last);
-  return samples;
+  if (last.phase != nullptr) visit(last);
 }
 
-std::string TrajectoryCsv(const std::vector<PlanSample>& samples, const actions::Plan& plan,
-                          const models::RobotModel& robot) {
+std::string TrajectoryTable::Header() const {
   std::string text = "t,segment,action";
-  AppendNames("q", kRootPose, robot, &text);
-  AppendNames("v", kRootRates, robot, &text);
-  AppendNames("a", kRootRates, robot, &text);
-  AppendNames("tau", std::initializer_list<const char*>{}, robot, &text);
-  text += "\n";
-  for (const PlanSample& sample : samples) {
-    text += fmt::format("{},{},{}", sample.knot.t, sample.segment,
-                        Field(plan.segments[sample.segment].action));
-    for (const auto* numbers : {&sample.knot.q, &sample.knot.v, &sample.knot.a, &sample.knot.tau}) {
-      AppendNumbers(*numbers, &text);
-    }
-    text += "\n";
-  }
-  return text;
+  AppendNames("q", kRootPose, robot_, &text);
+  AppendNames("v", kRootRates, robot_, &text);
+  AppendNames("a", kRootRates, robot_, &text);
+  AppendNames("tau", std::initializer_list<const char*>{}, robot_, &text);
+  return text + "\n";
 }
 
-std::string ContactForcesCsv(const std::vector<PlanSample>& samples, const actions::Plan& plan,
-                             const models::RobotModel& robot) {
-  std::string text = "t,segment,action,patch,point,x,y,z,fx,fy,fz\n";
-  dynamics::TreeKinematics kinematics(robot);
-  for (const PlanSample& sample : samples) {
-    kinematics.SetPosition(sample.knot.q);
-    Eigen::Index column = 0;
-    for (const actions::BearingPatch& bearing : actions::BearingPatches(robot, *sample.phase)) {
-      const models::ContactPatch& patch = robot.contacts[bearing.patch];
-      for (const int i : bearing.points) {
-        text += fmt::format("{},{},{},{},{}", sample.knot.t, sample.segment,
-                            Field(plan.segments[sample.segment].action), Field(patch.name), i);
-        AppendNumbers(kinematics.Position(patch.link, patch.points[i]), &text);
-        AppendNumbers(sample.knot.forces.col(column++), &text);
-        text += "\n";
-      }
+std::string TrajectoryTable::Rows(const PlanSample& sample) const {
+  std::string text = fmt::format("{},{},{}", sample.knot.t, sample.segment,
+                                 Field(plan_.segments[sample.segment].action));
+  for (const auto* numbers : {&sample.knot.q, &sample.knot.v, &sample.knot.a, &sample.knot.tau}) {
+    AppendNumbers(*numbers, &text);
+  }
+  return text + "\n";
+}
+
+std::string ContactForceTable::Header() const {
+  return "t,segment,action,patch,point,x,y,z,fx,fy,fz\n";
+}
+
+std::string ContactForceTable::Rows(const PlanSample& sample) {
+  std::string text;
+  kinematics_.SetPosition(sample.knot.q);
+  Eigen::Index column = 0;
+  for (const actions::BearingPatch& bearing : actions::BearingPatches(robot_, *sample.phase)) {
+    const models::ContactPatch& patch = robot_.contacts[bearing.patch];
+    for (const int i : bearing.points) {
+      text += fmt::format("{},{},{},{},{}", sample.knot.t, sample.segment,
+                          Field(plan_.segments[sample.segment].action), Field(patch.name), i);
+      AppendNumbers(kinematics_.Position(patch.link, patch.points[i]), &text);
+      AppendNumbers(sample.knot.forces.col(column++), &text);
+      text += "\n";
     }
   }
   return text;

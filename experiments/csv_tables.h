@@ -1,9 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
-#include <vector>
 
 #include "actions/plan.h"
+#include "dynamics/tree_kinematics.h"
 #include "models/robot_model.h"
 
 namespace possibility::experiments {
@@ -15,22 +16,47 @@ struct PlanSample {
   actions::Knot knot;
 };
 
+using VisitSample = std::function<void(const PlanSample&)>;
+
 /// Every knot of every phase; where two phases meet there are two, as tau and forces may jump.
-std::vector<PlanSample> SamplesAtKnots(const actions::Plan& plan);
+void VisitKnots(const actions::Plan& plan, const VisitSample& visit);
 
 /// Samples `step` s apart from the beginning, and the end. Where two phases meet: the later one.
-/// @throws InputError if that is more than ten million samples.
-std::vector<PlanSample> SamplesEvery(const actions::Plan& plan, double step);
+/// @throws InputError if that is more than 1e8 samples.
+void VisitEvery(const actions::Plan& plan, double step, const VisitSample& visit);
 
 /// One row per sample: t, segment, action, q, v, a, tau, each component in its own column
 /// (docs/command_line.md). Numbers read back to the same value.
-std::string TrajectoryCsv(const std::vector<PlanSample>& samples, const actions::Plan& plan,
-                          const models::RobotModel& robot);
+class TrajectoryTable {
+ public:
+  /// Both must outlive the table.
+  TrajectoryTable(const actions::Plan& plan, const models::RobotModel& robot)
+      : plan_(plan), robot_(robot) {}
+
+  std::string Header() const;
+  std::string Rows(const PlanSample& sample) const;
+
+ private:
+  const actions::Plan& plan_;
+  const models::RobotModel& robot_;
+};
 
 /// One row per sample and bearing contact point: t, segment, patch, point, its position x, y, z
 /// (m, world) and the force on the robot fx, fy, fz (N, world).
-/// @throws InputError if a contact is not the robot's.
-std::string ContactForcesCsv(const std::vector<PlanSample>& samples, const actions::Plan& plan,
-                             const models::RobotModel& robot);
+class ContactForceTable {
+ public:
+  /// Both must outlive the table.
+  ContactForceTable(const actions::Plan& plan, const models::RobotModel& robot)
+      : plan_(plan), robot_(robot), kinematics_(robot) {}
+
+  std::string Header() const;
+  /// @throws InputError if a contact is not the robot's.
+  std::string Rows(const PlanSample& sample);
+
+ private:
+  const actions::Plan& plan_;
+  const models::RobotModel& robot_;
+  dynamics::TreeKinematics kinematics_;
+};
 
 }  // namespace possibility::experiments

@@ -11,6 +11,8 @@
 #include "experiments/loaded_plan.h"
 #include "experiments/option_values.h"
 #include "experiments/output_file.h"
+#include "experiments/standard_streams.h"
+#include "models/atomic_file.h"
 
 namespace possibility::experiments {
 namespace {
@@ -21,20 +23,39 @@ struct ExportOptions {
   std::string step;
 };
 
+/// Row by row: a table may be larger than memory.
+void WriteTables(const LoadedPlan& loaded, std::optional<double> step,
+                 const std::filesystem::path& folder) {
+  const TrajectoryTable trajectory(loaded.plan, loaded.robot);
+  ContactForceTable forces(loaded.plan, loaded.robot);
+  models::AtomicFile trajectory_file(folder / "trajectory.csv");
+  models::AtomicFile forces_file(folder / "contact_forces.csv");
+  trajectory_file.Write(trajectory.Header());
+  forces_file.Write(forces.Header());
+  const auto write = [&](const PlanSample& sample) {
+    trajectory_file.Write(trajectory.Rows(sample));
+    forces_file.Write(forces.Rows(sample));
+  };
+  if (step) {
+    VisitEvery(loaded.plan, *step, write);
+  } else {
+    VisitKnots(loaded.plan, write);
+  }
+  trajectory_file.Commit();
+  forces_file.Commit();
+}
+
 ExitCode RunExport(const ExportOptions& options) {
   std::optional<double> step;
   if (!options.step.empty()) step = ParseSeconds("--step", options.step);
   const LoadedPlan loaded = LoadPlan(options.plan);
   RequireMotion(loaded);
   RequireFit(loaded);
-  const std::vector<PlanSample> samples =
-      step ? SamplesEvery(loaded.plan, *step) : SamplesAtKnots(loaded.plan);
   const std::filesystem::path folder = options.csv;
   PrepareOutputFolder("--csv", folder);
-  WriteOutput(folder / "trajectory.csv", TrajectoryCsv(samples, loaded.plan, loaded.robot));
-  WriteOutput(folder / "contact_forces.csv", ContactForcesCsv(samples, loaded.plan, loaded.robot));
-  fmt::print("{}\n{}\n", (folder / "trajectory.csv").string(),
-             (folder / "contact_forces.csv").string());
+  WriteTables(loaded, step, folder);
+  PrintOut("{}\n{}\n", (folder / "trajectory.csv").string(),
+           (folder / "contact_forces.csv").string());
   return kDone;
 }
 

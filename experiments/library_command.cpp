@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "experiments/jump_reach_plot.h"
 #include "experiments/option_values.h"
 #include "experiments/output_file.h"
+#include "experiments/standard_streams.h"
 #include "models/input_error.h"
 
 namespace possibility::experiments {
@@ -54,9 +54,8 @@ class SweepProgress {
     const double passed =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const int left = static_cast<int>(passed / done * (all - done));
-    fmt::print(stderr, "\rjump {} of {}  {}:{:02} left {}", done, all, left / 60, left % 60,
+    PrintError("\rjump {} of {}  {}:{:02} left {}", done, all, left / 60, left % 60,
                done == all ? "\r\x1b[K" : "");
-    std::fflush(stderr);
     return true;
   }
 
@@ -74,15 +73,15 @@ const models::Jump& OnlyJump(const models::RobotModel& robot) {
 void PrintText(const std::vector<actions::JumpSweepEntry>& entries,
                const actions::JumpReach& reach) {
   for (const actions::JumpSweepEntry& entry : entries) {
-    fmt::print("{:.2f} m by {:+.3f} m  {}  {:.2f} s{}{}\n", entry.task.distance, entry.task.height,
-               entry.is_possible ? "yes" : "no ", entry.effort.total,
-               entry.was_known ? "  (known)" : "", entry.reason.empty() ? "" : "  " + entry.reason);
+    PrintOut("{:.2f} m by {:+.3f} m  {}  {:.2f} s{}{}\n", entry.task.distance, entry.task.height,
+             entry.is_possible ? "yes" : "no ", entry.effort.total,
+             entry.was_known ? "  (known)" : "", entry.reason.empty() ? "" : "  " + entry.reason);
   }
   for (const actions::JumpReach::Row& row : reach.rows) {
     if (row.farthest < row.shortest) {
-      fmt::print("height {:+.3f} m: none\n", row.height);
+      PrintOut("height {:+.3f} m: none\n", row.height);
     } else {
-      fmt::print("height {:+.3f} m: {:.2f} to {:.2f} m\n", row.height, row.shortest, row.farthest);
+      PrintOut("height {:+.3f} m: {:.2f} to {:.2f} m\n", row.height, row.shortest, row.farthest);
     }
   }
 }
@@ -102,7 +101,7 @@ void PrintJson(const std::vector<actions::JumpSweepEntry>& entries,
   for (const actions::JumpReach::Row& row : reach.rows) {
     table.push_back({row.height, row.shortest, row.farthest});
   }
-  fmt::print("{}\n", nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}.dump());
+  PrintOut("{}\n", nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}.dump());
 }
 
 void SaveTransitions(const models::RobotModel& robot, const std::string& folder) {

@@ -3,14 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "experiments/commands.h"
+#include "experiments/standard_streams.h"
 #include "models/input_error.h"
 
 namespace possibility::experiments {
@@ -28,30 +29,41 @@ std::string OneLine(std::string text) {
 /// One line for people; with --json also an object, so that a caller always has one to parse.
 ExitCode Fail(ExitCode code, const std::string& message, bool json) {
   const std::string line = OneLine(message);
-  fmt::print(stderr, "{}\n", line);
-  if (json) {
-    const nlohmann::ordered_json object = {{"status", "error"}, {"error", line}};
-    fmt::print("{}\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  PrintError("{}\n", line);
+  if (!json) return code;
+  const nlohmann::ordered_json object = {{"status", "error"}, {"error", line}};
+  try {
+    PrintOut("{}\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } catch (const InputError&) {
+    // It may be what failed.
   }
   return code;
 }
 
-ExitCode Run(int argc, char** argv) {
-  const bool json = std::any_of(
-      argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+ExitCode RunCommand(int argc, char** argv) {
   CLI::App program("Plans how a humanoid robot gets through an environment.", "possibility");
   program.require_subcommand(1);
   std::vector<Command> commands;
   for (const auto add : kCommands) commands.push_back(add(program));
   try {
     program.parse(argc, argv);
-    const auto chosen = std::find_if(commands.begin(), commands.end(), [](const Command& command) {
-      return command.options->parsed();
-    });
-    return chosen->run();
   } catch (const CLI::Success& help) {
-    program.exit(help);
+    std::ostringstream text;
+    program.exit(help, text, text);
+    WriteStandardOutput(text.str());
     return kDone;
+  }
+  const auto chosen = std::find_if(commands.begin(), commands.end(), [](const Command& command) {
+    return command.options->parsed();
+  });
+  return chosen->run();
+}
+
+ExitCode Run(int argc, char** argv) {
+  const bool json = std::any_of(
+      argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json"; });
+  try {
+    return RunCommand(argc, argv);
   } catch (const CLI::ParseError& error) {
     return Fail(kBadInput, fmt::format("usage: {} (see possibility --help)", error.what()), json);
   } catch (const InputError& error) {
@@ -65,6 +77,7 @@ ExitCode Run(int argc, char** argv) {
 }  // namespace possibility::experiments
 
 int main(int argc, char** argv) {
+  possibility::experiments::PrepareStandardStreams();
   // Solves allocate and free matrices all the time; giving the pages back to the system and
   // faulting them in again makes threads queue in the kernel (eight solves at a time on two
   // cores: 1.58 to 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of

@@ -17,6 +17,7 @@
 #include "experiments/plan_summary.h"
 #include "experiments/preset_names.h"
 #include "experiments/progress_line.h"
+#include "experiments/standard_streams.h"
 #include "experiments/viewer_page.h"
 #include "models/input_error.h"
 #include "models/robot_model.h"
@@ -77,12 +78,12 @@ actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
 
 ExitCode Report(const actions::PlanResult& result, const PlanFiles& files, bool json) {
   if (json) {
-    fmt::print("{}\n", SummaryJson(result, files));
+    PrintOut("{}\n", SummaryJson(result, files));
   } else {
-    fmt::print("{}", SummaryText(result, files));
+    PrintOut("{}", SummaryText(result, files));
   }
   if (result.status == actions::PlanStatus::kFound) return kDone;
-  fmt::print(stderr, "no plan: {}{}{}\n", actions::ToString(result.status),
+  PrintError("no plan: {}{}{}\n", actions::ToString(result.status),
              result.explanation.empty() ? "" : ": ", result.explanation);
   return kNoPlan;
 }
@@ -104,7 +105,7 @@ ExitCode RunPlan(const PlanOptions& options) {
   const PlanFiles files{folder / "plan.json", folder / "plan.html"};
   const actions::PlanResult result = PlanWithProgress(robot, scenario, request);
   if (result.status == actions::PlanStatus::kFound && !result.verification.accepted()) {
-    fmt::print(stderr, "{}", actions::FormatText(result.verification));
+    PrintError("{}", actions::FormatText(result.verification));
     return kVerificationFailed;
   }
   actions::WritePlan(result.plan, files.plan);

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "experiments/regression_comparison.h"
 #include "experiments/regression_pages.h"
 #include "experiments/regression_run.h"
+#include "experiments/standard_streams.h"
 #include "models/input_error.h"
 #include "models/nearest_name.h"
 #include "models/robot_model.h"
@@ -126,7 +126,7 @@ class Progress {
  public:
   explicit Progress(int count) : count_(count), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
   ~Progress() {
-    if (is_terminal_) fmt::print(stderr, "\r\x1b[K");
+    if (is_terminal_) PrintError("\r\x1b[K");
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -137,8 +137,7 @@ class Progress {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     const std::string left =
         done == 0 ? "" : fmt::format(", about {:.0f} s left", elapsed / done * (count_ - done));
-    fmt::print(stderr, "\r\x1b[Kproblem {} of {}: {}{}", done + 1, count_, name, left);
-    std::fflush(stderr);
+    PrintError("\r\x1b[Kproblem {} of {}: {}{}", done + 1, count_, name, left);
   }
 
  private:
@@ -158,23 +157,23 @@ RegressionReport RunWithProgress(const std::vector<RegressionProblem>& problems,
 void Print(const RegressionReport& report, const std::optional<RegressionComparison>& comparison,
            bool as_json) {
   if (!as_json) {
-    fmt::print("{}{}", report.Text(), comparison ? comparison->Text() : "");
+    PrintOut("{}{}", report.Text(), comparison ? comparison->Text() : "");
     return;
   }
   nlohmann::ordered_json json = report.Json();
   if (comparison) json["comparison"] = comparison->Json();
-  fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  PrintOut("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 ExitCode Verdict(const RegressionReport& report,
                  const std::optional<RegressionComparison>& comparison) {
   const std::vector<std::string> failures = report.Failures();
   if (!failures.empty()) {
-    fmt::print(stderr, "regress: {} of {} problems not within tolerance: {}\n", failures.size(),
+    PrintError("regress: {} of {} problems not within tolerance: {}\n", failures.size(),
                report.problems.size(), fmt::join(failures, ", "));
   }
   const bool worse = comparison && comparison->failed();
-  if (worse) fmt::print(stderr, "regress: worse than the old run\n");
+  if (worse) PrintError("regress: worse than the old run\n");
   return failures.empty() && !worse ? kDone : kVerificationFailed;
 }
 

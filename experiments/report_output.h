@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "experiments/standard_streams.h"
+
 namespace possibility::experiments {
 
 /// What commands do with the report of an experiment: its files, and its summary as one JSON object
@@ -13,9 +15,9 @@ template <typename Report>
 void PutOutReport(const Report& report, const std::filesystem::path& folder, bool json) {
   report.Write(folder);
   if (json) {
-    fmt::print("{}\n", report.Summary().dump());
+    PrintOut("{}\n", report.Summary().dump());
   } else {
-    fmt::print("{}\nreport: {}\n", report.Markdown(), (folder / "report.html").string());
+    PrintOut("{}\nreport: {}\n", report.Markdown(), (folder / "report.html").string());
   }
 }
 

@@ -13,6 +13,7 @@
 #include "experiments/report_output.h"
 #include "experiments/row_robots.h"
 #include "experiments/scenario_template.h"
+#include "experiments/standard_streams.h"
 #include "experiments/sweep_report.h"
 #include "experiments/sweep_values.h"
 #include "models/input_error.h"
@@ -103,7 +104,7 @@ ExitCode RunSweep(const SweepOptions& options) {
   const std::vector<ExperimentRow> rows = RowsOf(options, settings);
   const SweepReport report{RunExperiment(rows, settings, settings.out / "results.jsonl", {})};
   if (report.trials.empty()) {
-    fmt::print("{}", options.experiment.json ? "{}\n" : "no trial in this part of the sweep\n");
+    PrintOut("{}", options.experiment.json ? "{}\n" : "no trial in this part of the sweep\n");
     return kDone;
   }
   PutOutReport(report, settings.out, options.experiment.json);

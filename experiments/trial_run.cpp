@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -14,6 +13,7 @@
 #include "experiments/plan_picture.h"
 #include "experiments/plan_summary.h"
 #include "experiments/run_environment.h"
+#include "experiments/standard_streams.h"
 
 namespace possibility::experiments {
 namespace {
@@ -130,8 +130,7 @@ TrialProgressLine::~TrialProgressLine() {
 void TrialProgressLine::Show(std::size_t done, std::size_t all) const {
   if (!is_terminal_) return;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  fmt::print(stderr, "\r\033[K{}", DescribeTrials(done, all, elapsed.count()));
-  std::fflush(stderr);
+  PrintError("\r\033[K{}", DescribeTrials(done, all, elapsed.count()));
 }
 
 }  // namespace possibility::experiments

@@ -9,6 +9,7 @@
 #include "experiments/commands.h"
 #include "experiments/hardware_threads.h"
 #include "experiments/loaded_plan.h"
+#include "experiments/standard_streams.h"
 
 namespace possibility::experiments {
 namespace {
@@ -26,9 +27,9 @@ ExitCode RunVerify(const VerifyOptions& options) {
   const actions::VerificationReport report =
       actions::Verify(loaded.plan, loaded.robot, loaded.scenario, settings);
   if (options.json) {
-    fmt::print("{}\n", actions::FormatJson(report));
+    PrintOut("{}\n", actions::FormatJson(report));
   } else {
-    fmt::print("{}", actions::FormatText(report));
+    PrintOut("{}", actions::FormatText(report));
   }
   return report.accepted() ? kDone : kVerificationFailed;
 }

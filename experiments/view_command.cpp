@@ -10,6 +10,7 @@
 #include "experiments/jump_page.h"
 #include "experiments/loaded_plan.h"
 #include "experiments/output_file.h"
+#include "experiments/standard_streams.h"
 #include "experiments/viewer_input.h"
 #include "experiments/viewer_page.h"
 #include "models/input_error.h"
@@ -39,7 +40,7 @@ Page PlanPage(const ViewOptions& options) {
   const LoadedPlan loaded = LoadPlan(options.file);
   RequireFit(loaded);
   if (!loaded.IsCurrent()) {
-    fmt::print(stderr, "warning: {}: robot or scenario changed since this plan was made\n",
+    PrintError("warning: {}: robot or scenario changed since this plan was made\n",
                loaded.file.string());
   }
   return {loaded.file, ViewerPage(loaded.plan, loaded.robot, loaded.scenario)};
@@ -48,7 +49,7 @@ Page PlanPage(const ViewOptions& options) {
 Page PageOfJump(const ViewOptions& options) {
   const LoadedJump loaded = LoadJump(options.file, options.robot);
   if (!loaded.is_current) {
-    fmt::print(stderr, "warning: {}: robot or settings changed since this jump was solved\n",
+    PrintError("warning: {}: robot or settings changed since this jump was solved\n",
                loaded.file.string());
   }
   return {loaded.file, JumpPage(loaded)};
@@ -70,7 +71,7 @@ ExitCode RunView(const ViewOptions& options) {
   std::filesystem::path out = options.out;
   if (out.empty()) out = std::filesystem::path(page.shown).replace_extension(".html");
   WriteOutput(out, page.html);
-  fmt::print("{}\n", out.string());
+  PrintOut("{}\n", out.string());
   return kDone;
 }
 

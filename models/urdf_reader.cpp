@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "models/input_error.h"
+#include "models/urdf_extract.h"
 
 namespace possibility::models {
 namespace {
@@ -61,6 +62,9 @@ class UrdfConverter {
     UrdfTree tree;
     for (const auto& [name, link] : model_.links_) tree.links.push_back(ConvertLink(*link));
     for (const auto& [name, joint] : model_.joints_) tree.joints.push_back(ConvertJoint(*joint));
+    // urdfdom sorts by the extract's names, in which a byte stands for each '%'.
+    std::ranges::sort(tree.links, {}, &UrdfLink::name);
+    std::ranges::sort(tree.joints, {}, &UrdfJoint::name);
     tree.root = Root(tree);
     CheckReachable(tree);
     return tree;
@@ -94,10 +98,10 @@ class UrdfConverter {
   }
 
   UrdfLink ConvertLink(const urdf::Link& link) const {
-    UrdfLink result{link.name, std::nullopt, {}};
-    if (link.inertial) result.inertial = ConvertInertial(*link.inertial, link.name);
+    UrdfLink result{DecodeUrdfName(link.name), std::nullopt, {}};
+    if (link.inertial) result.inertial = ConvertInertial(*link.inertial, result.name);
     for (const auto& collision : link.collision_array) {
-      const std::string owner = fmt::format("link '{}': collision", link.name);
+      const std::string owner = fmt::format("link '{}': collision", result.name);
       if (!collision || !collision->geometry) Fail(owner + ": no geometry");
       result.shapes.push_back(
           {ConvertGeometry(*collision->geometry, owner), Pose(collision->origin, owner)});
@@ -176,14 +180,15 @@ class UrdfConverter {
     if (!joint.mimic) return std::nullopt;
     const urdf::JointMimic& mimic = *joint.mimic;
     CheckMagnitude({mimic.multiplier, mimic.offset}, owner, "mimic");
-    return UrdfMimic{mimic.joint_name, mimic.multiplier, mimic.offset};
+    return UrdfMimic{DecodeUrdfName(mimic.joint_name), mimic.multiplier, mimic.offset};
   }
 
   UrdfJoint ConvertJoint(const urdf::Joint& joint) const {
-    const std::string owner = fmt::format("joint '{}'", joint.name);
-    UrdfJoint result{.name = joint.name,
-                     .parent = joint.parent_link_name,
-                     .child = joint.child_link_name,
+    const std::string name = DecodeUrdfName(joint.name);
+    const std::string owner = fmt::format("joint '{}'", name);
+    UrdfJoint result{.name = name,
+                     .parent = DecodeUrdfName(joint.parent_link_name),
+                     .child = DecodeUrdfName(joint.child_link_name),
                      .type = TypeName(joint.type),
                      .mimic = ConvertMimic(joint, owner),
                      .has_limits = joint.limits != nullptr,
@@ -249,7 +254,7 @@ urdf::ModelInterfaceSharedPtr ParseWithUrdfdom(const std::string& text, const st
     auto model = urdf::parseURDF(text);
     // It also goes on without the collision or inertial element that it could not read.
     if (model && capture.errors().empty()) return model;
-    reason = capture.errors();
+    reason = DecodeUrdfName(capture.errors());
   } catch (const std::exception& error) {
     reason = error.what();
   }
@@ -266,7 +271,8 @@ UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file) {
   if (text.find('\0') != std::string::npos) {
     throw InputError(fmt::format("{}: not a text file, expected a URDF", file.string()));
   }
-  const urdf::ModelInterfaceSharedPtr model = ParseWithUrdfdom(text, file.string());
+  const urdf::ModelInterfaceSharedPtr model =
+      ParseWithUrdfdom(ExtractUrdf(text, file), file.string());
   return UrdfConverter(*model, file).Convert();
 }
 

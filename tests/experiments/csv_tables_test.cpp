@@ -39,6 +39,26 @@ std::vector<double> Concatenated(const actions::Knot& knot) {
   return numbers;
 }
 
+std::string Trajectory(const actions::Plan& plan, const models::RobotModel& robot) {
+  const TrajectoryTable table(plan, robot);
+  std::string csv = table.Header();
+  VisitKnots(plan, [&](const PlanSample& sample) { csv += table.Rows(sample); });
+  return csv;
+}
+
+std::string ContactForces(const actions::Plan& plan, const models::RobotModel& robot) {
+  ContactForceTable table(plan, robot);
+  std::string csv = table.Header();
+  VisitKnots(plan, [&](const PlanSample& sample) { csv += table.Rows(sample); });
+  return csv;
+}
+
+std::vector<PlanSample> SamplesEvery(const actions::Plan& plan, double step) {
+  std::vector<PlanSample> samples;
+  VisitEvery(plan, step, [&](const PlanSample& sample) { samples.push_back(sample); });
+  return samples;
+}
+
 class CsvTables : public ::testing::Test {
  protected:
   const models::RobotModel robot_ = testing::SampleRobot();
@@ -46,7 +66,7 @@ class CsvTables : public ::testing::Test {
 };
 
 TEST_F(CsvTables, HeaderNamesEveryColumnByJoint) {
-  const Row header = Parse(TrajectoryCsv({}, plan_, robot_)).at(0);
+  const Row header = Parse(Trajectory(plan_, robot_)).at(0);
   const Row expected = {
       "t",        "segment",  "action",   "q_root_qw", "q_root_qx", "q_root_qy", "q_root_qz",
       "q_root_x", "q_root_y", "q_root_z", "q_hip",     "v_root_wx", "v_root_wy", "v_root_wz",
@@ -56,7 +76,7 @@ TEST_F(CsvTables, HeaderNamesEveryColumnByJoint) {
 }
 
 TEST_F(CsvTables, KnotsReadBackToTheSameNumbers) {
-  const std::vector<Row> rows = Parse(TrajectoryCsv(SamplesAtKnots(plan_), plan_, robot_));
+  const std::vector<Row> rows = Parse(Trajectory(plan_, robot_));
   ASSERT_EQ(rows.size(), 1u + 2 * 9);
   for (int s = 0; s < 2; ++s) {
     for (int k = 0; k < 9; ++k) {
@@ -71,7 +91,7 @@ TEST_F(CsvTables, KnotsReadBackToTheSameNumbers) {
 }
 
 TEST_F(CsvTables, ForcesStandBesideThePointsTheyActOn) {
-  const std::vector<Row> rows = Parse(ContactForcesCsv(SamplesAtKnots(plan_), plan_, robot_));
+  const std::vector<Row> rows = Parse(ContactForces(plan_, robot_));
   ASSERT_EQ(rows.size(), 1u + 9 * 4 + 9 * 5);
   // The peg is the last point of the last knot, fixed to the root at (0.2, 0, 0).
   const Row& row = rows.back();
@@ -91,9 +111,9 @@ TEST_F(CsvTables, PartOfAPatchIsListedByItsOwnPoints) {
   actions::Phase& phase = plan.segments[0].phases[0];
   phase.contacts = {"sole[0,3]"};
   for (actions::Knot& knot : phase.knots) knot.forces = Eigen::Matrix3Xd::Random(3, 2);
-  const std::vector<Row> rows = Parse(ContactForcesCsv(SamplesAtKnots(plan), plan, robot_));
+  const std::vector<Row> rows = Parse(ContactForces(plan, robot_));
   ASSERT_EQ(rows.size(), 1u + 9 * 2 + 9 * 5);
-  const std::vector<Row> whole = Parse(ContactForcesCsv(SamplesAtKnots(plan_), plan_, robot_));
+  const std::vector<Row> whole = Parse(ContactForces(plan_, robot_));
   EXPECT_EQ(rows[1][3], "sole");
   EXPECT_EQ(rows[1][4], "0");
   EXPECT_EQ(rows[2][4], "3");
@@ -130,7 +150,7 @@ TEST_F(CsvTables, RefusesAStepThatWouldFillTheDisk) {
 TEST_F(CsvTables, QuotesNamesWithCommasAndQuotes) {
   models::RobotModel robot = robot_;
   robot.joints[0].name = "hip, \"left\"";
-  const std::string csv = TrajectoryCsv({}, plan_, robot);
+  const std::string csv = Trajectory(plan_, robot);
   EXPECT_NE(csv.find("\"tau_hip, \"\"left\"\"\""), std::string::npos) << csv;
 }
 

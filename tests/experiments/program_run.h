@@ -29,9 +29,11 @@ class ProgramRun : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// `arguments` are words for the shell, which the program replaces: killing it kills the program.
-  pid_t Start(const std::string& arguments) const {
+  /// `before` are commands for the shell.
+  pid_t Start(const std::string& arguments, const std::string& before = "",
+              const std::string& streams = ">stdout.txt 2>stderr.txt") const {
     const std::string command =
-        "exec '" POSSIBILITY_PROGRAM "' " + arguments + " >stdout.txt 2>stderr.txt";
+        before + " exec '" POSSIBILITY_PROGRAM "' " + arguments + " " + streams;
     const pid_t child = ::fork();
     if (child != 0) return child;
     for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT"}) ::unsetenv(name);

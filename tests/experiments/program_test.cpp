@@ -7,11 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "actions/plan.h"
-#include "models/robot_model.h"
-#include "models/scenario.h"
 #include "tests/experiments/program_run.h"
 #include "tests/experiments/read_text.h"
+#include "tests/experiments/standing_plan.h"
 
 namespace possibility::experiments {
 namespace {
@@ -22,32 +20,8 @@ using testing::ReadText;
 
 class Program : public ProgramRun {
  protected:
-  /// plan.json of the robot standing still at the scenario's start.
   void WriteStandingPlan() const {
-    const models::Scenario scenario = models::LoadScenario(scenario_file_);
-    const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
-    actions::Plan plan;
-    plan.robot_file = robot.file;
-    plan.robot_hash = robot.content_hash;
-    plan.scenario_file = scenario.file;
-    plan.scenario_hash = scenario.content_hash;
-    for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
-    actions::Phase phase;
-    Eigen::Index num_points = 0;
-    for (const models::GaitLimb& limb : robot.GaitNamed("walk").limbs) {
-      phase.contacts.push_back(robot.contacts[limb.contact].name);
-      num_points += static_cast<Eigen::Index>(robot.contacts[limb.contact].points.size());
-    }
-    for (const double t : {0.0, 0.5, 1.0}) {
-      phase.knots.push_back({t,
-                             robot.Configuration(robot.GaitNamed("walk").posture, scenario.start.x,
-                                                 scenario.start.y, scenario.start.yaw),
-                             Eigen::VectorXd::Zero(robot.nv()), Eigen::VectorXd::Zero(robot.nv()),
-                             Eigen::VectorXd::Zero(robot.num_joints()),
-                             Eigen::Matrix3Xd::Zero(3, num_points)});
-    }
-    plan.segments = {{"walk", {phase}}};
-    actions::WritePlan(plan, folder_ / "plan.json");
+    testing::WriteStandingPlan(scenario_file_, folder_ / "plan.json");
   }
 
   const fs::path scenario_file_ =

@@ -243,17 +243,51 @@ const BadRobot kBadYaml[] = {
      "robot.yaml:35: jumps[0]: unknown key 'too' (did you mean 'to'?)"},
 };
 
+std::string Nested(int depth) {
+  std::string text;
+  for (int i = 0; i < depth; ++i) text += "<a>";
+  return text;
+}
+
+std::string Links(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "<link name=\"" + std::to_string(i) + "\"/>";
+  return text;
+}
+
 const BadRobot kBadUrdf[] = {
     {"Empty", true, "", "", "robot.urdf: the file is empty, expected a URDF"},
     {"Blank", true, "", "  \n\n", "robot.urdf: the file is empty, expected a URDF"},
     {"NoText", true, "", std::string("<robot\0", 7),
      "robot.urdf: not a text file, expected a URDF"},
-    {"NotXml", true, "", "hello", "robot.urdf: not a valid URDF: Error document empty"},
+    {"NotXml", true, "", "hello",
+     "robot.urdf:1: not a valid URDF: no XML (XML_ERROR_PARSING_TEXT)"},
     {"OtherRootElement", true, "", "<sdf></sdf>",
-     "robot.urdf: not a valid URDF: Could not find the 'robot' element in the xml file"},
+     "robot.urdf:1: not a valid URDF: expected a <robot> element"},
     {"NoLinks", true, "", "<robot name=\"a\"></robot>",
      "robot.urdf: not a valid URDF: No link elements found in urdf file"},
-    {"Truncated", true, "</robot>\n", "", "robot.urdf: not a valid URDF: Error reading end tag"},
+    {"Truncated", true, "</robot>\n", "", "robot.urdf:1: not a valid URDF: an element has no end"},
+    {"DeeplyNested", true, "", Nested(1000000),
+     "robot.urdf:1: not a valid URDF: elements are nested too deeply"},
+    {"TooManyLinks", true, "</robot>", Links(2000) + "</robot>",
+     "robot.urdf:35: expected at most 2000 links and joints"},
+    {"PercentInANumber", true, "0.01 0.02 -0.03", "0%n 0.02 -0.03",
+     "robot.urdf:3: <origin xyz='0%n 0.02 -0.03'>: expected no percent sign"},
+    {"PercentInAType", true, kYawJoint, "<joint name=\"l_yaw\" type=\"%s%n\">",
+     "robot.urdf:20: <joint type='%s%n'>: expected no percent sign"},
+    {"PercentByReference", true, "value=\"2\"", "value=\"&#37;n\"",
+     "robot.urdf:3: <mass value='%n'>: expected no percent sign"},
+    {"PercentInALinkName", true, "<link name=\"l_hip\">", "<link name=\"%n%s\">",
+     "robot.urdf: not a valid URDF: Failed to build tree: parent link [l_hip] of joint [l_roll] "
+     "not "
+     "found. This is not valid according to the URDF spec. Every link you refer to from a joint "
+     "needs to be explicitly defined in the robot de..."},
+    {"PercentInTheNameOfWhatIsMissing", true, "<parent link=\"l_hip\"/>", "<parent link=\"%n%s\"/>",
+     "robot.urdf: not a valid URDF: Failed to build tree: parent link [%n%s] of joint [l_roll] not "
+     "found. This is not valid according to the URDF spec. Every link you refer to from a joint "
+     "needs to be explicitly defined in the robot des..."},
+    {"ControlCharacter", true, "<link name=\"l_hip\">", "<link name=\"l\x1ahip\">",
+     "robot.urdf:11: <link name='l hip'>: expected no control characters"},
     {"LinkWithoutInertia", true, "<link name=\"l_hip\">\n" + kInertial, "<link name=\"l_hip\">",
      "robot.urdf: link 'l_hip': expected an inertial (only links on fixed or lumped joints may go "
      "without)"},

@@ -1,0 +1,148 @@
+// Every command notices that its output cannot be written, and none dies of it.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <thread>
+
+#include "tests/experiments/program_run.h"
+#include "tests/experiments/read_text.h"
+#include "tests/experiments/standing_plan.h"
+
+namespace possibility::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ProgramRun;
+using testing::ReadText;
+
+const std::string kSource = POSSIBILITY_SOURCE_DIR;
+
+class StandardStreams : public ProgramRun {
+ protected:
+  /// Standard output as `stream` says: exit code 1 and one line on standard error.
+  void ExpectUnwritable(const std::string& arguments, const std::string& stream) const {
+    const int code = Wait(Start(arguments, "", stream + " 2>stderr.txt"));
+    const std::string errors = Errors();
+    EXPECT_EQ(code, 1) << arguments << stream << "\n" << errors;
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << arguments << "\n" << errors;
+    EXPECT_TRUE(errors.starts_with("standard output: cannot be written")) << errors;
+  }
+  void WriteStandingPlan() const {
+    testing::WriteStandingPlan(kSource + "/experiments/scenarios/three_routes_b.yaml",
+                               folder_ / "plan.json");
+  }
+  std::ptrdiff_t FilesIn(const std::string& folder) const {
+    return std::distance(fs::directory_iterator(folder_ / folder), fs::directory_iterator());
+  }
+};
+
+TEST_F(StandardStreams, EveryCommandNoticesAFullDisk) {
+  WriteStandingPlan();
+  const std::string room = "'" + kSource + "/experiments/scenarios/closed_room.yaml'";
+  const std::string commands[] = {
+      "--help",
+      "plan --help",
+      "plan " + room + " --out out",
+      "plan " + room + " --out out --json",
+      "verify plan.json",
+      "verify plan.json --json",
+      "view plan.json",
+      "export plan.json --csv tables",
+      "regress --problem kirk",
+      "regress --problem kirk --json",
+  };
+  for (const std::string& command : commands) ExpectUnwritable(command, ">/dev/full");
+}
+
+// Those that are left take minutes. They write through the same functions.
+TEST_F(StandardStreams, NobodyWritesPastThem) {
+  const std::regex other(R"(fmt::print\(|std::cout|std::cerr|\bprintf\(|std::puts\()");
+  for (const auto& entry : fs::directory_iterator(fs::path(kSource) / "experiments")) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".cpp" && extension != ".h") continue;
+    EXPECT_FALSE(std::regex_search(ReadText(entry.path()), other)) << entry.path();
+  }
+}
+
+TEST_F(StandardStreams, NoReaderAndNoStreamAreTheSame) {
+  WriteStandingPlan();
+  ExpectUnwritable("export plan.json --csv tables", ">&-");
+  ExpectUnwritable("verify plan.json --json", ">&-");
+  const int code = Wait(Start("export plan.json --csv tables", "", "2>stderr.txt | sleep 0"));
+  EXPECT_EQ(code, 0) << "the code of sleep";
+}
+
+TEST_F(StandardStreams, WhatIsPrintedGoesIntoNoFileThatTheProgramOpens) {
+  WriteStandingPlan();
+  EXPECT_EQ(Wait(Start("export plan.json --csv tables", "", ">&- 2>&-")), 1);
+  const std::string table = ReadText(folder_ / "tables/trajectory.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 3);
+  EXPECT_TRUE(table.starts_with("t,segment")) << table;
+  EXPECT_EQ(table.find("tables/"), std::string::npos);
+}
+
+TEST_F(StandardStreams, AnErrorThatCannotBePrintedHasItsExitCode) {
+  EXPECT_EQ(Wait(Start("plan missing.yaml", "", ">/dev/full 2>/dev/full")), 1);
+  EXPECT_EQ(Wait(Start("plan missing.yaml --json", "", ">/dev/full 2>/dev/full")), 1);
+  EXPECT_EQ(Wait(Start("verify missing", "", ">&- 2>&-")), 1);
+}
+
+TEST_F(StandardStreams, AFileThatCannotBeWrittenIsNotThere) {
+  WriteStandingPlan();
+  // In blocks of 512 bytes: room for a few rows only.
+  const int code = Wait(Start("export plan.json --csv tables --step 1e-4", "ulimit -f 1000;",
+                              ">stdout.txt 2>stderr.txt"));
+  EXPECT_EQ(code, 1);
+  const std::string errors = Errors();
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  EXPECT_NE(errors.find("cannot be written"), std::string::npos) << errors;
+  EXPECT_EQ(FilesIn("tables"), 0);
+}
+
+TEST_F(StandardStreams, WhatAKilledRunLeavesTheNextRemoves) {
+  WriteStandingPlan();
+  const pid_t run = Start("export plan.json --csv tables --step 1e-7");
+  const fs::path tables = folder_ / "tables";
+  std::error_code error;
+  for (int i = 0; i < 3000; ++i) {
+    if (fs::is_directory(tables, error) && FilesIn("tables") == 2) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(run, SIGKILL);
+  EXPECT_EQ(Wait(run), -1);
+  EXPECT_EQ(FilesIn("tables"), 2) << "two unfinished files";
+  EXPECT_FALSE(fs::exists(tables / "trajectory.csv"));
+  EXPECT_EQ(Run("export plan.json --csv tables").code, 0);
+  EXPECT_EQ(FilesIn("tables"), 2);
+  EXPECT_TRUE(fs::exists(tables / "trajectory.csv"));
+  EXPECT_TRUE(fs::exists(tables / "contact_forces.csv"));
+}
+
+// The sanitizers keep what has been freed.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(StandardStreams, MemoryOfExportDoesNotGrowWithTheNumberOfRows) {
+  WriteStandingPlan();
+  const auto peak_bytes = [&](const std::string& step) {
+    const pid_t run = Start("export plan.json --csv tables --step " + step);
+    int status = 0;
+    struct rusage usage = {};
+    ::wait4(run, &status, 0, &usage);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << Errors();
+    return usage.ru_maxrss * 1024L;
+  };
+  const long few = peak_bytes("0.1");
+  const long many = peak_bytes("2e-5");  // 50,001 rows
+  EXPECT_GT(fs::file_size(folder_ / "tables/trajectory.csv"), 10000000u);
+  EXPECT_LT(many, few + 10000000);
+}
+#endif
+
+}  // namespace
+}  // namespace possibility::experiments

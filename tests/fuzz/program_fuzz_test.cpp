@@ -1,0 +1,125 @@
+// The program itself with spoilt files: exit codes 0 to 3, one line on standard error with 1, an
+// end in time.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "models/file_contents.h"
+#include "tests/experiments/program_run.h"
+#include "tests/fuzz/case_runner.h"
+#include "tests/fuzz/subjects.h"
+
+namespace possibility::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Kind {
+  const char* name;
+  Subject (*make)(const fs::path&);
+  /// Of the program; SPOILT is the file, SOURCE the project's folder.
+  std::vector<std::string> commands;
+};
+
+const std::string kPlan =
+    " --out out --time-limit 1 --threads 1 --library 'SOURCE/models/drchubo1/jumps'";
+
+const Kind kKinds[] = {
+    {"Scenario", &ScenarioSubject, {"plan SPOILT" + kPlan}},
+    {"Robot", &RobotSubject, {"plan scenario.yaml" + kPlan}},
+    {"Urdf", &UrdfSubject, {"plan scenario.yaml" + kPlan}},
+    {"Plan",
+     &PlanSubject,
+     {"verify SPOILT", "verify SPOILT --json", "view SPOILT --out page.html",
+      "export SPOILT --csv tables"}},
+    {"Solution",
+     &SolutionSubject,
+     {"view SPOILT --robot 'SOURCE/models/drchubo1/drchubo1.yaml' --out page.html"}},
+    {"Library", &LibrarySubject, {"regress --problem kirk --against SPOILT"}},
+};
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+class ProgramFuzz : public experiments::testing::ProgramRun,
+                    public testing::WithParamInterface<Kind> {
+ protected:
+  void RunCases(std::uint64_t first_seed, int count) {
+    fs::create_directories(folder_ / "whole");
+    const Subject subject = GetParam().make(folder_ / "whole");
+    WriteWholeFiles(subject);
+    for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+      const std::string text = SpoiltText(subject, seed);
+      std::ofstream(folder_ / ("spoilt" + subject.extension), std::ios::binary) << text;
+      for (const std::string& command : GetParam().commands) {
+        const std::string words =
+            Replaced(Replaced(command, "SPOILT", "spoilt" + subject.extension), "SOURCE",
+                     POSSIBILITY_SOURCE_DIR);
+        const int code = WaitInTime(Start(words));
+        if (IsRight(code)) continue;
+        ADD_FAILURE() << subject.name << ", seed " << seed << ": " << words << ": exit code "
+                      << code << "\n"
+                      << Errors() << "\n"
+                      << KeepFailure(subject.name + "_program", seed, subject.extension, text);
+      }
+    }
+  }
+
+ private:
+  /// A scenario whose robot is the spoilt one.
+  void WriteWholeFiles(const Subject& subject) const {
+    const fs::path source = POSSIBILITY_SOURCE_DIR;
+    const std::string scenario =
+        models::ReadFileContents(source / "experiments/scenarios/closed_room.yaml");
+    const bool is_urdf = subject.extension == ".urdf";
+    std::ofstream(folder_ / "scenario.yaml") << Replaced(
+        scenario, "../../models/drchubo1/drchubo1.yaml", is_urdf ? "robot.yaml" : "spoilt.yaml");
+    std::ofstream(folder_ / "robot.yaml")
+        << Replaced(models::ReadFileContents(source / "models/drchubo1/drchubo1.yaml"),
+                    "drchubo1.urdf", "spoilt.urdf");
+  }
+
+  /// -1: killed by a signal, -2: not done within two minutes.
+  static int WaitInTime(pid_t program) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    int status = 0;
+    while (::waitpid(program, &status, WNOHANG) == 0) {
+      if (std::chrono::steady_clock::now() > end) {
+        ::kill(program, SIGKILL);
+        ::waitpid(program, &status, 0);
+        return -2;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  bool IsRight(int code) const {
+    const std::string errors = Errors();
+    const bool is_one_line = std::count(errors.begin(), errors.end(), '\n') == 1;
+    return code >= 0 && code <= 3 && (code != 1 || is_one_line);
+  }
+};
+
+TEST_P(ProgramFuzz, EndsAsItShould) { RunCases(20000, 4); }
+
+class ProgramFuzzLong : public ProgramFuzz {};
+
+TEST_P(ProgramFuzzLong, EndsAsItShould) { RunCases(21000, 100); }
+
+std::string NameOf(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ProgramFuzz, testing::ValuesIn(kKinds), &NameOf);
+INSTANTIATE_TEST_SUITE_P(Kinds, ProgramFuzzLong, testing::ValuesIn(kKinds), &NameOf);
+
+}  // namespace
+}  // namespace possibility::fuzz

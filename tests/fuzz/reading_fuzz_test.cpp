@@ -1,0 +1,44 @@
+// Whatever a file holds: it is used, or InputError says in one line why not. Meant to run under the
+// sanitizers (docs/development.md).
+
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/case_runner.h"
+#include "tests/fuzz/subjects.h"
+#include "tests/models/temporary_folder.h"
+
+namespace possibility::fuzz {
+namespace {
+
+using Make = Subject (*)(const std::filesystem::path&);
+
+struct Kind {
+  const char* name;
+  Make make;
+};
+
+const Kind kKinds[] = {{"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},
+                       {"Urdf", &UrdfSubject},         {"Plan", &PlanSubject},
+                       {"Solution", &SolutionSubject}, {"Library", &LibrarySubject}};
+
+class ReadingFuzz : public testing::TestWithParam<Kind> {};
+
+TEST_P(ReadingFuzz, UsesOrRefuses) {
+  const models::TemporaryFolder folder;
+  RunCases(GetParam().make(folder.path()), 0, 300);
+}
+
+class ReadingFuzzLong : public ReadingFuzz {};
+
+TEST_P(ReadingFuzzLong, UsesOrRefuses) {
+  const models::TemporaryFolder folder;
+  RunCases(GetParam().make(folder.path()), 1000, 10000);
+}
+
+std::string NameOf(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ReadingFuzz, testing::ValuesIn(kKinds), &NameOf);
+INSTANTIATE_TEST_SUITE_P(Kinds, ReadingFuzzLong, testing::ValuesIn(kKinds), &NameOf);
+
+}  // namespace
+}  // namespace possibility::fuzz

@@ -1,0 +1,226 @@
+#include "tests/fuzz/subjects.h"
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "actions/jump_library.h"
+#include "actions/motion_identity.h"
+#include "actions/nominal_stance.h"
+#include "actions/planner.h"
+#include "actions/verifier.h"
+#include "experiments/csv_tables.h"
+#include "experiments/jump_page.h"
+#include "experiments/loaded_plan.h"
+#include "experiments/viewer_page.h"
+#include "models/collision.h"
+#include "models/file_contents.h"
+#include "models/ground_map.h"
+#include "models/scenario.h"
+#include "tests/actions/hop_plan.h"
+#include "tests/experiments/standing_plan.h"
+#include "tests/models/two_legged_robot.h"
+
+namespace possibility::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = POSSIBILITY_SOURCE_DIR;
+const fs::path kRobotFolder = kSource / "models/drchubo1";
+const fs::path kScenario = kSource / "experiments/scenarios/three_routes_b.yaml";
+
+/// Dear uses of a file that could be read are made of one case in so many.
+constexpr std::uint64_t kDear = 100;
+
+fs::path Write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
+}
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// The shipped scenarios, which find their robot from any folder.
+std::vector<std::string> ScenarioTexts() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(kScenario.parent_path())) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> texts;
+  for (const fs::path& file : files) {
+    texts.push_back(
+        Replaced(models::ReadFileContents(file), "../../models/drchubo1", kRobotFolder.string()));
+  }
+  return texts;
+}
+
+void PlanBriefly(const models::RobotModel& robot, const models::Scenario& scenario) {
+  actions::PlanRequest request;
+  request.seed = scenario.seed;
+  request.time_limit = 0.5;
+  request.library = kRobotFolder / "jumps";
+  actions::PlanTraversal(robot, scenario, request);
+}
+
+void UseRobot(const fs::path& file) {
+  const models::RobotModel robot = models::LoadRobotModel(file);
+  for (const models::Gait& gait : robot.gaits) actions::SolveNominalStance(robot, gait);
+}
+
+/// Every third of a second of somebody's plan, that texts stay short.
+void Thin(actions::Plan* plan) {
+  for (actions::Segment& segment : plan->segments) {
+    for (actions::Phase& phase : segment.phases) {
+      std::vector<actions::Knot> knots;
+      for (std::size_t i = 0; i < phase.knots.size(); i += 30) knots.push_back(phase.knots[i]);
+      if (knots.back().t < phase.knots.back().t) knots.push_back(phase.knots.back());
+      phase.knots = std::move(knots);
+    }
+  }
+}
+
+/// Plans in which whatever a plan can hold is to be found: standing, a hop with flight and impact,
+/// and a "no".
+std::vector<std::string> PlanTexts(const fs::path& folder) {
+  const fs::path file = folder / "whole_plan.json";
+  std::vector<std::string> texts;
+  const auto add = [&](const actions::Plan& plan) {
+    actions::WritePlan(plan, file);
+    texts.push_back(models::ReadFileContents(file));
+  };
+  experiments::testing::WriteStandingPlan(kScenario, file);
+  actions::Plan plan = actions::ReadPlan(file);
+  plan.statistics = {{"vertices", 12}, {"edges", 7}};
+  plan.explored.vertices = {{{1, 2, 3}, 0.5}, {{2, 2, 3}, 0.5}};
+  plan.explored.edges = {{0, 1, "walk"}};
+  add(plan);
+  const models::RobotModel robot = models::LoadRobotModel(plan.robot_file);
+  plan.segments.push_back(actions::testing::Hop(robot).Build());
+  const double begin = plan.segments[0].phases[0].knots.back().t;
+  for (actions::Phase& phase : plan.segments[1].phases) {
+    for (actions::Knot& knot : phase.knots) knot.t += begin;
+  }
+  Thin(&plan);
+  add(plan);
+  plan.segments.clear();
+  plan.no = actions::NoPlan{"exhausted", "why not", actions::Barrier{}};
+  plan.no->barrier->closed_by = {"wall"};
+  plan.no->barrier->reached = {{"walk", 0.1, {{{0, 0}, {1, 0}, {0, 1}}}}};
+  add(plan);
+  return texts;
+}
+
+/// The robot's jumps, ready to be realised.
+struct Jumps {
+  models::RobotModel robot = models::LoadRobotModel(kRobotFolder / "drchubo1.yaml");
+  actions::NominalStance launch =
+      actions::SolveNominalStance(robot, robot.GaitNamed(robot.jumps[0].from));
+  actions::NominalStance landing =
+      actions::SolveNominalStance(robot, robot.GaitNamed(robot.jumps[0].to));
+  actions::JumpSolver solver{robot, launch, landing};
+  std::string identity = actions::MotionIdentity(robot, solver.settings());
+  fs::path shipped = actions::MotionFolder(kRobotFolder / "jumps", identity);
+};
+
+}  // namespace
+
+Subject ScenarioSubject(const fs::path& folder) {
+  const auto robot = std::make_shared<const models::RobotModel>(
+      models::LoadRobotModel(kRobotFolder / "drchubo1.yaml"));
+  return {"scenario", ".yaml", Syntax::kYaml,
+          [texts = ScenarioTexts()](std::uint64_t seed) { return texts[seed % texts.size()]; },
+          [folder, robot](std::uint64_t seed, const std::string& text) {
+            const models::Scenario scenario =
+                models::LoadScenario(Write(folder / "scenario.yaml", text));
+            if (seed % kDear == 0) PlanBriefly(*robot, scenario);
+          }};
+}
+
+Subject RobotSubject(const fs::path& folder) {
+  Write(folder / "robot.urdf", models::TwoLeggedUrdf());
+  const std::string large = Replaced(models::ReadFileContents(kRobotFolder / "drchubo1.yaml"),
+                                     "drchubo1.urdf", (kRobotFolder / "drchubo1.urdf").string());
+  return {"robot", ".yaml", Syntax::kYaml,
+          [large](std::uint64_t seed) { return seed % 2 == 0 ? models::TwoLeggedYaml() : large; },
+          [folder](std::uint64_t, const std::string& text) {
+            UseRobot(Write(folder / "robot.yaml", text));
+          }};
+}
+
+Subject UrdfSubject(const fs::path& folder) {
+  const std::string large_yaml = models::ReadFileContents(kRobotFolder / "drchubo1.yaml");
+  const std::string large_urdf = models::ReadFileContents(kRobotFolder / "drchubo1.urdf");
+  Write(folder / "small.yaml", Replaced(models::TwoLeggedYaml(), "robot.urdf", "spoilt.urdf"));
+  Write(folder / "large.yaml", Replaced(large_yaml, "drchubo1.urdf", "spoilt.urdf"));
+  return {"urdf", ".urdf", Syntax::kXml,
+          [large_urdf](std::uint64_t seed) {
+            return seed % 2 == 0 ? models::TwoLeggedUrdf() : large_urdf;
+          },
+          [folder](std::uint64_t seed, const std::string& text) {
+            Write(folder / "spoilt.urdf", text);
+            UseRobot(folder / (seed % 2 == 0 ? "small.yaml" : "large.yaml"));
+          }};
+}
+
+Subject PlanSubject(const fs::path& folder) {
+  return {"plan", ".json", Syntax::kJson,
+          [texts = PlanTexts(folder)](std::uint64_t seed) { return texts[seed % texts.size()]; },
+          [folder](std::uint64_t, const std::string& text) {
+            const fs::path file = Write(folder / "plan.json", text);
+            const experiments::LoadedPlan loaded = experiments::LoadPlan(file);
+            actions::VerifierSettings settings;
+            settings.simulates = false;
+            actions::Verify(loaded.plan, loaded.robot, loaded.scenario, settings);
+            experiments::RequireFit(loaded);
+            experiments::ViewerPage(loaded.plan, loaded.robot, loaded.scenario);
+            const experiments::TrajectoryTable trajectory(loaded.plan, loaded.robot);
+            experiments::ContactForceTable forces(loaded.plan, loaded.robot);
+            experiments::VisitKnots(loaded.plan, [&](const experiments::PlanSample& sample) {
+              trajectory.Rows(sample);
+              forces.Rows(sample);
+            });
+            actions::WritePlan(loaded.plan, folder / "again.json");
+          }};
+}
+
+Subject SolutionSubject(const fs::path& folder) {
+  const auto jumps = std::make_shared<const Jumps>();
+  const std::string text = models::ReadFileContents(jumps->shipped / "jump_10_0.json");
+  const fs::path library = actions::MotionFolder(folder / "solutions", jumps->identity);
+  fs::create_directories(library);
+  return {
+      "solution", ".json", Syntax::kJson, [text](std::uint64_t) { return text; },
+      [folder, jumps, library](std::uint64_t seed, const std::string& spoilt) {
+        const fs::path file = Write(library / "jump_10_0.json", spoilt);
+        if (seed % kDear == 0) {
+          actions::JumpLibrary(jumps->robot, jumps->solver, folder / "solutions").Find({0.5, 0});
+        }
+        if (seed % kDear == 1) {
+          experiments::JumpPage(experiments::LoadJump(file, kRobotFolder / "drchubo1.yaml"));
+        }
+        collocation::ReadSolution(file);
+      }};
+}
+
+Subject LibrarySubject(const fs::path& folder) {
+  const auto jumps = std::make_shared<const Jumps>();
+  const std::string text = models::ReadFileContents(jumps->shipped / "reach.json");
+  const fs::path library = actions::MotionFolder(folder / "library", jumps->identity);
+  fs::create_directories(library);
+  return {"library", ".json", Syntax::kJson, [text](std::uint64_t) { return text; },
+          [folder, jumps, library](std::uint64_t, const std::string& spoilt) {
+            Write(library / "reach.json", spoilt);
+            const actions::JumpLibrary reader(jumps->robot, jumps->solver, folder / "library");
+            for (const double height : {-1e6, -0.2, 0.0, 0.05, 1e6}) {
+              reader.reach().Distances(height);
+              reader.reach().Allows({0.5, height});
+            }
+          }};
+}
+
+}  // namespace possibility::fuzz

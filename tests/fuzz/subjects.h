@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "tests/fuzz/case_runner.h"
+
+namespace possibility::fuzz {
+
+/// What people hand the program, each beside whole files of the other kinds. `folder` is where the
+/// spoilt files go; it must outlive the subject.
+Subject ScenarioSubject(const std::filesystem::path& folder);
+Subject RobotSubject(const std::filesystem::path& folder);
+Subject UrdfSubject(const std::filesystem::path& folder);
+Subject PlanSubject(const std::filesystem::path& folder);
+Subject SolutionSubject(const std::filesystem::path& folder);
+Subject LibrarySubject(const std::filesystem::path& folder);
+
+}  // namespace possibility::fuzz
