@@ -63,6 +63,12 @@ void SayNo(PlanStatus status, const std::string& explanation, PlanResult* result
   result->plan.no = NoPlan{ToString(status), explanation, {}};
 }
 
+PlannerSwitches SwitchesOf(const PlanRequest& request) {
+  const PlannerSwitches switches = SwitchesOf(request.preset);
+  return request.explorers.empty() ? switches
+                                   : WithExplorers(switches, request.explorers, "explorers");
+}
+
 /// One request, from the checked scenario to a verified plan.
 class TraversalPlanner {
  public:
@@ -71,7 +77,7 @@ class TraversalPlanner {
       : robot_(robot),
         scenario_(scenario),
         request_(request),
-        switches_(SwitchesOf(request.preset)),
+        switches_(SwitchesOf(request)),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
@@ -199,7 +205,7 @@ class TraversalPlanner {
     settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
     settings.confirmation_threads = std::max(0, request_.threads - 1);
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
-    settings.straight_first = switches_.lattice;
+    settings.straight_first = switches_.straight;
     settings.explorers = Explorers();
     if (switches_.improvement) settings.improvement_share = scenario_.planner.improvement_share;
     if (switches_.floods) settings.oracle = [this] { return floods_.Ask(start_, goals_); };
@@ -220,9 +226,11 @@ class TraversalPlanner {
   std::vector<graph::ExplorerFactory> Explorers() const {
     const RouteSpace space{&model_, &actions_, &guarded_};
     std::vector<graph::ExplorerFactory> explorers;
-    if (switches_.improvement) explorers.push_back(ShortcutExploration(space, goals_));
+    if (switches_.shortcuts) explorers.push_back(ShortcutExploration(space, goals_));
     if (switches_.lattice) explorers.push_back(LatticeExploration(space, start_, goals_));
     if (switches_.random) explorers.push_back(graph::RandomExploration());
+    // None at all would be the paper's; shortcuts take no part in the search for a first route.
+    if (explorers.empty()) explorers.push_back(ShortcutExploration(space, goals_));
     return explorers;
   }
 

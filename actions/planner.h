@@ -36,6 +36,7 @@ struct PlanRequest {
   std::vector<ManoeuvreFactory> manoeuvres;
   std::filesystem::path library;  ///< folder of solved jumps; empty: none
   PlannerPreset preset = PlannerPreset::kDefault;
+  std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers); empty: those
   std::function<void(const PlanProgress&)> progress;
 };
 

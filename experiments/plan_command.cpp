@@ -36,6 +36,7 @@ struct PlanOptions {
   std::string actions;
   std::string library;
   std::string preset;
+  std::string explorers;
   bool json = false;
 };
 
@@ -60,6 +61,9 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
   }
   if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
   if (!options.preset.empty()) request->preset = ParsePreset("--preset", options.preset);
+  if (!options.explorers.empty()) {
+    request->explorers = ParseNames("--explorers", options.explorers);
+  }
   if (!options.library.empty()) {
     if (!std::filesystem::is_directory(options.library)) {
       throw InputError(fmt::format("--library: '{}' is not a folder", options.library));
@@ -128,6 +132,8 @@ Command AddPlanCommand(CLI::App& program) {
   app->add_option("--library", options->library,
                   "Folder of solved jumps (default: jumps, beside the robot)");
   app->add_option("--preset", options->preset, "Planner: default, or paper (as it prints it)");
+  app->add_option("--explorers", options->explorers,
+                  "Only these: straight, lattice, random, shortcuts (default: the preset's)");
   app->add_flag("--json", options->json, "Print one JSON object");
   return {app, [options] { return RunPlan(*options); }};
 }

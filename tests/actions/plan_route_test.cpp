@@ -43,7 +43,9 @@ void ExpectAPathOfTheGraph(const Plan& plan) {
                            : edges.count({from, to, segment.action.substr(arrow + 2)}) > 0 ||
                                  edges.count({from, to, segment.action.substr(0, arrow)}) > 0;
     EXPECT_TRUE(known) << "segment " << i << ": " << segment.action;
-    if (i > 0) EXPECT_EQ(plan.segments[i - 1].vertices[1], from);
+    if (i > 0) {
+      EXPECT_EQ(plan.segments[i - 1].vertices[1], from);
+    }
     const ExploredGraph::Vertex& start = plan.explored.vertices[from];
     const Eigen::VectorXd& q = segment.phases.front().knots.front().q;
     EXPECT_LT((q.segment<3>(4) - start.position).norm(), 1e-5);
