@@ -101,7 +101,7 @@ void CheckPlan(const Plan& plan, const models::RobotModel& robot) {
 }
 
 auto Jumps(const std::string& what) {
-  return [what] { return what + " jumps between phases"; };
+  return [what] { return what + " jumps between phases, in all"; };
 }
 
 /// What phases and segments do not agree about, added up over the plan: a jump below the tolerance
