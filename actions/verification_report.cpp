@@ -38,6 +38,11 @@ std::string Line(const SegmentRollout& rollout) {
                     drift.end_position, drift.end_orientation);
 }
 
+/// A path may hold line breaks and whatever else would pass for another line of the report.
+std::string Line(const char* what, const std::filesystem::path& file) {
+  return file.empty() ? std::string() : fmt::format("  {} {:?}\n", what, file.string());
+}
+
 nlohmann::ordered_json ToJson(const SegmentRollout& rollout) {
   const RolloutDrift& drift = rollout.drift;
   nlohmann::ordered_json json;
@@ -61,6 +66,7 @@ std::string FormatText(const VerificationReport& report) {
   std::string text = fmt::format("{}: {} samples at most {:.3g} ms apart, checked in {:.2f} s\n",
                                  report.accepted() ? "accepted" : "rejected", report.samples,
                                  1e3 * report.resolution, report.seconds);
+  text += Line("scenario", report.scenario_file) + Line("robot", report.robot_file);
   for (const Violation& violation : report.violations) text += Line(violation);
   for (const SegmentRollout& rollout : report.rollouts) text += Line(rollout);
   return text;
@@ -69,6 +75,8 @@ std::string FormatText(const VerificationReport& report) {
 std::string FormatJson(const VerificationReport& report) {
   nlohmann::ordered_json json;
   json["accepted"] = report.accepted();
+  json["scenario"] = report.scenario_file.string();
+  json["robot"] = report.robot_file.string();
   json["samples"] = report.samples;
   json["resolution_s"] = report.resolution;
   json["seconds"] = report.seconds;
