@@ -10,7 +10,8 @@
 namespace possibility::actions {
 namespace {
 
-constexpr double kVast = 20;  // m
+constexpr double kVast = 20;               // m
+constexpr const char* kMotion = "motion";  // what the plan's action is called, whatever it is
 
 models::Obstacle Floor(const std::string& name, double x, double height) {
   models::Obstacle floor;
@@ -38,7 +39,7 @@ models::Scenario BareGround(const JumpModel& model, const NominalStance& launch,
   goal.x = task.distance;
   goal.z = task.height;
   scenario.goals = {goal};
-  scenario.actions = {launch.gait->name, landing.gait->name};
+  scenario.actions = {kMotion, launch.gait->name, landing.gait->name};
   return scenario;
 }
 
@@ -53,7 +54,7 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const JumpModel& 
   plan.robot_hash = robot.content_hash;
   plan.scenario_hash = scenario.content_hash;
   for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
-  plan.segments = {{"motion", phases}};
+  plan.segments = {{kMotion, phases}};
   VerifierSettings settings;
   settings.simulates = simulates;
   const VerificationReport report = Verify(plan, robot, scenario, settings);

@@ -24,7 +24,7 @@ std::string SagittalWords(const SagittalSettings& s) {
 
 std::string MotionIdentity(const models::RobotModel& robot, const JumpSettings& jump,
                            const SitDownSettings& sit_down) {
-  return models::ContentHash(
+  return models::HashOfParts(
       {robot.content_hash, SagittalWords(jump),
        fmt::format("{} {} {} {}", jump.min_stance_pitch, jump.max_stance_pitch,
                    jump.max_contact_speed, jump.leg_reach),

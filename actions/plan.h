@@ -11,6 +11,9 @@
 
 namespace possibility::actions {
 
+/// What plan files call their format.
+inline constexpr const char* kPlanFormat = "possibility-plan/1";
+
 /// State of the whole robot at one instant. Conventions of q, v, a: models::RobotModel.
 struct Knot {
   double t = 0;             ///< s since the start of the plan

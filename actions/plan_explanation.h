@@ -8,6 +8,7 @@
 #include "actions/manoeuvre.h"
 #include "actions/plan.h"
 #include "actions/planner.h"
+#include "models/scenario.h"
 
 namespace possibility::actions {
 
@@ -17,8 +18,13 @@ using FailedJobs = std::map<std::string, std::vector<Manoeuvre::Refusal>>;
 /// One sentence: how near the search came, and what closes the way on. `status`: one of the "no"s.
 std::string ExplainBarrier(PlanStatus status, const Barrier& barrier);
 
-/// What the search has counted, " Tried: ...", or nothing if it went through no cycle.
+/// What was explored, what refused most of what was tried, and what became of confirmation jobs.
+/// Begins with a space; nothing if the search went through no cycle.
 std::string ExplainSearch(const std::map<std::string, std::int64_t>& statistics);
+
+/// How near to a goal (seen from above) the ways lead that were explored from the first vertex of
+/// the graph, the start. Begins with a space; nothing if they lead nowhere.
+std::string ExplainClosest(const ExploredGraph& explored, const std::vector<models::Stance>& goals);
 
 /// What came of manoeuvres that are no part of the answer: of each the first few, and why. Begins
 /// with a space unless empty.

@@ -9,6 +9,8 @@
 
 #include "actions/contact_name.h"
 #include "actions/plan.h"
+#include "actions/segment_action.h"
+#include "models/action_name.h"
 #include "models/input_error.h"
 #include "models/json_cursor.h"
 
@@ -17,21 +19,20 @@ namespace {
 
 using models::JsonCursor;
 
-constexpr const char* kFormat = "possibility-plan/1";
 constexpr double kTimeTolerance = 1e-6;  // s, of the durations that repeat what the knots say
 
 std::string ReadText(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     throw InputError(
-        fmt::format("{}: no such file, expected a plan.json ({})", file.string(), kFormat));
+        fmt::format("{}: no such file, expected a plan.json ({})", file.string(), kPlanFormat));
   }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
   if (!stream) {
     throw InputError(
-        fmt::format("{}: cannot be read, expected a plan.json ({})", file.string(), kFormat));
+        fmt::format("{}: cannot be read, expected a plan.json ({})", file.string(), kPlanFormat));
   }
   return text.str();
 }
@@ -45,6 +46,16 @@ std::filesystem::path ReadPath(const JsonCursor& cursor, const std::filesystem::
   const std::filesystem::path joined = folder / text;
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(joined, error);
   return error ? joined : resolved;
+}
+
+/// Any text could get into pages, tables and terminals otherwise.
+std::string ReadAction(const JsonCursor& cursor) {
+  std::string action = cursor.String();
+  if (!ParseSegmentAction(action)) {
+    cursor.Fail(
+        fmt::format("expected {}, or two such names with \"->\" between", models::kActionNameRule));
+  }
+  return action;
 }
 
 std::vector<std::string> ReadStrings(const JsonCursor& cursor) {
@@ -177,7 +188,7 @@ Segment ReadSegment(const JsonCursor& cursor, std::size_t num_joints) {
           static_cast<int>(vertices[i].Integer(0, std::numeric_limits<int>::max()));
     }
   }
-  segment.action = cursor["action"].String();
+  segment.action = ReadAction(cursor["action"]);
   const JsonCursor phases = cursor["phases"];
   if (phases.ArraySize() == 0) phases.Fail("expected at least one phase");
   for (std::size_t i = 0; i < phases.value().size(); ++i) {
@@ -235,7 +246,7 @@ ExploredGraph ReadExplored(const JsonCursor& cursor) {
     const JsonCursor edge = edges[i];
     if (edge.ArraySize() != 3) edge.Fail("expected [from, to, action]");
     graph.edges.push_back({static_cast<int>(edge[std::size_t{0}].Integer(0, last)),
-                           static_cast<int>(edge[1].Integer(0, last)), edge[2].String()});
+                           static_cast<int>(edge[1].Integer(0, last)), ReadAction(edge[2])});
   }
   return graph;
 }
@@ -243,7 +254,8 @@ ExploredGraph ReadExplored(const JsonCursor& cursor) {
 ReachedRegion ReadRegion(const JsonCursor& cursor) {
   cursor.ExpectKeys({"action", "z", "outlines"});
   ReachedRegion region;
-  region.action = cursor["action"].String();
+  const JsonCursor action = cursor["action"];
+  if (!action.String().empty()) region.action = ReadAction(action);
   region.z = cursor["z"].Number();
   const JsonCursor outlines = cursor["outlines"];
   for (std::size_t i = 0, n = outlines.ArraySize(); i < n; ++i) {
@@ -295,7 +307,7 @@ NoPlan ReadNo(const JsonCursor& cursor) {
 }
 
 Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
-  root.ExpectFormat(kFormat);
+  root.ExpectFormat(kPlanFormat);
   root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
                    "segments", "explored"},
                   {"search", "no"});
@@ -341,7 +353,7 @@ Plan ReadPlan(const std::filesystem::path& file_or_directory) {
 
 Plan ParsePlan(const std::string& text, const std::filesystem::path& file) {
   const nlohmann::json document =
-      models::ParseJson(text, file, fmt::format("a complete {} file", kFormat));
+      models::ParseJson(text, file, fmt::format("a complete {} file", kPlanFormat));
   return ReadPlan(JsonCursor(document, file), std::filesystem::absolute(file).parent_path());
 }
 

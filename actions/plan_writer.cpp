@@ -165,7 +165,7 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
 
 Json ToJson(const Plan& plan, const std::filesystem::path& folder) {
   Json json;
-  json["format"] = "possibility-plan/1";
+  json["format"] = kPlanFormat;
   json["robot"]["file"] = PathFrom(folder, plan.robot_file);
   json["robot"]["hash"] = plan.robot_hash;
   json["scenario"]["file"] = PathFrom(folder, plan.scenario_file);

@@ -18,6 +18,7 @@
 #include "actions/request_checks.h"
 #include "actions/route.h"
 #include "actions/route_motion.h"
+#include "actions/route_refusals.h"
 #include "actions/shortcut_explorer.h"
 #include "graph/random_explorer.h"
 #include "models/ground_map.h"
@@ -39,12 +40,8 @@ class Stopwatch {
 /// Whether the same motion may be free of such a violation elsewhere.
 bool DependsOnPlace(ViolationKind kind) {
   return kind == ViolationKind::kPenetration || kind == ViolationKind::kContactGround ||
-         kind == ViolationKind::kStart || kind == ViolationKind::kGoal;
-}
-
-std::string Describe(const Violation& violation) {
-  return fmt::format("its motion does not verify: {}, {}", ToString(violation.kind),
-                     violation.quantity);
+         kind == ViolationKind::kStart || kind == ViolationKind::kGoal ||
+         kind == ViolationKind::kBounds;
 }
 
 void FillHeader(const models::RobotModel& robot, const models::Scenario& scenario,
@@ -131,7 +128,8 @@ class TraversalPlanner {
         SayNo(PlanStatus::kTimeLimit,
               fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
                           "verified.",
-                          result.plan.timings.graph_s),
+                          result.plan.timings.graph_s) +
+                  refusals_.Explain() + ExplainManoeuvres(manoeuvres_, failures_),
               &result);
         return result;
       }
@@ -276,9 +274,12 @@ class TraversalPlanner {
   std::string Explain(const PlanResult& result) const {
     const std::string why =
         result.status == PlanStatus::kTimeLimit
-            ? fmt::format("no route found within {:.1f} s.", request_.time_limit)
+            ? fmt::format("no route that can be executed was found within {:.1f} s.",
+                          request_.time_limit) +
+                  ExplainClosest(result.plan.explored, scenario_.goals)
             : ExplainBarrier(result.status, floods_.barrier());
-    return why + ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
+    return why + refusals_.Explain() + ExplainSearch(result.plan.statistics) +
+           ExplainManoeuvres(manoeuvres_, failures_);
   }
 
   /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.
@@ -307,7 +308,9 @@ class TraversalPlanner {
       });
       return true;
     } catch (const LegError& error) {
-      Forbid(route[static_cast<size_t>(error.leg())], error.what());
+      const RouteLeg& leg = route[static_cast<size_t>(error.leg())];
+      refusals_.ByMotion(LegWords(model_, leg), error.what());
+      Forbid(leg, error.what());
       plan->statistics["routes refuted by motion generation"]++;
       return false;
     }
@@ -319,6 +322,11 @@ class TraversalPlanner {
     settings.keep_going = [this](double fraction) { return KeepGoing("verifying", fraction); };
     result->verification = Verify(result->plan, robot_, scenario_, settings);
     result->plan.timings.verification_s += result->verification.seconds;
+    if (!result->verification.accepted()) {
+      std::vector<std::string> legs;
+      for (const RouteLeg& leg : route) legs.push_back(LegWords(model_, leg));
+      refusals_.ByVerification(result->verification, legs);
+    }
     if (result->verification.abandoned) throw Abandoned();
     if (result->verification.accepted()) {
       result->explanation = ExplainManoeuvres(manoeuvres_, failures_);
@@ -329,13 +337,15 @@ class TraversalPlanner {
     for (const Violation& violation : result->verification.violations) {
       if (violation.segment < 0) continue;
       somebody_is_at_fault = true;
-      Forbid(route[static_cast<size_t>(violation.segment)], Describe(violation),
-             !DependsOnPlace(violation.kind));
+      Forbid(route[static_cast<size_t>(violation.segment)],
+             "its motion does not verify: " + Describe(violation), !DependsOnPlace(violation.kind));
     }
     if (!somebody_is_at_fault) {
       for (const RouteLeg& leg : route) {
         if (leg.manoeuvre != nullptr) {
-          Forbid(leg, Describe(result->verification.violations.front()), false);
+          Forbid(leg,
+                 "its motion does not verify: " + Describe(result->verification.violations.front()),
+                 false);
         }
       }
     }
@@ -383,6 +393,7 @@ class TraversalPlanner {
   std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< these, for the search
   FloodOracle floods_;
   FailedJobs failures_;
+  RouteRefusals refusals_;
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
   double preparation_s_ = 0;
@@ -408,9 +419,11 @@ std::string ToString(PlanStatus status) {
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
   RequireNewNames(robot, scenario, request.manoeuvres);
-  models::CheckScenarioAgainstRobot(scenario, robot, NamesOf(request.manoeuvres));
+  models::Scenario asked = scenario;
+  if (!request.actions.empty()) asked.actions = request.actions;
+  models::CheckScenarioAgainstRobot(asked, robot, NamesOf(request.manoeuvres));
   try {
-    return TraversalPlanner(robot, scenario, request).Plan();
+    return TraversalPlanner(robot, asked, request).Plan();
   } catch (const Abandoned&) {
     PlanResult result;
     FillHeader(robot, scenario, request, &result.plan);

@@ -30,8 +30,10 @@ struct PlanProgress {
 struct PlanRequest {
   std::uint64_t seed = 1;
   int threads = 1;
-  double time_limit = 60;            ///< s
-  std::vector<std::string> actions;  ///< empty: the scenario's
+  double time_limit = 60;  ///< s
+  /// Empty: the scenario's. They replace the scenario's in the search and in verification; a plan
+  /// of others than the scenario's file lists is none for that file.
+  std::vector<std::string> actions;
   /// Beside the actions of the robot's file: `actions` may name them, too.
   std::vector<ManoeuvreFactory> manoeuvres;
   std::filesystem::path library;  ///< folder of solved jumps; empty: none

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "actions/long_jump.h"
+#include "models/action_name.h"
 #include "models/input_error.h"
 
 namespace possibility::actions {
@@ -30,6 +31,10 @@ void RequireNewNames(const models::RobotModel& robot, const models::Scenario& sc
   std::vector<std::string> taken = NamesOf(JumpFactories(robot));
   for (const models::Gait& gait : robot.gaits) taken.push_back(gait.name);
   for (const std::string& name : NamesOf(manoeuvres)) {
+    if (!models::IsActionName(name)) {
+      throw InputError(fmt::format("{}: actions: a manoeuvre is called {:?}, expected {}",
+                                   scenario.file.string(), name, models::kActionNameRule));
+    }
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
       throw InputError(
           fmt::format("{}: actions: a manoeuvre is called '{}', as another action of robot '{}' or "

@@ -1,5 +1,7 @@
 #include "actions/route.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -58,6 +60,11 @@ std::string LegName(const LocomotionModel& model, const RouteLeg& leg) {
   const std::string& start = model.gaits[StartGait(model, leg)]->stance.gait->name;
   if (leg.transition < 0) return start;
   return start + "->" + model.gaits[EndGait(model, leg)]->stance.gait->name;
+}
+
+std::string LegWords(const LocomotionModel& model, const RouteLeg& leg) {
+  return fmt::format("{} from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})", LegName(model, leg),
+                     leg.from.x, leg.from.y, leg.to.x, leg.to.y);
 }
 
 graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg) {

@@ -34,6 +34,9 @@ int EndGait(const LocomotionModel& model, const RouteLeg& leg);
 /// "walk", "walk->crawl", "jump", ...
 std::string LegName(const LocomotionModel& model, const RouteLeg& leg);
 
+/// The same with places, seen from above: "walk from (1.00, 2.00) to (3.00, 2.00)".
+std::string LegWords(const LocomotionModel& model, const RouteLeg& leg);
+
 /// The edge of E that the leg executes.
 graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg);
 

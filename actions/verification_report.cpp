@@ -38,6 +38,11 @@ std::string Line(const StretchRollout& rollout) {
                     drift.end_position, drift.end_orientation);
 }
 
+/// A path may hold line breaks and whatever else would pass for another line of the report.
+std::string Line(const char* what, const std::filesystem::path& file) {
+  return file.empty() ? std::string() : fmt::format("  {} {:?}\n", what, file.string());
+}
+
 nlohmann::ordered_json ToJson(const StretchRollout& rollout) {
   const RolloutDrift& drift = rollout.drift;
   nlohmann::ordered_json json;
@@ -66,6 +71,7 @@ std::string FormatText(const VerificationReport& report) {
     text += fmt::format("  between samples within {:.2g} m and {:.2g} N of a straight line\n",
                         report.position_resolution, report.force_resolution);
   }
+  text += Line("scenario", report.scenario_file) + Line("robot", report.robot_file);
   for (const Violation& violation : report.violations) text += Line(violation);
   for (const StretchRollout& rollout : report.rollouts) text += Line(rollout);
   return text;
@@ -74,6 +80,8 @@ std::string FormatText(const VerificationReport& report) {
 std::string FormatJson(const VerificationReport& report) {
   nlohmann::ordered_json json;
   json["accepted"] = report.accepted();
+  json["scenario"] = report.scenario_file.string();
+  json["robot"] = report.robot_file.string();
   json["samples"] = report.samples;
   json["resolution_s"] = report.resolution;
   json["resolution_m"] = report.position_resolution;

@@ -7,6 +7,7 @@
 #include "actions/verifier_flight.h"
 #include "actions/verifier_impact.h"
 #include "actions/verifier_motion.h"
+#include "actions/verifier_problem.h"
 #include "actions/verifier_rollouts.h"
 #include "actions/verifier_structure.h"
 #include "models/ground_map.h"
@@ -18,6 +19,8 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
                const VerifierSettings& settings, ViolationLog* log, VerificationReport* report) {
   CheckFiles(plan, robot, scenario, log);
   if (!CheckStructure(plan, robot, log)) return;
+  CheckActions(plan, robot, scenario, log);
+  CheckBounds(plan, scenario, log);
   CheckContinuity(plan, robot, log);
   StateEvaluator evaluator(robot);
   CheckEnds(plan, robot, scenario, &evaluator, log);
@@ -43,10 +46,14 @@ std::string ToString(ViolationKind kind) {
       return "file_mismatch";
     case ViolationKind::kStructure:
       return "structure";
+    case ViolationKind::kAction:
+      return "action";
     case ViolationKind::kStart:
       return "start";
     case ViolationKind::kGoal:
       return "goal";
+    case ViolationKind::kBounds:
+      return "bounds";
     case ViolationKind::kPositionContinuity:
       return "position_continuity";
     case ViolationKind::kVelocityContinuity:
@@ -88,6 +95,8 @@ VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,
   }
   const auto start = std::chrono::steady_clock::now();
   VerificationReport report;
+  report.robot_file = robot.file;
+  report.scenario_file = scenario.file;
   ViolationLog log;
   VerifyAll(plan, robot, scenario, settings, &log, &report);
   report.violations = log.Worst();

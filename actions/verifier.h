@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,8 +16,10 @@ namespace possibility::actions {
 enum class ViolationKind {
   kFileMismatch,        ///< robot or scenario is not the one planned for
   kStructure,           ///< no segments, unknown contact, times out of order or apart
+  kAction,              ///< an action that the scenario does not allow, or other than it is called
   kStart,               ///< the first state is not the scenario's start at rest
   kGoal,                ///< the last state is not a goal at rest
+  kBounds,              ///< the root leaves the scenario's bounds
   kPositionContinuity,  ///< q jumps between phases or segments
   kVelocityContinuity,  ///< v jumps between phases or segments, and no impact is declared
   kImpact,              ///< impulses that do not make the jump of v, or that no ground gives
@@ -56,6 +59,8 @@ struct StretchRollout {
 };
 
 struct VerificationReport {
+  std::filesystem::path robot_file;  ///< what the plan was verified with; empty if of no file
+  std::filesystem::path scenario_file;
   std::vector<Violation> violations;  ///< at most one (the worst) of each kind; empty: accepted
   /// By dynamic stretch, in order. Empty if something else is wrong with the plan.
   std::vector<StretchRollout> rollouts;

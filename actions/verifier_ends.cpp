@@ -9,7 +9,10 @@
 namespace possibility::actions {
 namespace {
 
-constexpr double kPoseTolerance = 1e-3;     // m and rad
+constexpr double kPoseTolerance = 1e-3;  // m and rad
+/// rad (m if prismatic): a posture's contacts may be 0.1 mm off the ground, which the joints of its
+/// limbs make up for; another way to bend them is much farther away.
+constexpr double kLimbTolerance = 0.02;
 constexpr double kRestSpeed = 1e-6;         // m/s and rad/s
 constexpr double kRestAcceleration = 1e-3;  // m/s^2 and rad/s^2
 
@@ -52,11 +55,14 @@ void CheckRest(const End& end, ViolationLog* log) {
                      "rad/s^2 or m/s^2", Named("acceleration, not at rest"));
 }
 
+Eigen::VectorXd Nominal(const End& end, const models::RobotModel& robot, const models::Gait& gait) {
+  const models::Stance& stance = *end.stance;
+  return robot.Configuration(gait.posture, stance.x, stance.y, stance.yaw, stance.z);
+}
+
 void CheckPosture(const End& end, const models::RobotModel& robot, const models::Gait& gait,
                   ViolationLog* log) {
-  const models::Stance& stance = *end.stance;
-  const Eigen::VectorXd nominal =
-      robot.Configuration(gait.posture, stance.x, stance.y, stance.yaw, stance.z);
+  const Eigen::VectorXd nominal = Nominal(end, robot, gait);
   const Eigen::VectorXd& q = end.knot->q;
   log->RequireAtMost(end.kind, end.at, (q - nominal).segment<2>(4).norm(), 0, kPoseTolerance, "m",
                      Named("root position in the plane, off the stance"));
@@ -71,10 +77,28 @@ void CheckPosture(const End& end, const models::RobotModel& robot, const models:
     for (const int joint : limb.joints) moves[joint] = true;
   }
   for (int j = 0; j < robot.num_joints(); ++j) {
-    // Limb joints follow from the root and from where the contacts are; the others are free.
-    if (moves[j]) continue;
-    log->RequireAtMost(end.kind, end.at, std::abs(q[7 + j] - nominal[7 + j]), 0, kPoseTolerance,
-                       "rad", [&] { return robot.joints[j].name + ", off the nominal posture"; });
+    log->RequireAtMost(end.kind, end.at, std::abs(q[7 + j] - nominal[7 + j]), 0,
+                       moves[j] ? kLimbTolerance : kPoseTolerance, "rad",
+                       [&] { return robot.joints[j].name + ", off the nominal posture"; });
+  }
+}
+
+/// The gait's patches are where the nominal posture has them, and not half a stride elsewhere.
+void CheckPlaces(const End& end, const models::RobotModel& robot, const models::Gait& gait,
+                 StateEvaluator* evaluator, ViolationLog* log) {
+  Knot nominal = *end.knot;
+  nominal.q = Nominal(end, robot, gait);
+  const VerifierState expected = evaluator->Evaluate(nominal);
+  const VerifierState state = evaluator->Evaluate(*end.knot);
+  for (const models::GaitLimb& limb : gait.limbs) {
+    const models::ContactPatch& patch = robot.contacts[limb.contact];
+    for (int i = 0; i < static_cast<int>(patch.points.size()); ++i) {
+      const BearingPoint point{limb.contact, i, patch.link, patch.points[i]};
+      log->RequireAtMost(end.kind, end.at,
+                         (state.Position(point) - expected.Position(point)).norm(), 0,
+                         kPoseTolerance, "m",
+                         [&] { return NameOf(robot, point) + ", off its place in the stance"; });
+    }
   }
 }
 
@@ -102,6 +126,7 @@ void CheckEnd(const End& end, const models::RobotModel& robot, StateEvaluator* e
   CheckAction(end, robot, log);
   CheckRest(end, log);
   CheckPosture(end, robot, gait, log);
+  CheckPlaces(end, robot, gait, evaluator, log);
   CheckBearing(end, robot, gait, evaluator, log);
 }
 

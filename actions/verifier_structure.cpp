@@ -87,7 +87,7 @@ void CheckPlan(const Plan& plan, const models::RobotModel& robot) {
   Require(plan.joints.size() == robot.joints.size(), {}, "number of joints is not the robot's");
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     Require(plan.joints[j] == robot.joints[j].name, {},
-            fmt::format("joint {} is not the robot's {}", plan.joints[j], robot.joints[j].name));
+            fmt::format("joint {:?} is not the robot's {}", plan.joints[j], robot.joints[j].name));
   }
   double end = 0;
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
@@ -164,15 +164,20 @@ class Jumped {
 
 void CheckFiles(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
                 ViolationLog* log) {
-  if (plan.robot_hash != robot.content_hash) {
-    log->Report(
-        ViolationKind::kFileMismatch, {},
-        fmt::format("robot file is {}, planned for {}", robot.content_hash, plan.robot_hash));
-  }
-  if (plan.scenario_hash != scenario.content_hash) {
+  const auto require_same = [log](const char* what, const std::string& hash,
+                                  const std::string& planned) {
+    if (hash == planned) return;
     log->Report(ViolationKind::kFileMismatch, {},
-                fmt::format("scenario file is {}, planned for {}", scenario.content_hash,
-                            plan.scenario_hash));
+                fmt::format("{} is {}, the plan was made for {:?}: plan again, or verify with the "
+                            "file that it was made for",
+                            what, hash, planned));
+  };
+  require_same("robot", robot.content_hash, plan.robot_hash);
+  require_same("scenario", scenario.content_hash, plan.scenario_hash);
+  if (!scenario.robot_hash.empty() && scenario.robot_hash != robot.content_hash) {
+    log->Report(ViolationKind::kFileMismatch, {},
+                fmt::format("robot is {}, the scenario's is {}", robot.content_hash,
+                            scenario.robot_hash));
   }
 }
 

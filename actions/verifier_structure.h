@@ -5,7 +5,7 @@
 
 namespace possibility::actions {
 
-/// Whether robot and scenario are those the plan was made for.
+/// Whether robot and scenario are those the plan was made for, and the robot is the scenario's.
 void CheckFiles(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
                 ViolationLog* log);
 

@@ -35,9 +35,9 @@ std::string FolderHash(const fs::path& folder) {
   std::string hashes;
   for (const fs::path& file : files) {
     hashes += file.lexically_relative(folder).generic_string() + ' ' +
-              models::ContentHash({models::ReadFileContents(file)}) + '\n';
+              models::ContentHash(models::ReadFileContents(file)) + '\n';
   }
-  return models::ContentHash({hashes});
+  return models::ContentHash(hashes);
 }
 
 TrialTask TaskOf(const ExperimentRow& row, actions::PlannerPreset preset, std::uint64_t seed,
@@ -128,9 +128,9 @@ ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options,
 }
 
 std::string ExperimentSettings::Hash(const fs::path& library) const {
-  return models::ContentHash({fmt::format(
+  return models::ContentHash(fmt::format(
       "possibility {}, time limit {}, library {}", ThisEnvironment().possibility,
-      time_limit ? fmt::format("{}", *time_limit) : "of the scenario", FolderHash(library))});
+      time_limit ? fmt::format("{}", *time_limit) : "of the scenario", FolderHash(library)));
 }
 
 fs::path LibraryOf(const models::RobotModel& robot) { return robot.file.parent_path() / "jumps"; }

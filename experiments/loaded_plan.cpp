@@ -20,6 +20,16 @@ bool Fits(const actions::Phase& phase, const models::RobotModel& robot, Eigen::I
          });
 }
 
+/// The plan, without robot and scenario.
+LoadedPlan LoadAlone(const std::filesystem::path& file_or_directory) {
+  LoadedPlan loaded;
+  std::error_code ignored;  // a path that cannot be asked about cannot be read: ReadPlan says so
+  const bool is_folder = std::filesystem::is_directory(file_or_directory, ignored);
+  loaded.file = is_folder ? file_or_directory / "plan.json" : file_or_directory;
+  loaded.plan = actions::ReadPlan(loaded.file);
+  return loaded;
+}
+
 }  // namespace
 
 bool LoadedPlan::IsCurrent() const {
@@ -27,13 +37,24 @@ bool LoadedPlan::IsCurrent() const {
 }
 
 LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory) {
-  LoadedPlan loaded;
-  std::error_code ignored;  // a path that cannot be asked about cannot be read: ReadPlan says so
-  const bool is_folder = std::filesystem::is_directory(file_or_directory, ignored);
-  loaded.file = is_folder ? file_or_directory / "plan.json" : file_or_directory;
-  loaded.plan = actions::ReadPlan(loaded.file);
+  LoadedPlan loaded = LoadAlone(file_or_directory);
   loaded.scenario = models::LoadScenario(loaded.plan.scenario_file);
   loaded.robot = models::LoadRobotModel(loaded.plan.robot_file);
+  return loaded;
+}
+
+LoadedPlan LoadPlanToVerify(const std::filesystem::path& file_or_directory,
+                            const VerifiedWith& files) {
+  LoadedPlan loaded = LoadAlone(file_or_directory);
+  loaded.scenario =
+      models::LoadScenario(files.scenario.empty() ? loaded.plan.scenario_file : files.scenario);
+  const std::filesystem::path& named = loaded.scenario.robot_file;
+  std::error_code ignored;  // what cannot be asked about cannot be read
+  if (files.robot.empty() && !std::filesystem::exists(named, ignored)) {
+    throw InputError(fmt::format("{}: robot: no such file: {}, expected one, or --robot FILE",
+                                 loaded.scenario.file.string(), named.string()));
+  }
+  loaded.robot = models::LoadRobotModel(files.robot.empty() ? named : files.robot);
   return loaded;
 }
 

@@ -23,6 +23,17 @@ struct LoadedPlan {
 /// @throws InputError for anything malformed or missing.
 LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory);
 
+/// The files to verify a plan with, where they are not those that files name; empty: as named.
+struct VerifiedWith {
+  std::filesystem::path robot;
+  std::filesystem::path scenario;
+};
+
+/// The same for verification: the robot is the one that the scenario names, whatever the plan says.
+/// @throws InputError likewise.
+LoadedPlan LoadPlanToVerify(const std::filesystem::path& file_or_directory,
+                            const VerifiedWith& files);
+
 /// Makes sure that the sizes of every knot and the contacts of every phase are the robot's, which
 /// the plan's reader cannot know.
 /// @throws InputError naming the file and the segment.

@@ -10,7 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "actions/plan.h"
 #include "experiments/commands.h"
+#include "experiments/empty_values.h"
+#include "experiments/run_environment.h"
 #include "experiments/standard_streams.h"
 #include "models/input_error.h"
 
@@ -24,6 +27,11 @@ constexpr Command (*kCommands[])(CLI::App&) = {
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+std::string Version() {
+  return fmt::format("possibility {}\nplan format {}", ThisEnvironment().possibility,
+                     actions::kPlanFormat);
 }
 
 /// One line for people; with --json also an object, so that a caller always has one to parse.
@@ -43,8 +51,10 @@ ExitCode Fail(ExitCode code, const std::string& message, bool json) {
 ExitCode RunCommand(int argc, char** argv) {
   CLI::App program("Plans how a humanoid robot gets through an environment.", "possibility");
   program.require_subcommand(1);
+  program.set_version_flag("--version", &Version, "Print the versions of program and plan files");
   std::vector<Command> commands;
   for (const auto add : kCommands) commands.push_back(add(program));
+  RefuseEmptyValues(&program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "actions/planner.h"
 #include "actions/verification_report.h"
@@ -72,6 +75,17 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
   }
 }
 
+/// The plan is one for the scenario's file, which `verify` reads again.
+void RequireAllowed(const std::vector<std::string>& actions, const models::Scenario& scenario) {
+  const std::vector<std::string>& allowed = scenario.actions;
+  for (const std::string& action : actions) {
+    if (std::find(allowed.begin(), allowed.end(), action) != allowed.end()) continue;
+    throw InputError(
+        fmt::format("--actions: '{}' is not among the actions of {}, expected some of {}", action,
+                    scenario.file.string(), fmt::join(allowed, ", ")));
+  }
+}
+
 actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
                                      const models::Scenario& scenario,
                                      actions::PlanRequest request) {
@@ -96,6 +110,7 @@ ExitCode RunPlan(const PlanOptions& options) {
   actions::PlanRequest request;
   ApplyOptions(options, &request);
   const models::Scenario scenario = models::LoadScenario(options.scenario);
+  RequireAllowed(request.actions, scenario);
   const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
   request.seed = scenario.seed;
   request.threads = HardwareThreads();
@@ -128,7 +143,7 @@ Command AddPlanCommand(CLI::App& program) {
   app->add_option("--seed", options->seed, "Random seed (default: the scenario's)");
   app->add_option("--threads", options->threads, "1 to 256 (default: all this machine has)");
   app->add_option("--time-limit", options->time_limit, "s (default: the scenario's)");
-  app->add_option("--actions", options->actions, "Names and commas, e.g. walk,crawl");
+  app->add_option("--actions", options->actions, "Of the scenario's only these, e.g. walk,crawl");
   app->add_option("--library", options->library,
                   "Folder of solved jumps (default: jumps, beside the robot)");
   app->add_option("--preset", options->preset, "Planner: default, or paper (as it prints it)");

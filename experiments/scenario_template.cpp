@@ -93,7 +93,7 @@ std::string RobotLine(const std::string& path, const fs::path& file, const fs::p
 ScenarioTemplate::ScenarioTemplate(fs::path file)
     : file_(std::move(file)),
       text_(models::ReadFileContents(file_)),
-      content_hash_(models::ContentHash({text_})) {}
+      content_hash_(models::ContentHash(text_)) {}
 
 bool ScenarioTemplate::Mentions(const std::string& name) const {
   static const std::regex placeholder("\\$\\{([^}]*)\\}");

@@ -138,7 +138,7 @@ std::string MotionHash(const actions::Plan& plan) {
     parts.push_back(segment.action + '\n');
     for (const actions::Phase& phase : segment.phases) parts.push_back(Bytes(phase));
   }
-  return models::ContentHash({parts.begin(), parts.end()});
+  return models::HashOfParts({parts.begin(), parts.end()});
 }
 
 }  // namespace possibility::experiments

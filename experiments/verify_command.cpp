@@ -16,11 +16,13 @@ namespace {
 
 struct VerifyOptions {
   std::string plan;
+  std::string robot;
+  std::string scenario;
   bool json = false;
 };
 
 ExitCode RunVerify(const VerifyOptions& options) {
-  const LoadedPlan loaded = LoadPlan(options.plan);
+  const LoadedPlan loaded = LoadPlanToVerify(options.plan, {options.robot, options.scenario});
   RequireMotion(loaded);
   actions::VerifierSettings settings;
   settings.threads = HardwareThreads();
@@ -40,6 +42,8 @@ Command AddVerifyCommand(CLI::App& program) {
   CLI::App* app = program.add_subcommand("verify", "Checks a plan from first principles.");
   auto options = std::make_shared<VerifyOptions>();
   app->add_option("PLAN", options->plan, "plan.json or its folder")->required();
+  app->add_option("--robot", options->robot, "Robot YAML (default: the scenario's)");
+  app->add_option("--scenario", options->scenario, "Scenario YAML (default: the plan's)");
   app->add_flag("--json", options->json, "Print one JSON object");
   return {app, [options] { return RunVerify(*options); }};
 }

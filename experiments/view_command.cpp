@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include "actions/plan.h"
 #include "experiments/commands.h"
 #include "experiments/jump_page.h"
 #include "experiments/loaded_plan.h"
@@ -18,7 +19,6 @@
 namespace possibility::experiments {
 namespace {
 
-constexpr const char* kPlanFormat = "possibility-plan/1";
 constexpr const char* kJumpFormat = "possibility-solution/1";
 
 struct ViewOptions {
@@ -60,10 +60,10 @@ Page MakePage(const ViewOptions& options) {
   if (std::filesystem::is_directory(options.file, ignored)) return PlanPage(options);
   const std::string format = FormatOf(options.file);
   if (format == kJumpFormat) return PageOfJump(options);
-  if (format == kPlanFormat) return PlanPage(options);
+  if (format == actions::kPlanFormat) return PlanPage(options);
   throw InputError(
       fmt::format("{}: neither a plan nor a jump, expected \"format\": \"{}\" or \"{}\"",
-                  options.file, kPlanFormat, kJumpFormat));
+                  options.file, actions::kPlanFormat, kJumpFormat));
 }
 
 ExitCode RunView(const ViewOptions& options) {

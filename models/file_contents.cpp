@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <system_error>
@@ -13,6 +14,17 @@ namespace possibility::models {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 64u << 20;
+
+std::string Hexadecimal(const XXH128_hash_t& hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// The lowest first, on any machine.
+std::string EightBytes(std::uint64_t number) {
+  std::string bytes;
+  for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
 
 }  // namespace
 
@@ -38,15 +50,23 @@ std::string ReadFileContents(const std::filesystem::path& file) {
   return contents;
 }
 
-std::string ContentHash(const std::vector<std::string_view>& parts) {
+std::string ContentHash(std::string_view bytes) {
+  return Hexadecimal(XXH3_128bits(bytes.data(), bytes.size()));
+}
+
+std::string HashOfParts(const std::vector<std::string_view>& parts) {
   const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
                                                                               XXH3_freeState);
   XXH3_128bits_reset(state.get());
+  const auto update = [&state](std::string_view bytes) {
+    XXH3_128bits_update(state.get(), bytes.data(), bytes.size());
+  };
+  update(EightBytes(parts.size()));
   for (const std::string_view part : parts) {
-    XXH3_128bits_update(state.get(), part.data(), part.size());
+    update(EightBytes(part.size()));
+    update(part);
   }
-  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return Hexadecimal(XXH3_128bits_digest(state.get()));
 }
 
 }  // namespace possibility::models

@@ -11,7 +11,11 @@ namespace possibility::models {
 /// @throws InputError if it does not exist, is a folder, cannot be read or exceeds 64 MiB.
 std::string ReadFileContents(const std::filesystem::path& file);
 
-/// XXH3 (128 bits, seed 0) of the concatenated parts, as 32 lower-case hexadecimal digits.
-std::string ContentHash(const std::vector<std::string_view>& parts);
+/// XXH3 (128 bits, seed 0) of the bytes, as 32 lower-case hexadecimal digits.
+std::string ContentHash(std::string_view bytes);
+
+/// The same of several texts: of their number, then the length and the bytes of each; numbers as
+/// eight bytes, the lowest first. Bytes that move from one part to the next change it.
+std::string HashOfParts(const std::vector<std::string_view>& parts);
 
 }  // namespace possibility::models

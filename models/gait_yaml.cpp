@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "models/action_name.h"
 #include "models/mimic_joints.h"
 #include "models/named_lookup.h"
 
@@ -192,7 +193,7 @@ void CheckContactsOnGround(const YamlNode& node, const Gait& gait, const RobotMo
 Gait ReadGait(const YamlNode& node, const RobotModel& robot) {
   node.MapOf({"name", "posture", "limbs", "parameters"});
   Gait gait;
-  gait.name = node.At("name").String();
+  gait.name = ReadActionName(node.At("name"));
   gait.posture = ReadPosture(node.At("posture"), robot);
   gait.limbs = ReadLimbs(node.At("limbs"), robot);
   gait.parameters = ReadParameters(node.At("parameters"));
@@ -213,7 +214,7 @@ Jump ReadJump(const YamlNode& node, const RobotModel& robot) {
   const Gait& from = robot.gaits[IndexOfNamed(node.At("from"), robot.gaits, "gait")];
   const Gait& to = robot.gaits[IndexOfNamed(node.At("to"), robot.gaits, "gait")];
   if (&from == &to) node.At("to").FailExpected("another gait than 'from'");
-  const Jump jump{node.At("name").String(), from.name, to.name};
+  const Jump jump{ReadActionName(node.At("name")), from.name, to.name};
   for (const Gait& gait : robot.gaits) {
     if (gait.name == jump.name) node.At("name").Fail("this name is already that of a gait");
   }

@@ -9,6 +9,7 @@
 #include "models/lumping.h"
 #include "models/mimic_joints.h"
 #include "models/named_lookup.h"
+#include "models/robot_files.h"
 #include "models/robot_model.h"
 #include "models/shape_yaml.h"
 #include "models/urdf_reader.h"
@@ -161,7 +162,23 @@ void ReadDescription(const YamlNode& root, RobotModel* robot) {
   if (const auto jumps = root.Find("jumps")) robot->jumps = ReadJumps(*jumps, *robot);
 }
 
+/// The file that the YAML names. @throws InputError unless there is one.
+std::filesystem::path UrdfFile(const YamlNode& root, const std::filesystem::path& yaml_file) {
+  const YamlNode urdf = root.At("urdf");
+  const std::filesystem::path file = yaml_file.parent_path() / urdf.String();
+  if (std::error_code error; !std::filesystem::is_regular_file(file, error)) {
+    urdf.Fail(fmt::format("no such file: {}", file.string()));
+  }
+  return file;
+}
+
 }  // namespace
+
+std::string RobotContentHash(const std::filesystem::path& yaml_file) {
+  const std::string yaml = ReadFileContents(yaml_file);
+  const YamlNode root = YamlNode::Parse(yaml, yaml_file);
+  return HashOfParts({yaml, ReadFileContents(UrdfFile(root, yaml_file))});
+}
 
 RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   const std::string yaml = ReadFileContents(yaml_file);
@@ -170,12 +187,9 @@ RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   RobotModel robot;
   robot.name = root.At("name").String();
   robot.file = yaml_file;
-  const std::filesystem::path urdf_file = yaml_file.parent_path() / root.At("urdf").String();
-  if (std::error_code error; !std::filesystem::is_regular_file(urdf_file, error)) {
-    root.At("urdf").Fail(fmt::format("no such file: {}", urdf_file.string()));
-  }
+  const std::filesystem::path urdf_file = UrdfFile(root, yaml_file);
   const std::string urdf = ReadFileContents(urdf_file);
-  robot.content_hash = ContentHash({yaml, urdf});
+  robot.content_hash = HashOfParts({yaml, urdf});
   const UrdfTree tree = ParseUrdf(urdf, urdf_file);
   ReadRootLink(root.At("root_link"), tree);
   const std::set<std::string> lumped = ReadLumped(root, tree);

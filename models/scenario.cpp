@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "models/action_name.h"
 #include "models/environment_yaml.h"
 #include "models/file_contents.h"
 #include "models/input_error.h"
 #include "models/nearest_name.h"
+#include "models/robot_files.h"
 #include "models/yaml_reader.h"
 
 namespace possibility::models {
@@ -49,7 +51,7 @@ std::vector<Stance> ReadGoals(const YamlNode& root, const Scenario& scenario) {
 std::vector<std::string> ReadActions(const YamlNode& list) {
   std::vector<std::string> actions;
   for (const YamlNode& node : list.Items()) {
-    const std::string action = node.String();
+    const std::string action = ReadActionName(node);
     if (std::find(actions.begin(), actions.end(), action) != actions.end()) {
       node.Fail(fmt::format("action '{}' is listed twice", action));
     }
@@ -83,6 +85,15 @@ PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   return settings;
 }
 
+/// What is wrong with the robot is for LoadRobotModel to say.
+std::string HashOfRobot(const std::filesystem::path& file) {
+  try {
+    return RobotContentHash(file);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 constexpr double kLongestTimeLimit = 1e5;  // s
 
 }  // namespace
@@ -95,8 +106,9 @@ Scenario LoadScenario(const std::filesystem::path& yaml_file) {
   Scenario scenario;
   scenario.name = root.At("name").String();
   scenario.file = yaml_file;
-  scenario.content_hash = ContentHash({text});
+  scenario.content_hash = ContentHash(text);
   scenario.robot_file = (yaml_file.parent_path() / root.At("robot").String()).lexically_normal();
+  scenario.robot_hash = HashOfRobot(scenario.robot_file);
   scenario.environment = ReadEnvironment(root.At("environment"));
   scenario.actions = ReadActions(root.At("actions"));
   scenario.start = ReadStance(root.At("start"), scenario);
@@ -114,6 +126,11 @@ Scenario LoadScenario(const std::filesystem::path& yaml_file) {
 
 void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot,
                                const std::vector<std::string>& further) {
+  if (!scenario.robot_hash.empty() && scenario.robot_hash != robot.content_hash) {
+    throw InputError(fmt::format("{}: robot: names {}, expected the robot planned with, {}",
+                                 scenario.file.string(), scenario.robot_file.string(),
+                                 robot.file.string()));
+  }
   CheckActionsOfRobot(scenario.actions, robot, scenario.file.string() + ": actions", further);
   const auto check = [&](const std::string& action, const std::string& key) {
     for (const Jump& jump : robot.jumps) {

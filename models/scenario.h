@@ -36,6 +36,8 @@ struct Scenario {
   std::filesystem::path file;
   std::string content_hash;          ///< of the scenario YAML's bytes
   std::filesystem::path robot_file;  ///< resolved against the scenario's folder
+  /// RobotModel::content_hash of that robot; empty if its files cannot be read.
+  std::string robot_hash;
   Environment environment;
   Stance start;
   std::vector<Stance> goals;
@@ -48,10 +50,11 @@ struct Scenario {
 /// @throws InputError for anything malformed (see docs/file_formats.md).
 Scenario LoadScenario(const std::filesystem::path& yaml_file);
 
-/// Checks what only the robot can tell: every action of the scenario is a gait of the robot or a
-/// jump between two gaits that are among the actions as well, or one of `further`, which others
-/// than the robot bring along; start and goals are gaits.
-/// @throws InputError naming the scenario, the action and the nearest known name.
+/// Checks what only the robot can tell: it is the one that the scenario names (unless the
+/// robot_hash is empty); every action of the scenario is a gait of the robot or a jump between two
+/// gaits that are among the actions as well, or one of `further`, which others than the robot bring
+/// along; start and goals are gaits.
+/// @throws InputError naming the scenario, and the action and the nearest known name.
 void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot,
                                const std::vector<std::string>& further = {});
 

@@ -224,6 +224,43 @@ TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsThePlan) {
   EXPECT_THROW(PlanTraversal(DrcHubo1(), PitScene(false), request), InputError);
 }
 
+/// The explanation of a leap across the pit that jobs confirm and that comes to nothing, searched
+/// for until the time limit; a slow machine gets more time.
+std::string ExplainedFailure(const Leap::MakeMotion& make_motion, const std::string& expected) {
+  std::string explanation;
+  for (const double time_limit : {3.0, 20.0, 200.0}) {
+    const PlanResult result =
+        PlanTraversal(DrcHubo1(), PitScene(false), Request(Confirms, make_motion, time_limit));
+    EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
+    explanation = result.explanation;
+    if (explanation.find(expected) != std::string::npos) break;
+  }
+  return explanation;
+}
+
+TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatVerificationRefusedAndWhy) {
+  const std::string leg =
+      "refused by verification; the first in leap from (-0.60, 0.00) to (0.60, "
+      "0.00): ";
+  const std::string explanation = ExplainedFailure(Slides, leg);
+  const std::size_t place = explanation.find(leg);
+  ASSERT_NE(place, std::string::npos) << explanation;
+  // The soles slide from the first instant on.
+  EXPECT_NE(explanation.find("sole", place), std::string::npos) << explanation;
+  EXPECT_NE(explanation.find("(limit ", place), std::string::npos) << explanation;
+}
+
+TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatHasNoMotionAndWhy) {
+  const auto throws = [](const Leap&) -> std::vector<Phase> {
+    throw MotionError("the knee would break");
+  };
+  const std::string expected =
+      " 1 confirmed route came to nothing, 1 without a motion; the first in leap from (-0.60, "
+      "0.00) to (0.60, 0.00): the knee would break.";
+  const std::string explanation = ExplainedFailure(throws, expected);
+  EXPECT_NE(explanation.find(expected), std::string::npos) << explanation;
+}
+
 /// It declares no bounds, so a closed flood is no proof.
 TEST(FaultInjectionTest, WithoutBoundsThereIsNoFalseNo) {
   const auto refutes = [](graph::JobControl*) { return graph::JobVerdict::kRefuted; };

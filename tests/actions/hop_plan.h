@@ -193,6 +193,7 @@ class Hop {
 
 inline VerifierSubject HopPlan(const std::string& robot_yaml) {
   VerifierSubject subject = PlanWithoutMotion(robot_yaml);
+  subject.scenario.actions = {"walk", "hop"};
   subject.plan.segments = {Hop(subject.robot).Build()};
   return subject;
 }

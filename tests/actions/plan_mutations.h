@@ -204,6 +204,28 @@ inline std::vector<PlanMutation> PlanMutations() {
       {"OtherRobot", [](Subject* s) { s->robot.content_hash += "0"; }, Kind::kFileMismatch},
       {"OtherScenario", [](Subject* s) { s->scenario.content_hash += "0"; }, Kind::kFileMismatch},
 
+      {"ScenarioOfAnotherRobot", [](Subject* s) { s->scenario.robot_hash = "another"; },
+       Kind::kFileMismatch},
+
+      {"Levitates", [](Subject* s) { s->plan.segments.back().action = "levitate"; }, Kind::kAction},
+      {"NameWithMarkup", [](Subject* s) { s->plan.segments.front().action = "<b>"; },
+       Kind::kAction},
+      {"NameIsAPath", [](Subject* s) { s->plan.segments.front().action = "../../walk"; },
+       Kind::kAction},
+      {"NameWithAZero",
+       [](Subject* s) { s->plan.segments.front().action = std::string("walk\0", 5); },
+       Kind::kAction},
+      {"ActionNotAllowed",
+       [](Subject* s) {
+         s->scenario.actions = {"crawl", "jump"};
+       },
+       Kind::kAction},
+      {"TransitionTheRobotHasNot",
+       [](Subject* s) { s->plan.segments.back().action = "walk->walk"; }, Kind::kAction},
+      {"BoundsTooNarrow",
+       [](Subject* s) { s->scenario.environment.bounds.max().x() = s->scenario.start.x - 0.16; },
+       Kind::kBounds},
+
       {"NoSegments", [](Subject* s) { s->plan.segments.clear(); }, Kind::kStructure},
       {"EmptySegment", [](Subject* s) { s->plan.segments.back().phases.clear(); },
        Kind::kStructure},

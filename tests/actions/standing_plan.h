@@ -26,13 +26,14 @@ inline models::Scenario FlatScenario() {
   return scenario;
 }
 
-/// Rest-to-rest motion of the pelvis by (x, y, z) away from the nominal stance, or back to it.
+/// Rest-to-rest motion of the pelvis by (x, y, z) away from the nominal stance, or back to it. The
+/// first foot stands `stride` (m) before its place, the others as much behind theirs.
 inline MotionPhase PelvisShift(const NominalStance& stance, const Eigen::Vector3d& shift, bool back,
-                               double duration) {
+                               double duration, double stride = 0) {
   MotionPhase phase;
   phase.duration = duration;
   for (const models::GaitLimb& limb : stance.gait->limbs) phase.contacts.push_back(limb.contact);
-  phase.task = [&stance, shift, back, duration](double t) {
+  phase.task = [&stance, shift, back, duration, stride](double t) {
     const models::Posture& posture = stance.gait->posture;
     const ScalarSignal s = RestToRest(t, duration);
     const auto blend = [&](double nominal, double change) {
@@ -49,6 +50,7 @@ inline MotionPhase PelvisShift(const NominalStance& stance, const Eigen::Vector3
       LimbTask limb;
       limb.limb = &stance.gait->limbs[i];
       limb.position = ConstantVector<Eigen::Vector3d>(stance.patch_centres[i]);
+      limb.position.value.x() += i == 0 ? stride : -stride;
       limb.orientation = stance.patch_orientations[i];
       task.limbs.push_back(limb);
     }
@@ -72,13 +74,14 @@ inline VerifierSubject PlanWithoutMotion(const std::string& robot_yaml) {
 }
 
 /// A robot that stands on both feet, shifts its pelvis by a few centimetres, and back again.
-inline VerifierSubject StandingPlan(const std::string& robot_yaml) {
+inline VerifierSubject StandingPlan(const std::string& robot_yaml, double stride = 0) {
   VerifierSubject subject = PlanWithoutMotion(robot_yaml);
   const NominalStance stance = SolveNominalStance(subject.robot, subject.robot.GaitNamed("walk"));
   const Eigen::Vector3d shift(0.02, 0.03, -0.02);
   MotionBuilder builder(subject.robot);
-  const std::vector<Phase> phases = builder.Build(
-      {PelvisShift(stance, shift, false, 0.8), PelvisShift(stance, shift, true, 0.8)}, stance.q);
+  const std::vector<Phase> phases = builder.Build({PelvisShift(stance, shift, false, 0.8, stride),
+                                                   PelvisShift(stance, shift, true, 0.8, stride)},
+                                                  stance.q);
 
   for (const Phase& phase : phases) subject.plan.segments.push_back({"walk", {phase}});
   return subject;

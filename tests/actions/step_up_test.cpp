@@ -64,6 +64,7 @@ TEST(StepUpTest, StepsUpAndDownAgainBehindThePlinth) {
 TEST(StepUpTest, WithoutTheActionThePlinthIsTheEnd) {
   PlanRequest request;
   request.time_limit = 1000;
+  request.actions = {"walk"};
   const PlanResult result = PlanTraversal(DrcHubo1(), Plinth(0.1), request);
   EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
 }

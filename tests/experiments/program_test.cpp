@@ -1,10 +1,12 @@
 // The built program as its users run it: exit codes, and what goes to which stream.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/experiments/program_run.h"
@@ -22,6 +24,32 @@ class Program : public ProgramRun {
  protected:
   void WriteStandingPlan() const {
     testing::WriteStandingPlan(scenario_file_, folder_ / "plan.json");
+  }
+
+  static bool FindViolation(const nlohmann::json& report, const std::string& kind) {
+    const auto& violations = report["violations"];
+    return std::any_of(violations.begin(), violations.end(),
+                       [&](const nlohmann::json& violation) { return violation["kind"] == kind; });
+  }
+
+  /// lighter.yaml: DRC-HUBO1 with a tenth of every mass and inertia.
+  fs::path WriteLighterRobot() const {
+    const fs::path original = fs::path(POSSIBILITY_SOURCE_DIR) / "models/drchubo1";
+    std::istringstream urdf(ReadText(original / "drchubo1.urdf"));
+    std::ofstream lighter(folder_ / "drchubo1.urdf");
+    for (std::string line; std::getline(urdf, line);) {
+      for (const std::string key :
+           {"mass value=\"", " ixx=\"", " ixy=\"", " ixz=\"", " iyy=\"", " iyz=\"", " izz=\""}) {
+        const std::size_t place = line.find(key);
+        if (place == std::string::npos) continue;
+        const std::size_t begin = place + key.size();
+        const std::size_t length = line.find('"', begin) - begin;
+        line.replace(begin, length, fmt::format("{}", std::stod(line.substr(begin, length)) / 10));
+      }
+      lighter << line << "\n";
+    }
+    fs::copy_file(original / "drchubo1.yaml", folder_ / "lighter.yaml");
+    return folder_ / "lighter.yaml";
   }
 
   const fs::path scenario_file_ =
@@ -83,6 +111,7 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "plan " + scenario + " --time-limit inf",
       "plan " + scenario + " --actions walk,,crawl",
       "plan " + scenario + " --actions fly --out out",
+      "plan " + scenario + " --actions walk,crawl,jump --out out",
       "plan " + scenario + " --out file",
       "plan " + scenario + " --out file/below",
       "verify",
@@ -116,6 +145,36 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
   for (const std::string& arguments : cases) ExpectRefused(arguments);
 }
 
+/// Of every option of every command that takes a value, --help tells which; and of every argument.
+TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
+  int options = 0;
+  for (const std::string command : {"plan", "verify", "view", "export", "bench", "regress",
+                                    "library", "table", "sweep", "merge"}) {
+    std::istringstream help(Run(command + " --help").out);
+    for (std::string line; std::getline(help, line);) {
+      const std::size_t begin = line.find_first_not_of(' ');
+      const std::string option = line.substr(std::min(begin, line.size()));
+      const std::string name = option.substr(0, option.find(' '));
+      const bool takes_text = option.find(" TEXT") != std::string::npos;
+      if (begin == 0 || !takes_text) continue;
+      ++options;
+      const bool is_named = name.starts_with("--");
+      const std::string refusal =
+          ExpectRefused(command + (is_named ? " " + name : std::string()) + " ''");
+      EXPECT_NE(refusal.find(name + ": the value is empty"), std::string::npos) << refusal;
+    }
+  }
+  EXPECT_GE(options, 45);
+  EXPECT_TRUE(fs::is_empty(folder_ / "out") || !fs::exists(folder_ / "out"));
+}
+
+TEST_F(Program, VersionNamesProgramAndPlanFormat) {
+  const Outcome outcome = Run("--version");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out, "possibility " POSSIBILITY_VERSION "\nplan format possibility-plan/1\n");
+}
+
 TEST_F(Program, JsonErrorsAreOneObject) {
   for (const char* arguments : {"plan no_such_file.yaml --json", "verify . --json"}) {
     const Outcome outcome = Run(arguments);
@@ -134,6 +193,55 @@ TEST_F(Program, VerifyRejectsAPlanThatBreaksTheLawsOfMotion) {
   const Outcome json = Run("verify . --json");
   EXPECT_EQ(json.code, 3);
   EXPECT_FALSE(nlohmann::json::parse(json.out)["accepted"]);
+}
+
+TEST_F(Program, VerifyNamesTheFilesThatItUsed) {
+  WriteStandingPlan();
+  const fs::path robot = fs::path(POSSIBILITY_SOURCE_DIR) / "models/drchubo1/drchubo1.yaml";
+  const std::string text = Run("verify plan.json").out;
+  EXPECT_NE(text.find("three_routes_b.yaml\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("drchubo1.yaml\"\n"), std::string::npos) << text;
+  const auto json =
+      nlohmann::json::parse(Run("verify . --json --scenario '" + scenario_file_.string() +
+                                "' --robot '" + robot.string() + "'")
+                                .out);
+  EXPECT_EQ(json["scenario"], scenario_file_.string());
+  EXPECT_EQ(json["robot"], robot.string());
+  EXPECT_FALSE(FindViolation(json, "file_mismatch"));
+}
+
+/// A copy of the robot with a tenth of the mass, beside the plan.
+TEST_F(Program, APlanOfALighterRobotIsNoneForTheScenario) {
+  WriteStandingPlan();
+  const fs::path lighter = WriteLighterRobot();
+  auto plan = nlohmann::json::parse(ReadText(folder_ / "plan.json"));
+  plan["robot"]["file"] = lighter.string();
+  plan["robot"]["hash"] = models::LoadRobotModel(lighter).content_hash;
+  std::ofstream(folder_ / "plan.json") << plan;
+  for (const std::string options : {"", " --robot lighter.yaml"}) {
+    const Outcome outcome = Run("verify plan.json --json" + options);
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_TRUE(FindViolation(nlohmann::json::parse(outcome.out), "file_mismatch")) << outcome.out;
+  }
+}
+
+/// The plan's own paths may lead nowhere.
+TEST_F(Program, VerifyTakesRobotAndScenarioFromElsewhere) {
+  WriteStandingPlan();
+  auto plan = nlohmann::json::parse(ReadText(folder_ / "plan.json"));
+  plan["robot"]["file"] = "gone.yaml";
+  plan["scenario"]["file"] = "gone.yaml";
+  std::ofstream(folder_ / "plan.json") << plan;
+  ExpectRefused("verify plan.json");
+  fs::copy_file(scenario_file_, folder_ / "moved.yaml");
+  const std::string line = ExpectRefused("verify plan.json --scenario moved.yaml");
+  EXPECT_NE(line.find("--robot"), std::string::npos) << line;
+  const Outcome outcome =
+      Run("verify plan.json --json --scenario moved.yaml --robot '" POSSIBILITY_SOURCE_DIR
+          "/models/drchubo1/drchubo1.yaml'");
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_FALSE(FindViolation(nlohmann::json::parse(outcome.out), "file_mismatch")) << outcome.out;
+  EXPECT_TRUE(FindViolation(nlohmann::json::parse(outcome.out), "goal")) << outcome.out;
 }
 
 TEST_F(Program, ViewWritesThePageBesideThePlanOrWhereTold) {

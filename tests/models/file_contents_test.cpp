@@ -10,9 +10,21 @@ namespace {
 
 TEST(ContentHash, IsTheCanonicalXxh3) {
   // The value that xxHash's specification gives for no input.
-  EXPECT_EQ(ContentHash({}), "99aa06d3014798d86001c324468d497f");
-  EXPECT_EQ(ContentHash({"ab", "c"}), ContentHash({"abc"}));
-  EXPECT_NE(ContentHash({"abc"}), ContentHash({"abd"}));
+  EXPECT_EQ(ContentHash(""), "99aa06d3014798d86001c324468d497f");
+  EXPECT_NE(ContentHash("abc"), ContentHash("abd"));
+}
+
+TEST(HashOfParts, IsThatOfNumberLengthsAndBytes) {
+  const std::string two("\2\0\0\0\0\0\0\0", 8);
+  const std::string one("\1\0\0\0\0\0\0\0", 8);
+  EXPECT_EQ(HashOfParts({"ab", "c"}), ContentHash(two + two + "ab" + one + "c"));
+}
+
+TEST(HashOfParts, KnowsWhereAPartEnds) {
+  EXPECT_NE(HashOfParts({"ab", "c"}), HashOfParts({"a", "bc"}));
+  EXPECT_NE(HashOfParts({"ab", "c"}), HashOfParts({"abc"}));
+  EXPECT_NE(HashOfParts({"abc", ""}), HashOfParts({"", "abc"}));
+  EXPECT_NE(HashOfParts({"abc", ""}), HashOfParts({"abc"}));
 }
 
 TEST(ReadFileContents, ReturnsEveryByte) {

@@ -214,6 +214,9 @@ const BadRobot kBadYaml[] = {
      "robot.yaml:22: gaits[0].parameters.turn_deg: expected a positive number, got -10"},
     {"ParameterMissing", false, "clearance: 0.05, ", "",
      "robot.yaml:22: gaits[0].parameters: the key 'clearance' is missing"},
+    {"GaitNamedLikeATransition", false, "name: squat", "name: stand->squat",
+     "robot.yaml:24: gaits[1].name: expected a name of at most 64 letters, digits, '_' and '-' "
+     "that begins with a letter, got stand->squat"},
     {"GaitNameTaken", false, "name: squat", "name: stand",
      "robot.yaml:24: gaits[1].name: this name is already taken"},
     {"TransitionUnknownGait", false, "from: stand", "from: stan",
@@ -231,6 +234,10 @@ const BadRobot kBadYaml[] = {
     {"JumpToItself", false, kTransition,
      kTransition + "\njumps:\n  - {name: leap, from: stand, to: stand}",
      "robot.yaml:35: jumps[0].to: expected another gait than 'from', got stand"},
+    {"JumpWithMarkup", false, kTransition,
+     kTransition + "\njumps:\n  - {name: '<b>', from: stand, to: squat}",
+     "robot.yaml:35: jumps[0].name: expected a name of at most 64 letters, digits, '_' and '-' "
+     "that begins with a letter, got <b>"},
     {"JumpNamedLikeAGait", false, kTransition,
      kTransition + "\njumps:\n  - {name: squat, from: stand, to: squat}",
      "robot.yaml:35: jumps[0].name: this name is already that of a gait"},

@@ -79,6 +79,18 @@ TEST(RobotYaml, HashDependsOnBothFilesAndNothingElse) {
   EXPECT_NE(LoadRobotModel(first.path() / "robot.yaml").content_hash, hash);
 }
 
+/// A comment may end the YAML or begin the URDF: two robots, if only to a reader.
+TEST(RobotYaml, HashChangesWhenTextMovesFromOneFileToTheOther) {
+  const std::string moved = "<!-- moved -->";
+  const TemporaryFolder folder;
+  folder.Write("robot.urdf", TwoLeggedUrdf());
+  folder.Write("robot.yaml", TwoLeggedYaml() + "#" + moved);
+  const std::string hash = LoadRobotModel(folder.path() / "robot.yaml").content_hash;
+  folder.Write("robot.urdf", moved + TwoLeggedUrdf());
+  folder.Write("robot.yaml", TwoLeggedYaml() + "#");
+  EXPECT_NE(LoadRobotModel(folder.path() / "robot.yaml").content_hash, hash);
+}
+
 TEST(RobotYaml, ConfigurationPlacesTheRoot) {
   const RobotModel robot = LoadTwoLegged();
   Posture posture = robot.GaitNamed("stand").posture;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "models/input_error.h"
+#include "models/robot_model.h"
 #include "tests/models/temporary_folder.h"
 #include "tests/models/two_legged_robot.h"
 
@@ -38,6 +39,26 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   EXPECT_NE(place, std::string::npos) << from;
   if (place != std::string::npos) text.replace(place, from.size(), to);
   return text;
+}
+
+/// The name of a robot is no more than a path: what is there counts.
+TEST(ScenarioYaml, KnowsTheRobotThatItNames) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.Write("room.yaml", kScenario);
+  EXPECT_EQ(LoadScenario(file).robot_hash, "");
+  std::filesystem::create_directories(folder.path() / "robots");
+  folder.Write("robots/robot.urdf", TwoLeggedUrdf());
+  folder.Write("robots/robot.yaml", TwoLeggedYaml());
+  const Scenario scenario = LoadScenario(file);
+  const RobotModel robot = LoadRobotModel(scenario.robot_file);
+  EXPECT_EQ(scenario.robot_hash, robot.content_hash);
+  EXPECT_NO_THROW(CheckScenarioAgainstRobot(scenario, robot));
+
+  folder.Write("robots/lighter.urdf",
+               Replaced(TwoLeggedUrdf(), "mass value=\"2\"", "mass value=\"1.9\""));
+  folder.Write("robots/lighter.yaml", Replaced(TwoLeggedYaml(), "robot.urdf", "lighter.urdf"));
+  const RobotModel lighter = LoadRobotModel(folder.path() / "robots/lighter.yaml");
+  EXPECT_THROW(CheckScenarioAgainstRobot(scenario, lighter), InputError);
 }
 
 TEST(ScenarioYaml, FillsTheScenario) {
@@ -182,6 +203,12 @@ const BadScenario kBad[] = {
      "room.yaml:3: actions: expected at least one action, got an empty list"},
     {"ActionTwice", "[stand, squat]", "[stand, stand]",
      "room.yaml:3: actions[1]: action 'stand' is listed twice"},
+    {"ActionWithMarkup", "[stand, squat]", "[stand, '<b>']",
+     "room.yaml:3: actions[1]: expected a name of at most 64 letters, digits, '_' and '-' that "
+     "begins with a letter, got <b>"},
+    {"ActionThatIsAPath", "[stand, squat]", "[../stand, squat]",
+     "room.yaml:3: actions[0]: expected a name of at most 64 letters, digits, '_' and '-' that "
+     "begins with a letter, got ../stand"},
     {"StartActionUnknown", "start: {action: stand", "start: {action: stan",
      "room.yaml:4: start.action: 'stan' is not one of the scenario's actions (did you mean "
      "'stand'?)"},
