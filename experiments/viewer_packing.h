@@ -20,6 +20,7 @@ class QuantisedTable {
  public:
   /// All rows have one size; numbers are finite.
   void Add(const Eigen::Ref<const Eigen::VectorXd>& row);
+  std::size_t size() const { return rows_.size(); }
 
   /// {"steps": [one per column], "data": base64 of little-endian 16-bit integers, row by row}: a
   /// number is its integer times its column's step.

@@ -20,6 +20,11 @@ class Table {
   at(row, column) {
     return this.integers[row * this.steps.length + column] * this.steps[column];
   }
+  /* Row by row. */
+  floats() {
+    const columns = this.steps.length;
+    return Float32Array.from(this.integers, (integer, i) => integer * this.steps[i % columns]);
+  }
 }
 
 /* Pose as stored: quaternion w, x, y, z, then position. */
@@ -39,8 +44,8 @@ class Motion {
     }));
     this.contacts = data.contacts;
     this.stride = 8 + this.joints.length;
-    this.knots = decodeFloats(data.knots);
-    this.forces = decodeFloats(data.forces);
+    this.knots = this.joinKnots(decodeFloats(data.knots), new Table(data.positions).floats());
+    this.forces = new Table(data.forces).floats();
     this.centres = decodeFloats(data.centres);
     this.momenta = new Table(data.momenta);
     this.rates = new Table(data.rates);
@@ -59,6 +64,17 @@ class Motion {
     this.end = this.phases.length ? this.phases[this.phases.length - 1].end : 0;
     this.turn = new THREE.Quaternion();
     this.rotation = new THREE.Matrix4();
+  }
+
+  /* Time, root (8 numbers), then joints, knot by knot. */
+  joinKnots(roots, joints) {
+    const count = roots.length / 8, knots = new Float32Array(count * this.stride);
+    for (let i = 0; i < count; ++i) {
+      knots.set(roots.subarray(8 * i, 8 * (i + 1)), i * this.stride);
+      const size = this.joints.length;
+      knots.set(joints.subarray(size * i, size * (i + 1)), i * this.stride + 8);
+    }
+    return knots;
   }
 
   addPhase(phase, segment, index) {
