@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "actions/contact_name.h"
-#include "experiments/knot_thinning.h"
 #include "experiments/viewer_momentum.h"
 #include "experiments/viewer_phases.h"
 
@@ -50,11 +49,9 @@ Json MotionPacker::AddPhase(const actions::Phase& phase, bool is_dynamic) {
     points.push_back(bearing.points);
   }
   const int first = count_;
-  const std::size_t first_force = 3 * forces_.size();
+  const int first_force = num_forces_;
   const std::vector<std::size_t> frames = Frames(phase, is_dynamic ? kFineFrame : kFrame);
-  for (const std::size_t k : is_dynamic ? frames : KnotsToDraw(robot_, phase, frames)) {
-    AddKnot(phase.knots[k]);
-  }
+  AddKnots(phase, frames);
   Json json = {{"contacts", contacts},
                {"points", points},
                {"first", first},
@@ -70,29 +67,34 @@ Json MotionPacker::AddPhase(const actions::Phase& phase, bool is_dynamic) {
   return json;
 }
 
-void MotionPacker::AddKnot(const actions::Knot& knot) {
-  knots_.push_back(static_cast<float>(knot.t));
-  Append(knot.q.head<7>(), &knots_);
-  positions_.Add(knot.q.tail(robot_.num_joints()));
-  for (const auto force : knot.forces.colwise()) forces_.Add(force);
+void MotionPacker::AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames) {
+  std::vector<std::vector<float>> courses;
+  for (const std::size_t k : frames) {
+    const std::vector<float> drawn = Drawn(phase.knots[k]);
+    courses.resize(drawn.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) courses[i].push_back(drawn[i]);
+  }
+  for (const std::vector<float>& course : courses) indices_.push_back(courses_.IndexOf(course));
+  count_ += static_cast<int>(frames.size());
+  num_forces_ += static_cast<int>(frames.size() * phase.knots.front().forces.size());
+}
+
+std::vector<float> MotionPacker::Drawn(const actions::Knot& knot) {
+  std::vector<float> drawn = {static_cast<float>(knot.t)};
+  Append(knot.q, &drawn);
   const CentroidalState whole = CentroidalStateAt(knot, &kinematics_);
-  Append(whole.position, &centres_);
-  Eigen::Matrix<double, 6, 1> momenta;
-  momenta << whole.linear, whole.angular;
-  momenta_.Add(momenta);
-  rates_.Add(knot.v.tail(robot_.num_joints()));
-  torques_.Add(MotorTorques(robot_, knot.tau));
-  ++count_;
+  Append(whole.position, &drawn);
+  Append(whole.linear, &drawn);
+  Append(whole.angular, &drawn);
+  Append(knot.v.tail(robot_.num_joints()), &drawn);
+  Append(MotorTorques(robot_, knot.tau), &drawn);
+  Append(knot.forces.reshaped(), &drawn);
+  return drawn;
 }
 
 void MotionPacker::WriteTo(Json* data) const {
-  (*data)["knots"] = Packed(knots_);
-  (*data)["positions"] = positions_.ToJson();
-  (*data)["forces"] = forces_.ToJson();
-  (*data)["centres"] = Packed(centres_);
-  (*data)["momenta"] = momenta_.ToJson();
-  (*data)["rates"] = rates_.ToJson();
-  (*data)["torques"] = torques_.ToJson();
+  (*data)["courses"] = courses_.ToJson();
+  (*data)["indices"] = Packed(indices_);
 }
 
 }  // namespace possibility::experiments

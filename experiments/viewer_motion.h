@@ -10,8 +10,8 @@
 
 namespace possibility::experiments {
 
-/// Knots of all phases behind one another, thinned out to what can be told from the whole motion by
-/// eye (finer in segments in which the robot flies), with what there is to plot at each.
+/// Knots of all phases behind one another, thinned out to the pace of a video (finer in segments
+/// in which the robot flies), with what there is to plot at each.
 class MotionPacker {
  public:
   /// `robot` must outlive it.
@@ -26,18 +26,16 @@ class MotionPacker {
 
  private:
   nlohmann::ordered_json AddPhase(const actions::Phase& phase, bool is_dynamic);
-  void AddKnot(const actions::Knot& knot);
+  void AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames);
+  /// t, q, centre of mass, linear and angular momentum about it, joint rates, torques, forces.
+  std::vector<float> Drawn(const actions::Knot& knot);
 
   const models::RobotModel& robot_;
   dynamics::TreeKinematics kinematics_;
-  int count_ = 0;
-  std::vector<float> knots_;    ///< t, pose of the root
-  QuantisedTable positions_;    ///< of the joints
-  QuantisedTable forces_;       ///< a row for every point
-  std::vector<float> centres_;  ///< of mass
-  QuantisedTable momenta_;      ///< linear, angular about the centre of mass
-  QuantisedTable rates_;        ///< of the joints
-  QuantisedTable torques_;
+  int count_ = 0;       ///< of knots
+  int num_forces_ = 0;  ///< three a point and knot
+  CourseTable courses_;
+  std::vector<std::int32_t> indices_;  ///< of the phases' courses, in the order of Drawn
 };
 
 }  // namespace possibility::experiments
