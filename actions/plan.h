@@ -127,7 +127,7 @@ struct Plan {
 Knot Interpolate(const Knot& k0, const Knot& k1, double t);
 
 /// Writes plan.json: one value of the same plan, the same bytes. Numbers of the motion are rounded
-/// to 12 significant digits, so the plan that is read back is the one to verify. The file is
+/// (docs/file_formats.md), so the plan that is read back is the one to verify. The file is
 /// complete or absent (models::AtomicFile).
 /// @throws InputError if the file cannot be written; std::invalid_argument if a number is not
 ///   finite.

@@ -4,11 +4,13 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <sstream>
 
 #include "actions/contact_name.h"
 #include "actions/plan.h"
+#include "actions/plan_series.h"
 #include "actions/segment_action.h"
 #include "models/action_name.h"
 #include "models/input_error.h"
@@ -19,6 +21,7 @@ namespace {
 
 using models::JsonCursor;
 
+constexpr double kMostNumbers = 2e8;     // of a plan whose numbers stand in a table
 constexpr double kTimeTolerance = 1e-6;  // s, of the durations that repeat what the knots say
 
 std::string ReadText(const std::filesystem::path& file) {
@@ -122,10 +125,56 @@ Knot ReadKnot(const JsonCursor& phase, std::size_t i, std::size_t num_joints) {
   knot.a = ReadVector(a[i], 6 + num_joints);
   knot.tau = ReadVector(tau[i], num_joints);
   knot.forces = ReadForces(forces[i]);
-  if (!(std::abs(knot.q.head<4>().norm() - 1) <= 1e-6)) {
-    q[i].Fail("expected a unit quaternion (w, x, y, z) in front");
-  }
   return knot;
+}
+
+/// Each knot as rows of numbers of its own.
+std::vector<Knot> ReadRows(const JsonCursor& phase, std::size_t num_knots, std::size_t num_joints) {
+  for (const char* key : {"q", "v", "a", "tau", "forces"}) {
+    const JsonCursor array = phase[key];
+    if (array.ArraySize() != num_knots) {
+      array.Fail(fmt::format("expected {} knots as in t, got {}", num_knots, array.ArraySize()));
+    }
+  }
+  std::vector<Knot> knots;
+  for (std::size_t i = 0; i < num_knots; ++i) {
+    knots.push_back(ReadKnot(phase, i, num_joints));
+    if (knots[i].forces.cols() != knots[0].forces.cols()) {
+      const JsonCursor forces = phase["forces"];
+      forces[i].Fail(fmt::format("expected {} numbers as in the first knot, got {}",
+                                 knots[0].forces.size(), knots[i].forces.size()));
+    }
+  }
+  return knots;
+}
+
+/// Each component as the index of its course through the phase.
+std::vector<Knot> ReadCourses(const JsonCursor& phase, const SeriesReader& series,
+                              std::size_t num_knots, std::size_t num_joints) {
+  const auto read = [&](const char* key, std::size_t size) {
+    const JsonCursor indices = phase[key];
+    if (indices.ArraySize() != size) {
+      indices.Fail(fmt::format("expected {} indices, got {}", size, indices.ArraySize()));
+    }
+    return series.Read(indices, num_knots);
+  };
+  const JsonCursor forces_cursor = phase["forces"];
+  const std::size_t num_forces = forces_cursor.ArraySize();
+  if (num_forces % 3 != 0) {
+    forces_cursor.Fail(fmt::format("expected 3 indices per contact point, got {}", num_forces));
+  }
+  const Eigen::MatrixXd q = read("q", 7 + num_joints);
+  const Eigen::MatrixXd v = read("v", 6 + num_joints);
+  const Eigen::MatrixXd a = read("a", 6 + num_joints);
+  const Eigen::MatrixXd tau = read("tau", num_joints);
+  const Eigen::MatrixXd forces = read("forces", num_forces);
+  const JsonCursor t = phase["t"];
+  std::vector<Knot> knots;
+  for (std::size_t i = 0; i < num_knots; ++i) {
+    knots.push_back({t[i].Number(), q.col(i), v.col(i), a.col(i), tau.col(i),
+                     forces.col(i).reshaped(3, num_forces / 3)});
+  }
+  return knots;
 }
 
 Eigen::Matrix3Xd ReadImpulses(const JsonCursor& cursor, Eigen::Index num_points) {
@@ -135,7 +184,8 @@ Eigen::Matrix3Xd ReadImpulses(const JsonCursor& cursor, Eigen::Index num_points)
   return impulses;
 }
 
-Phase ReadPhase(const JsonCursor& cursor, std::size_t num_joints) {
+/// `series`: null if knots are rows.
+Phase ReadPhase(const JsonCursor& cursor, const SeriesReader* series, std::size_t num_joints) {
   const bool has_impact = cursor.value().is_object() && cursor.value().contains("impulses");
   if (has_impact) {
     cursor.ExpectKeys({"contacts", "impulses", "t", "q", "v", "a", "tau", "forces"});
@@ -146,25 +196,20 @@ Phase ReadPhase(const JsonCursor& cursor, std::size_t num_joints) {
   phase.contacts = ReadContacts(cursor["contacts"]);
   const std::size_t num_knots = cursor["t"].ArraySize();
   if (num_knots < 2) cursor["t"].Fail(fmt::format("expected at least 2 knots, got {}", num_knots));
-  for (const char* key : {"q", "v", "a", "tau", "forces"}) {
-    const JsonCursor array = cursor[key];
-    if (array.ArraySize() != num_knots) {
-      array.Fail(fmt::format("expected {} knots as in t, got {}", num_knots, array.ArraySize()));
-    }
-  }
+  phase.knots = series != nullptr ? ReadCourses(cursor, *series, num_knots, num_joints)
+                                  : ReadRows(cursor, num_knots, num_joints);
   for (std::size_t i = 0; i < num_knots; ++i) {
-    Knot knot = ReadKnot(cursor, i, num_joints);
-    if (i > 0 && knot.forces.cols() != phase.knots[0].forces.cols()) {
-      const JsonCursor forces = cursor["forces"];
-      forces[i].Fail(fmt::format("expected {} numbers as in the first knot, got {}",
-                                 phase.knots[0].forces.size(), knot.forces.size()));
+    const Knot& knot = phase.knots[i];
+    if (!(std::abs(knot.q.head<4>().norm() - 1) <= 1e-6)) {
+      const JsonCursor q = cursor["q"];
+      (series != nullptr ? q : q[i])
+          .Fail("expected a unit quaternion (w, x, y, z) in front of every knot");
     }
-    if (i > 0 && knot.t <= phase.knots.back().t) {
+    if (i > 0 && knot.t <= phase.knots[i - 1].t) {
       const JsonCursor t = cursor["t"];
       t[i].Fail(fmt::format("{:.9g} s, expected more than {:.9g} s, the time of the knot before",
-                            knot.t, phase.knots.back().t));
+                            knot.t, phase.knots[i - 1].t));
     }
-    phase.knots.push_back(std::move(knot));
   }
   if (has_impact) phase.impulses = ReadImpulses(cursor["impulses"], phase.knots[0].forces.cols());
   return phase;
@@ -177,7 +222,7 @@ void ExpectTime(const JsonCursor& cursor, double expected) {
   }
 }
 
-Segment ReadSegment(const JsonCursor& cursor, std::size_t num_joints) {
+Segment ReadSegment(const JsonCursor& cursor, const SeriesReader* series, std::size_t num_joints) {
   cursor.ExpectKeys({"action", "start_s", "duration_s", "phases"}, {"vertices"});
   Segment segment;
   if (cursor.Has("vertices")) {
@@ -192,7 +237,7 @@ Segment ReadSegment(const JsonCursor& cursor, std::size_t num_joints) {
   const JsonCursor phases = cursor["phases"];
   if (phases.ArraySize() == 0) phases.Fail("expected at least one phase");
   for (std::size_t i = 0; i < phases.value().size(); ++i) {
-    segment.phases.push_back(ReadPhase(phases[i], num_joints));
+    segment.phases.push_back(ReadPhase(phases[i], series, num_joints));
   }
   const double start = segment.phases.front().knots.front().t;
   ExpectTime(cursor["start_s"], start);
@@ -306,11 +351,29 @@ NoPlan ReadNo(const JsonCursor& cursor) {
   return no;
 }
 
+/// A few bytes of indices could stand for gigabytes of numbers.
+void RequireFewNumbers(const JsonCursor& segments) {
+  double count = 0;
+  for (const nlohmann::json& segment : segments.value()) {
+    if (!segment.is_object() || !segment.contains("phases")) continue;
+    for (const nlohmann::json& phase : segment["phases"]) {
+      if (!phase.is_object() || !phase.contains("t")) continue;
+      for (const char* key : {"q", "v", "a", "tau", "forces"}) {
+        if (phase.contains(key))
+          count += static_cast<double>(phase["t"].size()) * phase[key].size();
+      }
+    }
+  }
+  if (count > kMostNumbers) {
+    segments.Fail(fmt::format("expected at most {:g} numbers, got {:g}", kMostNumbers, count));
+  }
+}
+
 Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   root.ExpectFormat(kPlanFormat);
   root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
                    "segments", "explored"},
-                  {"search", "no"});
+                  {"series", "search", "no"});
   Plan plan;
   const JsonCursor robot = root["robot"];
   robot.ExpectKeys({"file", "hash"});
@@ -325,9 +388,13 @@ Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   plan.timings = ReadTimings(root["timings"]);
   plan.statistics = ReadStatistics(root["statistics"]);
   plan.joints = ReadStrings(root["joints"]);
+  std::optional<SeriesReader> series;
+  if (root.Has("series")) series.emplace(root["series"]);
   const JsonCursor segments = root["segments"];
+  if (series) RequireFewNumbers(segments);
   for (std::size_t i = 0, n = segments.ArraySize(); i < n; ++i) {
-    plan.segments.push_back(ReadSegment(segments[i], plan.joints.size()));
+    plan.segments.push_back(
+        ReadSegment(segments[i], series ? &*series : nullptr, plan.joints.size()));
   }
   const JsonCursor timings = root["timings"];
   ExpectTime(timings["plan_duration_s"], plan.duration());

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "actions/plan.h"
+#include "actions/plan_digits.h"
+#include "actions/plan_series.h"
 #include "models/atomic_file.h"
 #include "models/input_error.h"
 
@@ -14,81 +18,151 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void RequireFinite(double x) {
-  if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
-}
+/// Plans with more knots than this, twenty minutes or so, are written with a table of courses.
+constexpr std::size_t kMostRows = 20000;
 
-/// 12 significant digits; what is smaller than 1e-12 is zero.
 double Rounded(double x) {
-  RequireFinite(x);
-  if (std::abs(x) < 1e-12) return 0;
-  char text[32];
-  const auto [end, error] =
-      std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, 11);
-  double rounded = x;
-  if (error == std::errc()) std::from_chars(text, end, rounded);
-  return rounded;
+  std::string text;
+  AppendRounded(x, PlanDigits::kPosition, &text);
+  return std::strtod(text.c_str(), nullptr);
 }
 
 double Exact(double x) {
-  RequireFinite(x);
+  if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
   return x;
 }
 
 Json Numbers(const double* data, Eigen::Index size) {
   Json array = Json::array();
-  auto& values = array.get_ref<Json::array_t&>();
-  values.reserve(size);
-  for (Eigen::Index i = 0; i < size; ++i) values.emplace_back(Rounded(data[i]));
+  for (Eigen::Index i = 0; i < size; ++i) array.push_back(Rounded(data[i]));
   return array;
 }
 
-Json ToJson(const Phase& phase) {
-  Json t = Json::array();
-  Json q = Json::array();
-  Json v = Json::array();
-  Json a = Json::array();
-  Json tau = Json::array();
-  Json forces = Json::array();
-  for (const Knot& knot : phase.knots) {
-    t.push_back(Exact(knot.t));
-    q.push_back(Numbers(knot.q.data(), knot.q.size()));
-    v.push_back(Numbers(knot.v.data(), knot.v.size()));
-    a.push_back(Numbers(knot.a.data(), knot.a.size()));
-    tau.push_back(Numbers(knot.tau.data(), knot.tau.size()));
-    forces.push_back(Numbers(knot.forces.data(), knot.forces.size()));
+/// "[1,2,3]"
+template <typename Numbers>
+void AppendList(const Numbers& numbers, int decimals, std::string* text) {
+  *text += '[';
+  for (const double number : numbers.reshaped()) {
+    if (text->back() != '[') *text += ',';
+    AppendRounded(number, decimals, text);
   }
-  Json json;
-  json["contacts"] = phase.contacts;
-  if (phase.impulses.cols() > 0) {
-    json["impulses"] = Numbers(phase.impulses.data(), phase.impulses.size());
-  }
-  json["t"] = std::move(t);
-  json["q"] = std::move(q);
-  json["v"] = std::move(v);
-  json["a"] = std::move(a);
-  json["tau"] = std::move(tau);
-  json["forces"] = std::move(forces);
-  return json;
+  *text += ']';
 }
 
-Json ToJson(const Segment& segment) {
-  double start = 0;
-  double duration = 0;
-  if (!segment.phases.empty() && !segment.phases.front().knots.empty() &&
-      !segment.phases.back().knots.empty()) {
-    start = segment.phases.front().knots.front().t;
-    duration = segment.phases.back().knots.back().t - start;
-  }
-  Json json;
-  json["action"] = segment.action;
-  json["start_s"] = Exact(start);
-  json["duration_s"] = Exact(duration);
-  if (segment.vertices[0] >= 0) json["vertices"] = segment.vertices;
-  json["phases"] = Json::array();
-  for (const Phase& phase : segment.phases) json["phases"].push_back(ToJson(phase));
-  return json;
+/// A quantity of every knot of a phase, as a matrix with a row for each component.
+struct Quantity {
+  const char* key;
+  int decimals;
+  Eigen::MatrixXd values;
+};
+
+std::vector<Quantity> QuantitiesOf(const Phase& phase) {
+  const auto stack = [&phase](const auto& of_knot) {
+    const Eigen::Index size = phase.knots.empty() ? 0 : of_knot(phase.knots[0]).size();
+    Eigen::MatrixXd values(size, phase.knots.size());
+    for (std::size_t k = 0; k < phase.knots.size(); ++k) {
+      const Eigen::VectorXd value = of_knot(phase.knots[k]);
+      if (value.size() != size) {
+        throw std::invalid_argument("the knots of a phase differ in their sizes");
+      }
+      values.col(k) = value;
+    }
+    return values;
+  };
+  return {
+      {"q", PlanDigits::kPosition, stack([](const Knot& knot) { return knot.q; })},
+      {"v", PlanDigits::kRate, stack([](const Knot& knot) { return knot.v; })},
+      {"a", PlanDigits::kAcceleration, stack([](const Knot& knot) { return knot.a; })},
+      {"tau", PlanDigits::kForce, stack([](const Knot& knot) { return knot.tau; })},
+      {"forces", PlanDigits::kForce,
+       stack([](const Knot& knot) { return Eigen::VectorXd(knot.forces.reshaped()); })},
+  };
 }
+
+/// A number if it is the same at all knots, else a list.
+std::string CourseOf(const Eigen::VectorXd& component, int decimals) {
+  std::string course;
+  AppendList(component, decimals, &course);
+  std::string constant;
+  AppendRounded(component[0], decimals, &constant);
+  std::string repeated = "[";
+  for (Eigen::Index k = 0; k < component.size(); ++k) repeated += (k > 0 ? "," : "") + constant;
+  return course == repeated + "]" ? constant : course;
+}
+
+/// Writes segments as text: their numbers would take five times as much memory as JSON values.
+class MotionWriter {
+ public:
+  MotionWriter(bool has_series, models::AtomicFile* output)
+      : has_series_(has_series), output_(output) {}
+
+  void Write(const Segment& segment) {
+    double start = 0;
+    double duration = 0;
+    if (!segment.phases.empty() && !segment.phases.front().knots.empty() &&
+        !segment.phases.back().knots.empty()) {
+      start = segment.phases.front().knots.front().t;
+      duration = segment.phases.back().knots.back().t - start;
+    }
+    std::string text = "{\"action\":" + Json(segment.action).dump() + ",\"start_s\":";
+    AppendExact(start, &text);
+    text += ",\"duration_s\":";
+    AppendExact(duration, &text);
+    if (segment.vertices[0] >= 0) {
+      text += fmt::format(",\"vertices\":[{},{}]", segment.vertices[0], segment.vertices[1]);
+    }
+    text += ",\"phases\":[";
+    for (const Phase& phase : segment.phases) {
+      if (&phase != &segment.phases.front()) text += ',';
+      Append(phase, &text);
+      output_->Write(text);
+      text.clear();
+    }
+    output_->Write(text + "]}");
+  }
+
+  const SeriesWriter& series() const { return series_; }
+
+ private:
+  void Append(const Phase& phase, std::string* text) {
+    *text += "{\"contacts\":" + Json(phase.contacts).dump();
+    if (phase.impulses.cols() > 0) {
+      *text += ",\"impulses\":";
+      AppendList(phase.impulses, PlanDigits::kForce, text);
+    }
+    *text += ",\"t\":[";
+    for (const Knot& knot : phase.knots) {
+      if (text->back() != '[') *text += ',';
+      AppendExact(knot.t, text);
+    }
+    *text += ']';
+    for (const Quantity& quantity : QuantitiesOf(phase)) {
+      *text += fmt::format(",\"{}\":[", quantity.key);
+      has_series_ ? AppendCourses(quantity, text) : AppendRows(quantity, text);
+      *text += ']';
+    }
+    *text += '}';
+  }
+
+  static void AppendRows(const Quantity& quantity, std::string* text) {
+    for (Eigen::Index k = 0; k < quantity.values.cols(); ++k) {
+      if (k > 0) *text += ',';
+      AppendList(quantity.values.col(k), quantity.decimals, text);
+    }
+  }
+
+  void AppendCourses(const Quantity& quantity, std::string* text) {
+    for (Eigen::Index i = 0; i < quantity.values.rows(); ++i) {
+      if (i > 0) *text += ',';
+      const std::string course = CourseOf(quantity.values.row(i), quantity.decimals);
+      *text += std::to_string(series_.IndexOf(course));
+    }
+  }
+
+  bool has_series_;
+  models::AtomicFile* output_;
+  SeriesWriter series_;
+};
 
 Json ToJson(const PlanTimings& timings, double plan_duration) {
   Json json;
@@ -163,7 +237,8 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
   return std::filesystem::proximate(std::filesystem::absolute(file), folder).generic_string();
 }
 
-Json ToJson(const Plan& plan, const std::filesystem::path& folder) {
+/// What stands before the segments.
+Json Head(const Plan& plan, const std::filesystem::path& folder) {
   Json json;
   json["format"] = kPlanFormat;
   json["robot"]["file"] = PathFrom(folder, plan.robot_file);
@@ -176,28 +251,50 @@ Json ToJson(const Plan& plan, const std::filesystem::path& folder) {
   json["statistics"] = Json::object();
   for (const auto& [name, count] : plan.statistics) json["statistics"][name] = count;
   json["joints"] = plan.joints;
-  json["segments"] = Json::array();
-  for (const Segment& segment : plan.segments) json["segments"].push_back(ToJson(segment));
+  return json;
+}
+
+/// What stands behind them.
+Json Tail(const Plan& plan) {
+  Json json;
   json["explored"] = ToJson(plan.explored);
   if (plan.search) json["search"] = ToJson(*plan.search);
   if (plan.no) json["no"] = ToJson(*plan.no);
   return json;
 }
 
-std::string Serialise(const Plan& plan, const std::filesystem::path& file) {
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-  try {
-    return ToJson(plan, folder).dump() + "\n";
-  } catch (const Json::exception&) {
-    throw InputError(fmt::format(
-        "{}: a name or path in the plan is not valid UTF-8, which JSON requires", file.string()));
+std::size_t CountKnots(const Plan& plan) {
+  std::size_t count = 0;
+  for (const Segment& segment : plan.segments) {
+    for (const Phase& phase : segment.phases) count += phase.knots.size();
   }
+  return count;
 }
 
 }  // namespace
 
 void WritePlan(const Plan& plan, const std::filesystem::path& file) {
-  models::WriteAtomically(file, Serialise(plan, file));
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  models::AtomicFile output(file);
+  MotionWriter motion(CountKnots(plan) > kMostRows, &output);
+  try {
+    std::string head = Head(plan, folder).dump();
+    head.back() = ',';
+    output.Write(head + "\"segments\":[");
+    for (const Segment& segment : plan.segments) {
+      if (&segment != &plan.segments.front()) output.Write(",");
+      motion.Write(segment);
+    }
+    output.Write("],");
+    if (!motion.series().courses().empty()) {
+      output.Write("\"series\":[" + motion.series().courses() + "],");
+    }
+    output.Write(Tail(plan).dump().substr(1) + "\n");
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format(
+        "{}: a name or path in the plan is not valid UTF-8, which JSON requires", file.string()));
+  }
+  output.Commit();
 }
 
 }  // namespace possibility::actions

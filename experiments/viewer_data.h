@@ -24,7 +24,8 @@ PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot
 /// What experiments/viewer/*.js draw, as JSON that may stand inside a <script> element: joint tree
 /// with limits, shapes, phases with names, knots no closer than a video's frames (5 ms in jumps),
 /// forces, impulses, centre of mass, momenta, joint rates and torques, explored graph. Long lists
-/// of numbers are base64 (viewer_packing.h).
+/// of numbers are base64, and each course of a number through a phase is there once
+/// (viewer_packing.h).
 /// @throws InputError if the plan names a contact that the robot does not have.
 std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& robot,
                            const models::Scenario& scenario, const PageHeading& heading);

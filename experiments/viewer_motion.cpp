@@ -16,20 +16,32 @@ constexpr double kFrame = 0.04;
 /// The same of a jump, which lasts no longer than a few strides, slowed down.
 constexpr double kFineFrame = 0.005;
 
+/// Knots at least `frame` apart, and the last one.
+std::vector<std::size_t> Frames(const actions::Phase& phase, double frame) {
+  std::vector<std::size_t> frames;
+  for (std::size_t k = 0; k < phase.knots.size(); ++k) {
+    const bool at_end = k + 1 == phase.knots.size();
+    if (!frames.empty() && !at_end && phase.knots[k].t - phase.knots[frames.back()].t < frame) {
+      continue;
+    }
+    frames.push_back(k);
+  }
+  return frames;
+}
+
 }  // namespace
 
 Json MotionPacker::Add(const actions::Segment& segment) {
   const std::vector<std::string> names = PhaseNames(robot_, segment);
-  const double frame = IsDynamic(segment) ? kFineFrame : kFrame;
   Json phases = Json::array();
   for (std::size_t i = 0; i < segment.phases.size(); ++i) {
-    phases.push_back(AddPhase(segment.phases[i], frame));
+    phases.push_back(AddPhase(segment.phases[i], IsDynamic(segment)));
     phases.back()["name"] = names[i];
   }
   return {{"action", segment.action}, {"phases", phases}};
 }
 
-Json MotionPacker::AddPhase(const actions::Phase& phase, double frame) {
+Json MotionPacker::AddPhase(const actions::Phase& phase, bool is_dynamic) {
   Json contacts = Json::array();
   Json points = Json::array();
   for (const actions::BearingPatch& bearing : actions::BearingPatches(robot_, phase)) {
@@ -37,14 +49,9 @@ Json MotionPacker::AddPhase(const actions::Phase& phase, double frame) {
     points.push_back(bearing.points);
   }
   const int first = count_;
-  const std::size_t first_force = forces_.size();
-  const actions::Knot* kept = nullptr;
-  for (const actions::Knot& knot : phase.knots) {
-    const bool at_end = &knot == &phase.knots.back();
-    if (kept != nullptr && !at_end && knot.t - kept->t < frame) continue;
-    kept = &knot;
-    AddKnot(knot);
-  }
+  const int first_force = num_forces_;
+  const std::vector<std::size_t> frames = Frames(phase, is_dynamic ? kFineFrame : kFrame);
+  AddKnots(phase, frames);
   Json json = {{"contacts", contacts},
                {"points", points},
                {"first", first},
@@ -60,27 +67,34 @@ Json MotionPacker::AddPhase(const actions::Phase& phase, double frame) {
   return json;
 }
 
-void MotionPacker::AddKnot(const actions::Knot& knot) {
-  knots_.push_back(static_cast<float>(knot.t));
-  Append(knot.q, &knots_);
-  Append(knot.forces.reshaped(), &forces_);
+void MotionPacker::AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames) {
+  std::vector<std::vector<float>> courses;
+  for (const std::size_t k : frames) {
+    const std::vector<float> drawn = Drawn(phase.knots[k]);
+    courses.resize(drawn.size());
+    for (std::size_t i = 0; i < drawn.size(); ++i) courses[i].push_back(drawn[i]);
+  }
+  for (const std::vector<float>& course : courses) indices_.push_back(courses_.IndexOf(course));
+  count_ += static_cast<int>(frames.size());
+  num_forces_ += static_cast<int>(frames.size() * phase.knots.front().forces.size());
+}
+
+std::vector<float> MotionPacker::Drawn(const actions::Knot& knot) {
+  std::vector<float> drawn = {static_cast<float>(knot.t)};
+  Append(knot.q, &drawn);
   const CentroidalState whole = CentroidalStateAt(knot, &kinematics_);
-  Append(whole.position, &centres_);
-  Eigen::Matrix<double, 6, 1> momenta;
-  momenta << whole.linear, whole.angular;
-  momenta_.Add(momenta);
-  rates_.Add(knot.v.tail(robot_.num_joints()));
-  torques_.Add(MotorTorques(robot_, knot.tau));
-  ++count_;
+  Append(whole.position, &drawn);
+  Append(whole.linear, &drawn);
+  Append(whole.angular, &drawn);
+  Append(knot.v.tail(robot_.num_joints()), &drawn);
+  Append(MotorTorques(robot_, knot.tau), &drawn);
+  Append(knot.forces.reshaped(), &drawn);
+  return drawn;
 }
 
 void MotionPacker::WriteTo(Json* data) const {
-  (*data)["knots"] = Packed(knots_);
-  (*data)["forces"] = Packed(forces_);
-  (*data)["centres"] = Packed(centres_);
-  (*data)["momenta"] = momenta_.ToJson();
-  (*data)["rates"] = rates_.ToJson();
-  (*data)["torques"] = torques_.ToJson();
+  (*data)["courses"] = courses_.ToJson();
+  (*data)["indices"] = Packed(indices_);
 }
 
 }  // namespace possibility::experiments

@@ -25,18 +25,17 @@ class MotionPacker {
   void WriteTo(nlohmann::ordered_json* data) const;
 
  private:
-  nlohmann::ordered_json AddPhase(const actions::Phase& phase, double frame);
-  void AddKnot(const actions::Knot& knot);
+  nlohmann::ordered_json AddPhase(const actions::Phase& phase, bool is_dynamic);
+  void AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames);
+  /// t, q, centre of mass, linear and angular momentum about it, joint rates, torques, forces.
+  std::vector<float> Drawn(const actions::Knot& knot);
 
   const models::RobotModel& robot_;
   dynamics::TreeKinematics kinematics_;
-  int count_ = 0;
-  std::vector<float> knots_;    ///< t, q
-  std::vector<float> forces_;   ///< as many as there are points
-  std::vector<float> centres_;  ///< of mass
-  QuantisedTable momenta_;      ///< linear, angular about the centre of mass
-  QuantisedTable rates_;        ///< of the joints
-  QuantisedTable torques_;
+  int count_ = 0;       ///< of knots
+  int num_forces_ = 0;  ///< three a point and knot
+  CourseTable courses_;
+  std::vector<std::int32_t> indices_;  ///< of the phases' courses, in the order of Drawn
 };
 
 }  // namespace possibility::experiments

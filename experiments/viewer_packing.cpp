@@ -1,8 +1,7 @@
 #include "experiments/viewer_packing.h"
 
+#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstdint>
 
 #include "experiments/base64.h"
 
@@ -10,8 +9,6 @@ namespace possibility::experiments {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
-
-constexpr double kMostSteps = 32767;
 
 template <typename Number>
 std::string Bytes(const std::vector<Number>& numbers) {
@@ -27,25 +24,21 @@ void Append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>*
   for (const double value : values) numbers->push_back(static_cast<float>(value));
 }
 
-void QuantisedTable::Add(const Eigen::Ref<const Eigen::VectorXd>& row) { rows_.emplace_back(row); }
+std::int32_t CourseTable::IndexOf(const std::vector<float>& course) {
+  const bool stays = std::equal(course.begin() + 1, course.end(), course.begin());
+  const std::size_t size = stays ? 1 : course.size();
+  const std::string bytes(reinterpret_cast<const char*>(course.data()), sizeof(float) * size);
+  const auto index = static_cast<std::int32_t>(indices_.size());
+  const auto [found, is_new] = indices_.emplace(bytes, index);
+  if (is_new) {
+    numbers_.insert(numbers_.end(), course.begin(), course.begin() + size);
+    begins_.push_back(static_cast<std::int32_t>(numbers_.size()));
+  }
+  return found->second;
+}
 
-nlohmann::ordered_json QuantisedTable::ToJson() const {
-  Eigen::VectorXd greatest;
-  if (!rows_.empty()) greatest.setZero(rows_.front().size());
-  for (const Eigen::VectorXd& row : rows_) greatest = greatest.cwiseMax(row.cwiseAbs());
-  nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-  for (double& step : greatest) {
-    step /= kMostSteps;
-    steps.push_back(step);
-  }
-  std::vector<std::int16_t> integers;
-  for (const Eigen::VectorXd& row : rows_) {
-    for (Eigen::Index i = 0; i < row.size(); ++i) {
-      const double count = greatest[i] > 0 ? std::round(row[i] / greatest[i]) : 0;
-      integers.push_back(static_cast<std::int16_t>(count));
-    }
-  }
-  return {{"steps", steps}, {"data", Bytes(integers)}};
+nlohmann::ordered_json CourseTable::ToJson() const {
+  return {{"begins", Packed(begins_)}, {"numbers", Packed(numbers_)}};
 }
 
 }  // namespace possibility::experiments

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,18 +17,20 @@ std::string Packed(const std::vector<std::int32_t>& numbers);
 
 void Append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>* numbers);
 
-/// A table for curves: every column in steps of 1/32767 of its greatest magnitude.
-class QuantisedTable {
+/// What one quantity does through a phase, each course once: strides repeat, and most joints rest.
+class CourseTable {
  public:
-  /// All rows have one size; numbers are finite.
-  void Add(const Eigen::Ref<const Eigen::VectorXd>& row);
+  /// The index of a course; one that stays is kept as a single number.
+  std::int32_t IndexOf(const std::vector<float>& course);
 
-  /// {"steps": [one per column], "data": base64 of little-endian 16-bit integers, row by row}: a
-  /// number is its integer times its column's step.
+  /// {"begins": base64 of 32-bit integers, "numbers": base64 of floats}: course i is the numbers
+  /// from begins[i] to before begins[i + 1].
   nlohmann::ordered_json ToJson() const;
 
  private:
-  std::vector<Eigen::VectorXd> rows_;
+  std::map<std::string, std::int32_t> indices_;  ///< by the bytes of the course
+  std::vector<std::int32_t> begins_ = {0};
+  std::vector<float> numbers_;
 };
 
 }  // namespace possibility::experiments

@@ -11,15 +11,13 @@ function decodeBase64(text) {
 const decodeFloats = (text) => new Float32Array(decodeBase64(text));
 const decodeIntegers = (text) => new Int32Array(decodeBase64(text));
 
-/* A table of 16-bit integers, each a multiple of its column's step. */
+/* Numbers in rows. */
 class Table {
-  constructor({steps, data}) {
-    this.steps = steps;
-    this.integers = new Int16Array(decodeBase64(data));
+  constructor(rows, columns) {
+    this.columns = columns;
+    this.numbers = new Float32Array(rows * columns);
   }
-  at(row, column) {
-    return this.integers[row * this.steps.length + column] * this.steps[column];
-  }
+  at(row, column) { return this.numbers[row * this.columns + column]; }
 }
 
 /* Pose as stored: quaternion w, x, y, z, then position. */
@@ -39,12 +37,7 @@ class Motion {
     }));
     this.contacts = data.contacts;
     this.stride = 8 + this.joints.length;
-    this.knots = decodeFloats(data.knots);
-    this.forces = decodeFloats(data.forces);
-    this.centres = decodeFloats(data.centres);
-    this.momenta = new Table(data.momenta);
-    this.rates = new Table(data.rates);
-    this.torques = new Table(data.torques);
+    this.expandCourses(data);
     this.gravity = data.gravity;
     this.phases = [];
     this.segments = [];
@@ -59,6 +52,40 @@ class Motion {
     this.end = this.phases.length ? this.phases[this.phases.length - 1].end : 0;
     this.turn = new THREE.Quaternion();
     this.rotation = new THREE.Matrix4();
+  }
+
+  /* Of every phase: what each number does from knot to knot, as the index of a course that others
+     may share. A course of one number stays. */
+  expandCourses(data) {
+    const phases = [].concat(...data.segments.map((segment) => segment.phases));
+    const pointsOf = (phase) => phase.points.reduce((sum, points) => sum + points.length, 0);
+    const rows = phases.reduce((sum, phase) => sum + phase.count, 0);
+    const points = phases.reduce((sum, phase) => sum + phase.count * pointsOf(phase), 0);
+    const knots = new Table(rows, this.stride), centres = new Table(rows, 3);
+    this.momenta = new Table(rows, 6);
+    this.rates = new Table(rows, this.joints.length);
+    this.torques = new Table(rows, this.joints.length);
+    this.knots = knots.numbers;
+    this.centres = centres.numbers;
+    this.forces = new Float32Array(3 * points);
+    const begins = decodeIntegers(data.courses.begins);
+    const numbers = decodeFloats(data.courses.numbers), indices = decodeIntegers(data.indices);
+    let next = 0;
+    for (const phase of phases) {
+      const fill = (target, first, columns) => {
+        for (let column = 0; column < columns; ++column) {
+          const index = indices[next++], begin = begins[index];
+          const pace = begins[index + 1] - begin > 1 ? 1 : 0;
+          for (let k = 0; k < phase.count; ++k) {
+            target[first + k * columns + column] = numbers[begin + pace * k];
+          }
+        }
+      };
+      for (const table of [knots, centres, this.momenta, this.rates, this.torques]) {
+        fill(table.numbers, phase.first * table.columns, table.columns);
+      }
+      fill(this.forces, phase.forces, 3 * pointsOf(phase));
+    }
   }
 
   addPhase(phase, segment, index) {

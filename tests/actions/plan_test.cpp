@@ -18,6 +18,13 @@ namespace {
 using nlohmann::json;
 using testing::RandomPlan;
 
+/// Up to half of a last digit.
+void ExpectNear(const Eigen::MatrixXd& read, const Eigen::MatrixXd& written, double digit) {
+  ASSERT_EQ(read.size(), written.size());
+  if (read.size() == 0) return;
+  EXPECT_LE((read - written).cwiseAbs().maxCoeff(), 0.51 * digit);
+}
+
 class PlanFile : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -87,15 +94,15 @@ TEST_F(PlanFile, ComesBackAsWritten) {
       const Phase& phase = read.segments[s].phases[p];
       EXPECT_EQ(phase.contacts, expected.contacts);
       ASSERT_EQ(phase.impulses.cols(), expected.impulses.cols());
-      EXPECT_TRUE(phase.impulses.isApprox(expected.impulses, 1e-11));
+      ExpectNear(phase.impulses, expected.impulses, 1e-7);
       ASSERT_EQ(phase.knots.size(), expected.knots.size());
       for (std::size_t k = 0; k < expected.knots.size(); ++k) {
         EXPECT_EQ(phase.knots[k].t, expected.knots[k].t);
-        EXPECT_TRUE(phase.knots[k].q.isApprox(expected.knots[k].q, 1e-11));
-        EXPECT_TRUE(phase.knots[k].v.isApprox(expected.knots[k].v, 1e-11));
-        EXPECT_TRUE(phase.knots[k].a.isApprox(expected.knots[k].a, 1e-11));
-        EXPECT_TRUE(phase.knots[k].tau.isApprox(expected.knots[k].tau, 1e-11));
-        EXPECT_TRUE(phase.knots[k].forces.isApprox(expected.knots[k].forces, 1e-11));
+        ExpectNear(phase.knots[k].q, expected.knots[k].q, 1e-10);
+        ExpectNear(phase.knots[k].v, expected.knots[k].v, 1e-9);
+        ExpectNear(phase.knots[k].a, expected.knots[k].a, 1e-8);
+        ExpectNear(phase.knots[k].tau, expected.knots[k].tau, 1e-7);
+        ExpectNear(phase.knots[k].forces, expected.knots[k].forces, 1e-7);
       }
     }
   }

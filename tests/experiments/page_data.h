@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -33,14 +34,43 @@ std::vector<Number> Unpacked(const std::string& base64) {
   return numbers;
 }
 
-/// A table of the page: {"steps", "data"}, row by row.
-inline std::vector<double> UnpackedTable(const nlohmann::json& table) {
-  const std::vector<double> steps = table["steps"];
-  std::vector<double> numbers;
-  for (const std::int16_t integer : Unpacked<std::int16_t>(table["data"])) {
-    numbers.push_back(integer * steps[numbers.size() % steps.size()]);
+/// The numbers of all knots of a page's motion, knot by knot, as experiments/viewer/kinematics.js
+/// has them.
+struct PageMotion {
+  explicit PageMotion(const nlohmann::json& data) : num_joints(data["joints"].size()) {
+    const auto begins = Unpacked<std::int32_t>(data["courses"]["begins"]);
+    const auto numbers = Unpacked<float>(data["courses"]["numbers"]);
+    const auto indices = Unpacked<std::int32_t>(data["indices"]);
+    std::size_t next = 0;
+    for (const auto& segment : data["segments"]) {
+      for (const auto& phase : segment["phases"]) {
+        const std::size_t count = phase["count"];
+        std::size_t num_forces = 0;
+        for (const auto& points : phase["points"]) num_forces += 3 * points.size();
+        const auto read = [&](std::size_t columns, std::vector<float>* table) {
+          const std::size_t first = table->size();
+          table->resize(first + count * columns);
+          for (std::size_t i = 0; i < columns; ++i, ++next) {
+            const std::int32_t begin = begins.at(indices.at(next));
+            const bool stays = begins.at(indices[next] + 1) == begin + 1;
+            for (std::size_t k = 0; k < count; ++k) {
+              (*table)[first + k * columns + i] = numbers.at(begin + (stays ? 0 : k));
+            }
+          }
+        };
+        read(8 + num_joints, &knots);
+        read(3, &centres);
+        read(6, &momenta);
+        read(num_joints, &rates);
+        read(num_joints, &torques);
+        read(num_forces, &forces);
+      }
+    }
   }
-  return numbers;
-}
+
+  std::size_t num_joints;
+  std::vector<float> knots;  ///< t, q
+  std::vector<float> centres, momenta, rates, torques, forces;
+};
 
 }  // namespace possibility::experiments::testing

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "actions/jump_library.h"
@@ -84,8 +85,31 @@ void Thin(actions::Plan* plan) {
   }
 }
 
+/// The same plan with its numbers in a table, as long ones are written.
+std::string WithSeries(const std::string& text) {
+  nlohmann::ordered_json plan = nlohmann::ordered_json::parse(text);
+  nlohmann::ordered_json series = nlohmann::ordered_json::array();
+  for (auto& segment : plan["segments"]) {
+    for (auto& phase : segment["phases"]) {
+      for (const char* key : {"q", "v", "a", "tau", "forces"}) {
+        const nlohmann::ordered_json rows = phase[key];
+        nlohmann::ordered_json indices = nlohmann::ordered_json::array();
+        for (std::size_t i = 0; i < rows[0].size(); ++i) {
+          nlohmann::ordered_json course = nlohmann::ordered_json::array();
+          for (const auto& row : rows) course.push_back(row[i]);
+          indices.push_back(series.size());
+          series.push_back(i >= 7 && i % 5 == 0 ? course[0] : course);
+        }
+        phase[key] = indices;
+      }
+    }
+  }
+  plan["series"] = series;
+  return plan.dump();
+}
+
 /// Plans in which whatever a plan can hold is to be found: standing, a hop with flight and impact,
-/// and a "no".
+/// the same with a table, and a "no".
 std::vector<std::string> PlanTexts(const fs::path& folder) {
   const fs::path file = folder / "whole_plan.json";
   std::vector<std::string> texts;
@@ -107,6 +131,7 @@ std::vector<std::string> PlanTexts(const fs::path& folder) {
   }
   Thin(&plan);
   add(plan);
+  texts.push_back(WithSeries(texts.back()));
   plan.segments.clear();
   plan.no = actions::NoPlan{"exhausted", "why not", actions::Barrier{}};
   plan.no->barrier->closed_by = {"wall"};

@@ -164,7 +164,31 @@ def _bearing_points(contacts, robot, where):
     return points
 
 
-def _read_phase(node, segment, index, action, robot, num_joints, file):
+def _read_series(node, file):
+    """What a long plan's components do, each course once: an array, or a number that stays."""
+    series = []
+    for i, course in enumerate(_get(node, "series", list, file)):
+        where = f"{file}: series[{i}]"
+        values = _numbers(course if isinstance(course, list) else [course], (None,), where)
+        series.append(values)
+    return series
+
+
+def _courses(indices, width, knots, series, where):
+    """knots x width numbers."""
+    if len(indices) != width:
+        raise InputError(f"{where}: expected {width} indices")
+    values = np.empty((knots, width))
+    for column, index in enumerate(indices):
+        if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < len(series):
+            raise InputError(f"{where}[{column}]: expected the index of a series")
+        if len(series[index]) not in (1, knots):
+            raise InputError(f"{where}[{column}]: expected a series of {knots} numbers")
+        values[:, column] = series[index]
+    return values
+
+
+def _read_phase(node, segment, index, action, robot, num_joints, series, file):
     where = f"{file}: segment {segment}, phase {index}"
     points = _bearing_points(_get(node, "contacts", list, where), robot, where)
     t = _numbers(_get(node, "t", list, where), (None,), f"{where}: t")
@@ -173,6 +197,8 @@ def _read_phase(node, segment, index, action, robot, num_joints, file):
         raise InputError(f"{where}: t: expected two times or more, increasing by at most 1 s")
 
     def rows(key, width):
+        if series is not None:
+            return _courses(_get(node, key, list, where), width, knots, series, f"{where}: {key}")
         return _numbers(_get(node, key, list, where), (knots, width), f"{where}: {key}")
 
     q = rows("q", 7 + num_joints)
@@ -220,11 +246,13 @@ def read_plan(file):
 
     robot = _read_robot(beside("robot"))
     joints = _names(node, "joints", file)
+    series = _read_series(node, file) if "series" in node else None
     phases = []
     for i, segment in enumerate(_get(node, "segments", list, file)):
         action = _get(segment, "action", str, f"{file}: segment {i}")
         for j, phase in enumerate(_get(segment, "phases", list, f"{file}: segment {i}")):
-            phases.append(_read_phase(phase, i, j, action, robot, len(joints), file))
+            phases.append(_read_phase(phase, i, j, action, robot, len(joints), series,
+                                      file))
     if not phases:
         raise InputError(f"{file}: there is no motion in this plan")
     return Plan(joints, robot, _read_ground(beside("scenario")), phases)
