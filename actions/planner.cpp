@@ -37,6 +37,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// For motion and verification after the time limit, s.
+constexpr double kLeastToFinish = 10;
+
 /// Whether the same motion may be free of such a violation elsewhere.
 bool DependsOnPlace(ViolationKind kind) {
   return kind == ViolationKind::kPenetration || kind == ViolationKind::kContactGround ||
@@ -304,7 +307,7 @@ class TraversalPlanner {
   bool Generate(const Route& route, actions::Plan* plan) {
     try {
       plan->segments = GenerateMotion(model_, route, request_.threads, [this](double fraction) {
-        return KeepGoing("generating motion", fraction);
+        return MayFinish("generating motion", fraction);
       });
       return true;
     } catch (const LegError& error) {
@@ -319,7 +322,7 @@ class TraversalPlanner {
   bool IsVerified(const Route& route, PlanResult* result) {
     VerifierSettings settings;
     settings.threads = request_.threads;
-    settings.keep_going = [this](double fraction) { return KeepGoing("verifying", fraction); };
+    settings.keep_going = [this](double fraction) { return MayFinish("verifying", fraction); };
     result->verification = Verify(result->plan, robot_, scenario_, settings);
     result->plan.timings.verification_s += result->verification.seconds;
     if (!result->verification.accepted()) {
@@ -369,13 +372,14 @@ class TraversalPlanner {
     for (const auto& action : actions_) action->Forbid(edge);
   }
 
-  /// Reports progress, from any thread; false once time is up.
-  bool KeepGoing(const std::string& stage, double fraction) const {
+  /// Reports progress, from any thread. A route that was found in time is not given up for what its
+  /// motion and verification take: false only when they have taken as long again.
+  bool MayFinish(const std::string& stage, double fraction) const {
     if (request_.progress) {
       const std::lock_guard lock(progress_mutex_);
       request_.progress({stage, {}, fraction});
     }
-    return Remaining() > 0;
+    return Remaining() > -std::max(request_.time_limit, kLeastToFinish);
   }
 
   const models::RobotModel& robot_;

@@ -30,7 +30,9 @@ struct PlanProgress {
 struct PlanRequest {
   std::uint64_t seed = 1;
   int threads = 1;
-  double time_limit = 60;  ///< s
+  /// s, for preparation and search. Motion and verification of a route that was found in time may
+  /// take as long again.
+  double time_limit = 60;
   /// Empty: the scenario's. They replace the scenario's in the search and in verification; a plan
   /// of others than the scenario's file lists is none for that file.
   std::vector<std::string> actions;

@@ -20,7 +20,7 @@ namespace {
 PlanResult PlanFor(const models::Scenario& scenario) {
   PlanRequest request;
   request.seed = 2;
-  request.time_limit = 100;
+  request.time_limit = 20;
   request.library = DrcHubo1().file.parent_path() / "jumps";
   return PlanTraversal(DrcHubo1(), scenario, request);
 }
@@ -95,6 +95,12 @@ models::Scenario RandomScenario(std::mt19937* generator) {
   scenario.robot_file = DrcHubo1().file;
   scenario.actions = {"walk", "crawl"};
   scenario.environment = RandomEnvironment(generator, 8);
+  std::vector<models::Obstacle>& obstacles = scenario.environment.obstacles;
+  // One floor instead of two with a gap between them.
+  obstacles.erase(obstacles.begin() + 1);
+  obstacles[0].name = "floor";
+  obstacles[0].shape = models::Shape::Box({8, 8, 0.5});
+  obstacles[0].X_WO.translation() = Eigen::Vector3d(0, 0, -0.25);
   std::uniform_real_distribution<double> unit(-1, 1);
   scenario.start = {"walk", -2.2, 2 * unit(*generator), 0, 0};
   scenario.goals = {{"walk", 2.2, 2 * unit(*generator), 0, unit(*generator)}};
