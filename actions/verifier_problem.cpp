@@ -75,6 +75,7 @@ class ActionChecker {
 
   bool IsAllowed(const std::string& action) {
     const std::vector<std::string>& allowed = scenario_.actions;
+    if (allowed.empty()) return true;
     if (std::find(allowed.begin(), allowed.end(), action) != allowed.end()) return true;
     Report(fmt::format("'{}' is not among the scenario's actions", action));
     return false;

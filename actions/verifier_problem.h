@@ -14,7 +14,8 @@ inline constexpr double kSway = 0.15;
 /// Whether the plan does nothing but what the scenario allows: its actions are among the
 /// scenario's, each begins in the gait in which the one before ends, and what a segment does is
 /// that action: a gait bears on its own limbs' patches and neither flies nor lands, nor does a
-/// transition. What a manoeuvre that the robot's file does not know may do, nobody can say.
+/// transition. What a manoeuvre that the robot's file does not know may do, nobody can say. A
+/// scenario without any actions (none that was read from a file) allows all.
 void CheckActions(const Plan& plan, const models::RobotModel& robot,
                   const models::Scenario& scenario, ViolationLog* log);
 

@@ -62,6 +62,15 @@ TEST(VerifierProblem, AnActionThatTheScenarioDoesNotListIsRefused) {
   ExpectOnly(subject, ViolationKind::kAction, "'hop' is not among the scenario's actions");
 }
 
+/// Only in memory: a file has to list some.
+TEST(VerifierProblem, AScenarioWithoutActionsAllowsAll) {
+  VerifierSubject subject = WalkAndCrawl();
+  subject.scenario.actions.clear();
+  EXPECT_TRUE(Verified(subject).accepted());
+  subject.plan.segments.front().action = "<b>";
+  ExpectOnly(subject, ViolationKind::kAction, "is no action");
+}
+
 /// A scenario may allow what only some program knows, if it is called as actions may be.
 TEST(VerifierProblem, AScenarioCannotAllowMarkup) {
   VerifierSubject subject = Hopping();
