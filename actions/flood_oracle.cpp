@@ -1,6 +1,5 @@
 #include "actions/flood_oracle.h"
 
-#include <cstdint>
 #include <iterator>
 #include <utility>
 
@@ -43,7 +42,7 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
   const std::optional<std::vector<FlightBounds>> flights = Flights();
   if (!flights) return otherwise;
   FloodResult necessary =
-      FloodNecessary(model_, world_, start, goals, resolution_, keep_going_, *flights);
+      FloodNecessary(model_, world_, start, goals, resolution_, Limits(), *flights);
   if (necessary.route_may_exist) return otherwise;
   if (flood_) {
     std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
@@ -53,19 +52,25 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
   return graph::RouteOracleAnswer::kProvenInfeasible;
 }
 
-/// The flood over C_S; a finer one, as far as it gets, where coarse cells find no barrier.
+/// The flood over C_S; finer ones, as far as they get, where coarser cells find no barrier: a flood
+/// that finds its way is soon done.
 FloodResult FloodOracle::CoarseToFine(const GroundedStance& start,
                                       const std::vector<GroundedStance>& goals,
                                       const std::vector<FloodManoeuvre>& manoeuvres) const {
-  constexpr int kHalvings = 3;
-  constexpr std::int64_t kMostCells = 500000;  // no limit of time: the same answer anywhere
-  FloodResult coarse =
-      FloodSufficient(model_, world_, start, goals, resolution_, keep_going_, manoeuvres);
-  if (!coarse.route_may_exist) return coarse;
-  std::int64_t cells = 0;
-  return FloodSufficient(
-      model_, world_, start, goals, resolution_,
-      [&] { return ++cells <= kMostCells && keep_going_(); }, manoeuvres, kHalvings);
+  constexpr int kMostHalvings = 3;
+  constexpr std::int64_t kMostJudged = 4'000'000;  // no limit of time: the same answer anywhere
+  FloodResult flood;
+  for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
+    flood = FloodSufficient(model_, world_, start, goals,
+                            {.resolution = resolution_, .halvings = halvings}, Limits(kMostJudged),
+                            manoeuvres);
+    if (!flood.route_may_exist || flood.is_cut_short) break;
+  }
+  return flood;
+}
+
+FloodLimits FloodOracle::Limits(std::int64_t most_judged) const {
+  return {.most_judged = most_judged, .keep_going = keep_going_};
 }
 
 /// Nothing if some manoeuvre does not say where it leads: then no closed barrier is a proof.

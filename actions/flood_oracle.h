@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -35,6 +36,7 @@ class FloodOracle {
                                   const std::vector<GroundedStance>& goals);
   FloodResult CoarseToFine(const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            const std::vector<FloodManoeuvre>& manoeuvres) const;
+  FloodLimits Limits(std::int64_t most_judged = FloodLimits::kMostNodes) const;
   std::optional<std::vector<FloodManoeuvre>> FloodManoeuvres() const;
   std::optional<std::vector<FlightBounds>> Flights() const;
   bool ReplaceGuesses();
