@@ -45,6 +45,8 @@ class BlockFlood {
   /// For `expand` and `expand_late`. `leads_there`: whether the offer can be taken up by an open
   /// block; empty: it can.
   void Offer(const CellBlock& block, const Lead& leads_there = {});
+  /// Whether an offer of the block might be taken up.
+  bool HasLeft(const CellBlock& block) const { return cells_->HasLeft(block); }
 
   /// In the order in which they were reached: disjoint.
   const std::deque<Reached>& reached() const { return reached_; }

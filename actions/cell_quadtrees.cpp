@@ -1,6 +1,7 @@
 #include "actions/cell_quadtrees.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace possibility::actions {
@@ -56,19 +57,65 @@ void CellQuadtrees::JudgeNode(const Place& place) {
   }
 }
 
+bool CellQuadtrees::IsDone(const Place& place) const {
+  const State state = nodes_[place.node].state;
+  return state == State::kClosed || state == State::kEntered || state == State::kSettled;
+}
+
 void CellQuadtrees::SettleIfDone(const Place& place) {
-  const Node* children = &nodes_[nodes_[place.node].first_child];
-  if (std::all_of(children, children + 4, [](const Node& child) {
-        return child.state == State::kClosed || child.state == State::kEntered ||
-               child.state == State::kSettled;
-      })) {
-    nodes_[place.node].state = State::kSettled;
+  for (int i = 0; i < 4; ++i) {
+    if (!IsDone(Child(place, i))) return;
   }
+  nodes_[place.node].state = State::kSettled;
+}
+
+/// The child that holds all of `block` that lies in the grid, if one does.
+std::optional<CellQuadtrees::Place> CellQuadtrees::OnlyChild(const Place& parent,
+                                                             const CellBlock& block) const {
+  const int x = parent.x + parent.size / 2, y = parent.y + parent.size / 2;
+  const bool is_right = block.x0 >= x, is_upper = block.y0 >= y;
+  if (!is_right && std::min(block.x1, nx_) > x) return std::nullopt;
+  if (!is_upper && std::min(block.y1, ny_) > y) return std::nullopt;
+  return Child(parent, (is_right ? 1 : 0) + (is_upper ? 2 : 0));
+}
+
+bool CellQuadtrees::HasLeft(const CellBlock& block) const {
+  if (block.plane < 0 || block.plane >= planes_) return false;
+  Place place = Root(block.plane);
+  while (nodes_[place.node].state == State::kSplit) {
+    const std::optional<Place> child = OnlyChild(place, block);
+    if (!child) break;
+    place = *child;
+  }
+  return HasLeft(place, block);
+}
+
+bool CellQuadtrees::HasLeft(const Place& place, const CellBlock& block) const {
+  if (!Overlap(BlockOf(place), block)) return false;
+  const State state = nodes_[place.node].state;
+  if (state != State::kSplit) return state == State::kUnjudged || state == State::kOpen;
+  for (int i = 0; i < 4; ++i) {
+    if (HasLeft(Child(place, i), block)) return true;
+  }
+  return false;
 }
 
 void CellQuadtrees::Offer(const CellBlock& block, const Lead& leads_there, const Enter& enter) {
   if (block.plane < 0 || block.plane >= planes_) return;
-  Offer(Root(block.plane), block, leads_there, enter);
+  std::array<Place, kMostLevels> way;
+  int length = 0;
+  Place place = Root(block.plane);
+  while (nodes_[place.node].state == State::kSplit) {
+    const std::optional<Place> child = OnlyChild(place, block);
+    if (!child) break;
+    way[length++] = place;
+    place = *child;
+  }
+  Offer(place, block, leads_there, enter);
+  while (length > 0 && IsDone(place)) {
+    place = way[--length];
+    SettleIfDone(place);
+  }
 }
 
 void CellQuadtrees::Offer(const Place& place, const CellBlock& block, const Lead& leads_there,

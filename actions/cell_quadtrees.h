@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -45,7 +46,8 @@ class CellQuadtrees {
   using Enter = std::function<void(const CellBlock&)>;
 
   /// More cells than this along an axis, or planes, are too many.
-  static constexpr int kMostAlong = 1 << 28;
+  static constexpr int kMostLevels = 28;
+  static constexpr int kMostAlong = 1 << kMostLevels;
 
   /// `most_nodes`: of all trees together, 8 bytes each.
   /// @throws TooManyCells
@@ -61,7 +63,9 @@ class CellQuadtrees {
   /// @throws TooManyCells; std::out_of_range if the cell lies outside the grid.
   void Seed(int plane, int x, int y, const Enter& enter);
 
-  int planes() const { return planes_; }
+  /// Whether `block` holds a cell that was not judged yet, or is open and was not entered.
+  bool HasLeft(const CellBlock& block) const;
+
   std::int64_t judged() const { return judged_; }
 
  private:
@@ -93,6 +97,9 @@ class CellQuadtrees {
   void Split(const Place& place, State state_of_children);
   void Offer(const Place& place, const CellBlock& block, const Lead& leads_there,
              const Enter& enter);
+  std::optional<Place> OnlyChild(const Place& parent, const CellBlock& block) const;
+  bool HasLeft(const Place& place, const CellBlock& block) const;
+  bool IsDone(const Place& place) const;
   void SettleIfDone(const Place& place);
 
   int planes_;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -19,13 +20,17 @@ void RequireFinite(double x) {
   if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
 }
 
-/// 12 significant digits; what is smaller than 1e-12 is zero.
-double Rounded(double x) {
+constexpr int kDigits = 12;
+/// As many as tell all numbers apart.
+constexpr int kAllDigits = 17;
+
+/// Significant digits; what is smaller than 1e-12 is zero.
+double Rounded(double x, int digits = kDigits) {
   RequireFinite(x);
   if (std::abs(x) < 1e-12) return 0;
   char text[32];
   const auto [end, error] =
-      std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, 11);
+      std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, digits - 1);
   double rounded = x;
   if (error == std::errc()) std::from_chars(text, end, rounded);
   return rounded;
@@ -44,6 +49,18 @@ Json Numbers(const double* data, Eigen::Index size) {
   return array;
 }
 
+/// Root positions far from the origin keep as many decimals as those 1 to 10 m from it: the
+/// quintics between knots a few milliseconds apart would make accelerations of what is left out.
+Json Configuration(const Eigen::VectorXd& q) {
+  Json array = Numbers(q.data(), q.size());
+  for (Eigen::Index i = 4; i < std::min<Eigen::Index>(7, q.size()); ++i) {
+    const int more = q[i] == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(q[i]))));
+    array[static_cast<std::size_t>(i)] =
+        Rounded(q[i], std::clamp(kDigits + more, kDigits, kAllDigits));
+  }
+  return array;
+}
+
 Json ToJson(const Phase& phase) {
   Json t = Json::array();
   Json q = Json::array();
@@ -53,7 +70,7 @@ Json ToJson(const Phase& phase) {
   Json forces = Json::array();
   for (const Knot& knot : phase.knots) {
     t.push_back(Exact(knot.t));
-    q.push_back(Numbers(knot.q.data(), knot.q.size()));
+    q.push_back(Configuration(knot.q));
     v.push_back(Numbers(knot.v.data(), knot.v.size()));
     a.push_back(Numbers(knot.a.data(), knot.a.size()));
     tau.push_back(Numbers(knot.tau.data(), knot.tau.size()));

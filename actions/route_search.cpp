@@ -89,16 +89,40 @@ class RouteSearch {
   }
   double turn() const { return 2 * std::numbers::pi / settings_.headings; }
 
-  std::int64_t CellOf(const Node& node) const {
+  /// Of the lattice, at whatever distance from the origin.
+  struct Cell {
+    std::int64_t x;
+    std::int64_t y;
+    std::int64_t z;
+    std::int64_t heading;
+    int halvings;
+    int gait;
+    bool operator==(const Cell&) const = default;
+  };
+  struct HashOfCell {
+    std::size_t operator()(const Cell& cell) const {
+      std::uint64_t hash = 0;
+      for (const std::int64_t part :
+           {cell.x, cell.y, cell.z, cell.heading * 64 + cell.halvings * 8 + cell.gait}) {
+        hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 32;
+      }
+      return static_cast<std::size_t>(hash);
+    }
+  };
+
+  Cell CellOf(const Node& node) const {
     const GroundedStance& stance = node.stance;
     const auto heading = static_cast<std::int64_t>(std::llround(stance.pose.yaw / turn()));
     const std::int64_t wrapped =
         ((heading % settings_.headings) + settings_.headings) % settings_.headings;
     const double size = settings_.step / (1 << node.halvings);
-    const std::int64_t x = std::llround(stance.pose.x / size) + (1 << 15);
-    const std::int64_t y = std::llround(stance.pose.y / size) + (1 << 15);
-    const std::int64_t z = std::llround(stance.z * 100) + (1 << 12);
-    return ((((z << 16 | x) << 16 | y) << 8 | wrapped) << 2 | node.halvings) << 3 | stance.gait;
+    return {std::llround(stance.pose.x / size),
+            std::llround(stance.pose.y / size),
+            std::llround(stance.z * 100),
+            wrapped,
+            node.halvings,
+            stance.gait};
   }
 
   double LeftFrom(const PlanarPose& pose) const {
@@ -348,7 +372,7 @@ class RouteSearch {
   double least_seconds_per_metre_ = std::numeric_limits<double>::infinity();
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> open_;
-  std::unordered_set<std::int64_t> closed_;
+  std::unordered_set<Cell, HashOfCell> closed_;
   std::int64_t examined_ = 0;
 };
 

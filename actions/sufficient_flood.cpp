@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -138,14 +139,31 @@ class SufficientFlood {
     launches.half_turn = turns > 0 ? cells_.half_heading() : 0;
     // A landing lies at most half a sample beside one of the samples.
     launches.half_displacement = ((high - low).array() > 0).cast<double>() * resolution / 4;
-    for (const double x : Samples(low.x(), high.x())) {
-      for (const double y : Samples(low.y(), high.y())) {
-        for (int turn = -turns; turn <= turns; ++turn) {
-          launches.displacement = {x, y, turn * heading};
-          OfferLandings(block, layer, launches);
-        }
+    const std::vector<double> ahead = Samples(low.x(), high.x());
+    for (const double y : Samples(low.y(), high.y())) {
+      for (int turn = -turns; turn <= turns; ++turn) {
+        launches.displacement = {0, y, turn * heading};
+        OfferLandings(block, layer, &launches, ahead);
       }
     }
+  }
+
+  /// Of so many displacements ahead those that may lead where nobody has been yet.
+  void OfferLandings(const CellBlock& block, int layer, LaunchBox* launches,
+                     std::span<const double> ahead) {
+    const double beside = launches->half_displacement.norm();
+    const auto image = [&](double x) {
+      launches->displacement.x = x;
+      return Image(block, layer, launches->displacement, beside);
+    };
+    const CellBlock first = image(ahead.front()), last = image(ahead.back());
+    if (!flood_.HasLeft({first.plane, std::min(first.x0, last.x0), std::min(first.y0, last.y0),
+                         std::max(first.x1, last.x1), std::max(first.y1, last.y1)})) {
+      return;
+    }
+    if (ahead.size() == 1) return OfferLandings(block, layer, *launches);
+    OfferLandings(block, layer, launches, ahead.first(ahead.size() / 2));
+    OfferLandings(block, layer, launches, ahead.subspan(ahead.size() / 2));
   }
 
   /// Of all cells of the block together; they lead nowhere yet.

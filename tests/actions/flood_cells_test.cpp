@@ -97,7 +97,7 @@ TEST(FloodCellsTest, TheFloodReachesWhatADenseOneReaches) {
   std::uniform_real_distribution<double> unit(0, 1);
   const LocomotionModel& model = DrcHubo1Locomotion();
   double reached = 0, far_side = 0;
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < 3; ++trial) {
     models::Environment environment = RandomEnvironment(&generator, 8);
     environment.bounds = {Vector2d(-2, -1.5), Vector2d(2, 1.5)};
     environment.obstacles[1].X_WO.translation().x() += 0.5 * unit(generator);
@@ -147,7 +147,7 @@ TEST(FloodCellsTest, TheFloodReachesWhatADenseOneReaches) {
     }
     far_side += sparse.barrier.reached.size() > 1;
   }
-  EXPECT_GT(reached, 1e5);
+  EXPECT_GT(reached, 3e4);
   EXPECT_GT(far_side, 0);
 }
 
