@@ -3,6 +3,9 @@
 #include <iterator>
 #include <utility>
 
+#include "actions/passage_gauge.h"
+#include "actions/passage_search.h"
+
 namespace possibility::actions {
 
 FloodOracle::FloodOracle(const LocomotionModel& model, const World& world,
@@ -35,21 +38,39 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
       if (!manoeuvres) return graph::RouteOracleAnswer::kUnknown;
       flood_ = CoarseToFine(start, goals, *manoeuvres);
     }
-    if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
+    if (flood_->route_may_exist) {
+      FindPassage(start, goals, *manoeuvres);
+      return graph::RouteOracleAnswer::kUnknown;
+    }
   }
   const graph::RouteOracleAnswer otherwise =
       leads_are_known ? graph::RouteOracleAnswer::kExhausted : graph::RouteOracleAnswer::kUnknown;
   const std::optional<std::vector<FlightBounds>> flights = Flights();
-  if (!flights) return otherwise;
+  if (!flights) {
+    if (leads_are_known) FindPassage(start, goals, *manoeuvres);
+    return otherwise;
+  }
   FloodResult necessary =
       FloodNecessary(model_, world_, start, goals, resolution_, Limits(), *flights);
-  if (necessary.route_may_exist) return otherwise;
+  if (necessary.route_may_exist) {
+    if (leads_are_known) FindPassage(start, goals, *manoeuvres);
+    return otherwise;
+  }
   if (flood_) {
     std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
               std::back_inserter(necessary.barrier.reached));
   }
   flood_ = std::move(necessary);
   return graph::RouteOracleAnswer::kProvenInfeasible;
+}
+
+/// Where the answer is not known or is "exhausted"; a proof has nothing to pass through.
+void FloodOracle::FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                              const std::vector<FloodManoeuvre>& manoeuvres) {
+  passage_ =
+      flood_->route_may_exist
+          ? PassageGauge(model_, world_, manoeuvres).Narrowest(flood_->way, keep_going_)
+          : SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, keep_going_);
 }
 
 /// The flood over C_S; finer ones, as far as they get, where coarser cells find no barrier: a flood
@@ -79,7 +100,8 @@ std::optional<std::vector<FloodManoeuvre>> FloodOracle::FloodManoeuvres() const 
   for (const auto& manoeuvre : manoeuvres_) {
     ManoeuvreBounds bounds = manoeuvre->Bounds();
     if (!bounds.landings) return std::nullopt;
-    result.push_back({manoeuvre->from(), manoeuvre->to(), std::move(bounds.landings)});
+    result.push_back(
+        {manoeuvre->from(), manoeuvre->to(), std::move(bounds.landings), manoeuvre->name()});
   }
   return result;
 }

@@ -31,9 +31,16 @@ class FloodOracle {
   /// What closes the way, after an answer that was "no".
   const Barrier& barrier() const { return flood_->barrier; }
 
+  /// After "no": the narrowest place of the way that would be open if less were asked of it. After
+  /// an answer that was none: that of the way which the closest flood believes in. Nothing if there
+  /// is no such place.
+  const std::optional<NarrowPassage>& passage() const { return passage_; }
+
  private:
   graph::RouteOracleAnswer Answer(const GroundedStance& start,
                                   const std::vector<GroundedStance>& goals);
+  void FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                   const std::vector<FloodManoeuvre>& manoeuvres);
   FloodResult CoarseToFine(const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            const std::vector<FloodManoeuvre>& manoeuvres) const;
   FloodLimits Limits(std::int64_t most_judged = FloodLimits::kMostNodes) const;
@@ -46,6 +53,7 @@ class FloodOracle {
   const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres_;
   double resolution_;
   std::function<bool()> keep_going_;
+  std::optional<NarrowPassage> passage_;
   std::optional<FloodResult> flood_;  ///< the last one over C_S, or the one that proved "no"
 };
 

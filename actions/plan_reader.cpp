@@ -262,14 +262,47 @@ Barrier ReadBarrier(const JsonCursor& cursor) {
   return barrier;
 }
 
+PassageDimension ReadDimension(const JsonCursor& cursor) {
+  const std::string name = cursor.String();
+  for (const PassageDimension dimension :
+       {PassageDimension::kWidth, PassageDimension::kHeight, PassageDimension::kGap}) {
+    if (ToString(dimension) == name) return dimension;
+  }
+  cursor.Fail("expected \"width\", \"height\" or \"gap\"");
+}
+
+NarrowPassage ReadPassage(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"place", "missing", "between", "needs"});
+  NarrowPassage passage;
+  ReadNumbers(cursor["place"], &passage.place);
+  passage.missing = cursor["missing"].Number();
+  passage.between = ReadStrings(cursor["between"]);
+  const JsonCursor needs = cursor["needs"];
+  for (std::size_t i = 0, n = needs.ArraySize(); i < n; ++i) {
+    const JsonCursor need = needs[i];
+    need.ExpectKeys({"action", "dimension", "available", "needed"});
+    passage.needs.push_back({need["action"].String(), ReadDimension(need["dimension"]),
+                             need["available"].Number(), need["needed"].Number()});
+  }
+  return passage;
+}
+
 NoPlan ReadNo(const JsonCursor& cursor) {
   NoPlan no;
-  if (cursor.value().is_object() && cursor.value().contains("barrier")) {
+  const auto has = [&](const char* key) {
+    return cursor.value().is_object() && cursor.value().contains(key);
+  };
+  if (has("barrier") && has("passage")) {
+    cursor.ExpectKeys({"status", "explanation", "barrier", "passage"});
+  } else if (has("barrier")) {
     cursor.ExpectKeys({"status", "explanation", "barrier"});
-    no.barrier = ReadBarrier(cursor["barrier"]);
+  } else if (has("passage")) {
+    cursor.ExpectKeys({"status", "explanation", "passage"});
   } else {
     cursor.ExpectKeys({"status", "explanation"});
   }
+  if (has("barrier")) no.barrier = ReadBarrier(cursor["barrier"]);
+  if (has("passage")) no.passage = ReadPassage(cursor["passage"]);
   no.status = cursor["status"].String();
   no.explanation = cursor["explanation"].String();
   return no;

@@ -234,6 +234,7 @@ class TraversalPlanner {
     result->status = StatusOf(path.status);
     if (path.status == graph::PathStatus::kFound) return;
     SayNo(result->status, Explain(*result), result);
+    result->plan.no->passage = floods_.passage();
     if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
   }
 
@@ -256,7 +257,8 @@ class TraversalPlanner {
         result.status == PlanStatus::kTimeLimit
             ? fmt::format("no route found within {:.1f} s.", request_.time_limit)
             : ExplainBarrier(result.status, floods_.barrier());
-    return why + ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
+    return why + ExplainPassage(result.status, floods_.passage()) +
+           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
   }
 
   /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.

@@ -33,6 +33,7 @@ struct FloodManoeuvre {
   int from = 0;  ///< gaits
   int to = 0;
   std::function<std::optional<LandingRange>(double rise)> landings;
+  std::string name = {};  ///< for messages
 };
 
 /// Flood over what can be confirmed: cells of (gait, x, y, heading) in which C_S may hold
