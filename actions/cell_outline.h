@@ -2,32 +2,63 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace possibility::actions {
 
-/// Some of the cells of a grid of nx x ny.
+/// Some of the cells of a grid of nx x ny, kept as a quadtree: memory grows with their boundary.
 class CellMask {
  public:
-  CellMask(int nx, int ny) : nx_(nx), ny_(ny), cells_(static_cast<size_t>(nx) * ny, 0) {}
+  CellMask(int nx, int ny);
 
-  /// (x, y) must be a cell of the grid.
-  void Add(int x, int y) { cells_[Index(x, y)] = 1; }
-  bool Contains(int x, int y) const {
-    return x >= 0 && x < nx_ && y >= 0 && y < ny_ && cells_[Index(x, y)] != 0;
-  }
+  void Add(int x, int y) { Add(x, y, x + 1, y + 1); }
+  /// [x0, x1) x [y0, y1); what lies outside the grid is left out.
+  void Add(int x0, int y0, int x1, int y1);
+  bool Contains(int x, int y) const;
 
   /// Closed polygons along the edges of cells, corners only, in units of cells: around every part
   /// counter-clockwise, around every hole in it clockwise. Cells that only share a corner do not
-  /// belong together. Polygons may meet at corners, but never cross.
-  std::vector<std::vector<Eigen::Vector2i>> Outlines() const;
+  /// belong together. Polygons may meet at corners, but never cross. `keep_going`: may be empty; no
+  /// polygons once it says no.
+  std::vector<std::vector<Eigen::Vector2i>> Outlines(
+      const std::function<bool()>& keep_going = {}) const;
 
  private:
-  size_t Index(int x, int y) const { return static_cast<size_t>(y) * nx_ + x; }
+  enum class State : std::uint8_t { kEmpty, kFull, kSplit };
+  struct Node {
+    std::int32_t first_child = -1;
+    State state = State::kEmpty;
+  };
+  /// [x0, x1) x [y0, y1).
+  struct Rectangle {
+    int x0;
+    int y0;
+    int x1;
+    int y1;
+  };
+  /// A node and its square.
+  struct Place {
+    std::int32_t node;
+    int x;
+    int y;
+    int size;
+  };
+
+  Rectangle InGrid(const Place& place) const;
+  Place Child(const Place& parent, int index) const;
+  void Add(const Place& place, const Rectangle& rectangle);
+  template <typename Visit>
+  void VisitFull(const Place& place, const Visit& visit) const;
+  template <typename Visit>
+  void VisitEmptyCells(const Place& place, const Rectangle& strip, const Visit& visit) const;
+  template <typename Visit>
+  void VisitEmptyCells(const Rectangle& strip, const Visit& visit) const;
 
   int nx_;
   int ny_;
-  std::vector<std::uint8_t> cells_;
+  int size_ = 1;
+  std::vector<Node> nodes_;  ///< the root first
 };
 
 }  // namespace possibility::actions

@@ -1,8 +1,10 @@
 #include "actions/flood_oracle.h"
 
-#include <cstdint>
 #include <iterator>
 #include <utility>
+
+#include "actions/passage_gauge.h"
+#include "actions/passage_search.h"
 
 namespace possibility::actions {
 
@@ -36,15 +38,24 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
       if (!manoeuvres) return graph::RouteOracleAnswer::kUnknown;
       flood_ = CoarseToFine(start, goals, *manoeuvres);
     }
-    if (flood_->route_may_exist) return graph::RouteOracleAnswer::kUnknown;
+    if (flood_->route_may_exist) {
+      FindPassage(start, goals, *manoeuvres);
+      return graph::RouteOracleAnswer::kUnknown;
+    }
   }
   const graph::RouteOracleAnswer otherwise =
       leads_are_known ? graph::RouteOracleAnswer::kExhausted : graph::RouteOracleAnswer::kUnknown;
   const std::optional<std::vector<FlightBounds>> flights = Flights();
-  if (!flights) return otherwise;
+  if (!flights) {
+    if (leads_are_known) FindPassage(start, goals, *manoeuvres);
+    return otherwise;
+  }
   FloodResult necessary =
-      FloodNecessary(model_, world_, start, goals, resolution_, keep_going_, *flights);
-  if (necessary.route_may_exist) return otherwise;
+      FloodNecessary(model_, world_, start, goals, resolution_, Limits(), *flights);
+  if (necessary.route_may_exist) {
+    if (leads_are_known) FindPassage(start, goals, *manoeuvres);
+    return otherwise;
+  }
   if (flood_) {
     std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
               std::back_inserter(necessary.barrier.reached));
@@ -53,19 +64,34 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
   return graph::RouteOracleAnswer::kProvenInfeasible;
 }
 
-/// The flood over C_S; a finer one, as far as it gets, where coarse cells find no barrier.
+/// Where the answer is not known or is "exhausted"; a proof has nothing to pass through.
+void FloodOracle::FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                              const std::vector<FloodManoeuvre>& manoeuvres) {
+  passage_ =
+      flood_->route_may_exist
+          ? PassageGauge(model_, world_, manoeuvres).Narrowest(flood_->way, keep_going_)
+          : SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, keep_going_);
+}
+
+/// The flood over C_S; finer ones, as far as they get, where coarser cells find no barrier: a flood
+/// that finds its way is soon done.
 FloodResult FloodOracle::CoarseToFine(const GroundedStance& start,
                                       const std::vector<GroundedStance>& goals,
                                       const std::vector<FloodManoeuvre>& manoeuvres) const {
-  constexpr int kHalvings = 3;
-  constexpr std::int64_t kMostCells = 500000;  // no limit of time: the same answer anywhere
-  FloodResult coarse =
-      FloodSufficient(model_, world_, start, goals, resolution_, keep_going_, manoeuvres);
-  if (!coarse.route_may_exist) return coarse;
-  std::int64_t cells = 0;
-  return FloodSufficient(
-      model_, world_, start, goals, resolution_,
-      [&] { return ++cells <= kMostCells && keep_going_(); }, manoeuvres, kHalvings);
+  constexpr int kMostHalvings = 3;
+  constexpr std::int64_t kMostJudged = 4'000'000;  // no limit of time: the same answer anywhere
+  FloodResult flood;
+  for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
+    flood = FloodSufficient(model_, world_, start, goals,
+                            {.resolution = resolution_, .halvings = halvings}, Limits(kMostJudged),
+                            manoeuvres);
+    if (!flood.route_may_exist || flood.is_cut_short) break;
+  }
+  return flood;
+}
+
+FloodLimits FloodOracle::Limits(std::int64_t most_judged) const {
+  return {.most_judged = most_judged, .keep_going = keep_going_};
 }
 
 /// Nothing if some manoeuvre does not say where it leads: then no closed barrier is a proof.
@@ -74,7 +100,8 @@ std::optional<std::vector<FloodManoeuvre>> FloodOracle::FloodManoeuvres() const 
   for (const auto& manoeuvre : manoeuvres_) {
     ManoeuvreBounds bounds = manoeuvre->Bounds();
     if (!bounds.landings) return std::nullopt;
-    result.push_back({manoeuvre->from(), manoeuvre->to(), std::move(bounds.landings)});
+    result.push_back(
+        {manoeuvre->from(), manoeuvre->to(), std::move(bounds.landings), manoeuvre->name()});
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,11 +31,19 @@ class FloodOracle {
   /// What closes the way, after an answer that was "no".
   const Barrier& barrier() const { return flood_->barrier; }
 
+  /// After "no": the narrowest place of the way that would be open if less were asked of it. After
+  /// an answer that was none: that of the way which the closest flood believes in. Nothing if there
+  /// is no such place.
+  const std::optional<NarrowPassage>& passage() const { return passage_; }
+
  private:
   graph::RouteOracleAnswer Answer(const GroundedStance& start,
                                   const std::vector<GroundedStance>& goals);
+  void FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                   const std::vector<FloodManoeuvre>& manoeuvres);
   FloodResult CoarseToFine(const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            const std::vector<FloodManoeuvre>& manoeuvres) const;
+  FloodLimits Limits(std::int64_t most_judged = FloodLimits::kMostNodes) const;
   std::optional<std::vector<FloodManoeuvre>> FloodManoeuvres() const;
   std::optional<std::vector<FlightBounds>> Flights() const;
   bool ReplaceGuesses();
@@ -44,6 +53,7 @@ class FloodOracle {
   const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres_;
   double resolution_;
   std::function<bool()> keep_going_;
+  std::optional<NarrowPassage> passage_;
   std::optional<FloodResult> flood_;  ///< the last one over C_S, or the one that proved "no"
 };
 

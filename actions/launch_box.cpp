@@ -20,6 +20,21 @@ bool GroundIsNear(const models::GroundMap& ground, const Vector2d& p, double z, 
   return false;
 }
 
+/// True only if GroundIsNear is of every point that is `displaced` from p or less.
+bool GroundIsNearAllAround(const models::GroundMap& ground, const Vector2d& p, double z,
+                           double distance, double displaced) {
+  constexpr double kGroundError = 1e-5;  // m, more than that of a Clearance
+  const double needed = displaced - distance + kGroundError;
+  const std::vector<double>& levels = ground.levels();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (std::abs(levels[i] - z) > 1e-6) continue;
+    const int level = static_cast<int>(i);
+    if (needed > 0 && ground.OneFaceHolds(level, p, p, needed)) return true;
+    if (ground.Clearance(level, p) >= needed) return true;
+  }
+  return false;
+}
+
 bool LaunchMayStand(const LocomotionModel& model, const models::GroundMap& ground,
                     const LaunchBox& box) {
   return GroundMayHold(model, ground, box.launch.gait, box.middle, box.launch.z,
@@ -72,6 +87,19 @@ bool GroundMayHold(const LocomotionModel& model, const models::GroundMap& ground
   for (const std::vector<Vector2d>& points : model.gaits[gait]->stance.bearing_points) {
     for (const Vector2d& p_S : points) {
       if (!GroundIsNear(ground, X_WS * p_S, z, place + p_S.norm() * turn)) return false;
+    }
+  }
+  return true;
+}
+
+bool GroundMayHoldAllAround(const LocomotionModel& model, const models::GroundMap& ground, int gait,
+                            const PlanarPose& pose, double z, double place, double turn,
+                            double displaced) {
+  const Eigen::Isometry2d X_WS = pose.Transform();
+  for (const std::vector<Vector2d>& points : model.gaits[gait]->stance.bearing_points) {
+    for (const Vector2d& p_S : points) {
+      const double distance = place + p_S.norm() * turn;
+      if (!GroundIsNearAllAround(ground, X_WS * p_S, z, distance, displaced)) return false;
     }
   }
   return true;

@@ -13,6 +13,12 @@ namespace possibility::actions {
 bool GroundMayHold(const LocomotionModel& model, const models::GroundMap& ground, int gait,
                    const PlanarPose& pose, double z, double place, double turn);
 
+/// True only if GroundMayHold says so of every stance that is displaced from `pose` by up to
+/// `displaced`, m.
+bool GroundMayHoldAllAround(const LocomotionModel& model, const models::GroundMap& ground, int gait,
+                            const PlanarPose& pose, double z, double place, double turn,
+                            double displaced);
+
 /// Launch stances of a manoeuvre and what it displaces them by: all within a box about the middle.
 struct LaunchBox {
   struct End {

@@ -77,11 +77,34 @@ struct Barrier {
   std::vector<ReachedRegion> reached;
 };
 
+/// What a passage may be short of.
+enum class PassageDimension { kWidth, kHeight, kGap };
+
+/// "width", "height", "gap": the words of plan.json.
+std::string ToString(PassageDimension dimension);
+
+/// How much there is of a dimension, and how much an action needs.
+struct PassageNeed {
+  std::string action;  ///< a gait, or of a gap a manoeuvre; empty if there is none
+  PassageDimension dimension = PassageDimension::kWidth;
+  double available = 0;  ///< m, between both sides or over the ground; of a gap: without ground
+  double needed = 0;     ///< m; of a gap: that the action reaches over
+};
+
+/// The narrowest place on the way that a flood over C_S takes, or would take if less were asked.
+struct NarrowPassage {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m, seen from above
+  double missing = 0;  ///< m, for the action that gets on best there; negative: to spare
+  std::vector<std::string> between = {};  ///< names of what stands there, or "no ground"
+  std::vector<PassageNeed> needs = {};
+};
+
 /// The answer "no", with what there is to say for it.
 struct NoPlan {
   std::string status;       ///< "proven_infeasible", "exhausted" or "time_limit"
   std::string explanation;  ///< one paragraph
   std::optional<Barrier> barrier;
+  std::optional<NarrowPassage> passage = {};
 };
 
 struct PlanTimings {

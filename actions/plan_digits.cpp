@@ -11,17 +11,20 @@ namespace possibility::actions {
 namespace {
 
 constexpr int kSignificant = 12;
+/// Far from the origin, positions keep their decimals: the quintics between knots a few
+/// milliseconds apart would make accelerations of what is left out.
+constexpr int kSignificantOfPosition = 15;
 constexpr double kLargestFixed = 1e15;
 
 void RequireFinite(double x) {
   if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
 }
 
-/// Of x != 0 once it is rounded to kSignificant digits.
-int DecimalExponent(double x) {
+/// Of x != 0 once it is rounded to so many digits.
+int DecimalExponent(double x, int significant) {
   char text[32];
   const auto end =
-      std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, kSignificant - 1)
+      std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, significant - 1)
           .ptr;
   *end = '\0';
   return std::atoi(std::find(text, end, 'e') + 1);
@@ -33,7 +36,10 @@ void AppendRounded(double x, int decimals, std::string* text) {
   RequireFinite(x);
   if (std::abs(x) >= kLargestFixed) return AppendExact(x, text);
   // More digits than a number is sure to have would not read back to the same text.
-  if (x != 0) decimals = std::clamp(kSignificant - 1 - DecimalExponent(x), 0, decimals);
+  const int significant = decimals == PlanDigits::kPosition ? kSignificantOfPosition : kSignificant;
+  if (x != 0) {
+    decimals = std::clamp(significant - 1 - DecimalExponent(x, significant), 0, decimals);
+  }
   char digits[40];
   const char* end =
       std::to_chars(digits, digits + sizeof digits, x, std::chars_format::fixed, decimals).ptr;

@@ -12,7 +12,8 @@ struct PlanDigits {
   static constexpr int kForce = 7;         ///< N, N m, N s
 };
 
-/// Appends x as JSON, rounded to so many decimals and to 12 significant digits at most.
+/// Appends x as JSON, rounded to so many decimals and to 12 significant digits at most, positions
+/// to 15.
 /// @throws std::invalid_argument if x is not finite.
 void AppendRounded(double x, int decimals, std::string* text);
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ using FailedJobs = std::map<std::string, std::vector<Manoeuvre::Refusal>>;
 
 /// One sentence: how near the search came, and what closes the way on. `status`: one of the "no"s.
 std::string ExplainBarrier(PlanStatus status, const Barrier& barrier);
+
+/// Where the way is narrowest, " The narrowest place ...", or nothing if there is no such place.
+/// `status`: one of the "no"s; at the time limit the floods believe in the way.
+std::string ExplainPassage(PlanStatus status, const std::optional<NarrowPassage>& passage);
 
 /// What was explored, what refused most of what was tried, and what became of confirmation jobs.
 /// Begins with a space; nothing if the search went through no cycle.

@@ -342,10 +342,36 @@ void CheckVertices(const JsonCursor& segments, const Plan& plan) {
   }
 }
 
+PassageDimension ReadDimension(const JsonCursor& cursor) {
+  const std::string name = cursor.String();
+  for (const PassageDimension dimension :
+       {PassageDimension::kWidth, PassageDimension::kHeight, PassageDimension::kGap}) {
+    if (ToString(dimension) == name) return dimension;
+  }
+  cursor.Fail("expected \"width\", \"height\" or \"gap\"");
+}
+
+NarrowPassage ReadPassage(const JsonCursor& cursor) {
+  cursor.ExpectKeys({"place", "missing", "between", "needs"});
+  NarrowPassage passage;
+  ReadNumbers(cursor["place"], &passage.place);
+  passage.missing = cursor["missing"].Number();
+  passage.between = ReadStrings(cursor["between"]);
+  const JsonCursor needs = cursor["needs"];
+  for (std::size_t i = 0, n = needs.ArraySize(); i < n; ++i) {
+    const JsonCursor need = needs[i];
+    need.ExpectKeys({"action", "dimension", "available", "needed"});
+    passage.needs.push_back({need["action"].String(), ReadDimension(need["dimension"]),
+                             need["available"].Number(), need["needed"].Number()});
+  }
+  return passage;
+}
+
 NoPlan ReadNo(const JsonCursor& cursor) {
   NoPlan no;
-  cursor.ExpectKeys({"status", "explanation"}, {"barrier"});
+  cursor.ExpectKeys({"status", "explanation"}, {"barrier", "passage"});
   if (cursor.Has("barrier")) no.barrier = ReadBarrier(cursor["barrier"]);
+  if (cursor.Has("passage")) no.passage = ReadPassage(cursor["passage"]);
   no.status = cursor["status"].String();
   no.explanation = cursor["explanation"].String();
   return no;

@@ -215,10 +215,26 @@ Json ToJson(const ReachedRegion& region) {
   return json;
 }
 
+Json ToJson(const NarrowPassage& passage) {
+  Json json;
+  json["place"] = Numbers(passage.place.data(), 2);
+  json["missing"] = Rounded(passage.missing);
+  json["between"] = passage.between;
+  json["needs"] = Json::array();
+  for (const PassageNeed& need : passage.needs) {
+    json["needs"].push_back({{"action", need.action},
+                             {"dimension", ToString(need.dimension)},
+                             {"available", Rounded(need.available)},
+                             {"needed", Rounded(need.needed)}});
+  }
+  return json;
+}
+
 Json ToJson(const NoPlan& no) {
   Json json;
   json["status"] = no.status;
   json["explanation"] = no.explanation;
+  if (no.passage) json["passage"] = ToJson(*no.passage);
   if (!no.barrier) return json;
   Json& barrier = json["barrier"];
   barrier["closest"] = Numbers(no.barrier->closest.data(), 2);

@@ -257,6 +257,7 @@ class TraversalPlanner {
       return;
     }
     SayNo(result->status, Explain(*result), result);
+    result->plan.no->passage = floods_.passage();
     if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
   }
 
@@ -281,8 +282,8 @@ class TraversalPlanner {
                           request_.time_limit) +
                   ExplainClosest(result.plan.explored, scenario_.goals)
             : ExplainBarrier(result.status, floods_.barrier());
-    return why + refusals_.Explain() + ExplainSearch(result.plan.statistics) +
-           ExplainManoeuvres(manoeuvres_, failures_);
+    return why + ExplainPassage(result.status, floods_.passage()) + refusals_.Explain() +
+           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
   }
 
   /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.

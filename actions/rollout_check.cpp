@@ -68,11 +68,12 @@ std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot
   return levels;
 }
 
-/// Every contact point of the robot over every level used. Only where there are several does it
-/// matter where each of them ends.
+/// Every contact point of the robot over every level used, seen from `origin`. Only where there are
+/// several does it matter where each of them ends.
 std::vector<dynamics::RolloutContact> ContactsOver(const std::set<int>& levels,
                                                    const dynamics::MultibodyModel& model,
-                                                   const models::GroundMap& ground) {
+                                                   const models::GroundMap& ground,
+                                                   const Vector3d& origin) {
   const models::RobotModel& robot = model.tree();
   const auto kinematics = std::make_shared<dynamics::TreeKinematics>(robot);
   std::vector<dynamics::RolloutContact> contacts;
@@ -82,13 +83,13 @@ std::vector<dynamics::RolloutContact> ContactsOver(const std::set<int>& levels,
         dynamics::RolloutContact contact;
         contact.name = fmt::format("{} {}", patch.name, i);
         contact.point = {patch.link, patch.points[i], Vector3d::UnitZ()};
-        contact.offset = ground.levels()[level];
+        contact.offset = ground.levels()[level] - origin.z();
         contact.friction = robot.friction;
         if (levels.size() > 1) {
-          contact.lands = [kinematics, &model, &ground, level,
+          contact.lands = [kinematics, &model, &ground, level, origin,
                            point = contact.point](const VectorXd& q) {
             kinematics->SetPosition(model.TreeConfiguration(q));
-            const Vector3d p = kinematics->Position(point.link, point.p_L);
+            const Vector3d p = origin + kinematics->Position(point.link, point.p_L);
             return ground.Clearance(level, p.head<2>()) > -kEdge;
           };
         }
@@ -99,15 +100,19 @@ std::vector<dynamics::RolloutContact> ContactsOver(const std::set<int>& levels,
   return contacts;
 }
 
+/// Simulates where the segment begins: the farther from the origin, the less of an integrator's
+/// relative tolerance would be left to the motion.
 class Rollout {
  public:
   Rollout(const Segment& segment, const models::RobotModel& robot, const models::GroundMap& ground,
           const RolloutCheckSettings& settings)
       : segment_(segment),
         settings_(settings),
+        origin_(segment.phases.front().knots.front().q.segment<3>(4)),
         model_(dynamics::MultibodyModel::Spatial(robot)),
         track_(segment),
-        simulator_(model_, ContactsOver(LevelsUsed(segment, robot, ground), *model_, ground),
+        simulator_(model_,
+                   ContactsOver(LevelsUsed(segment, robot, ground), *model_, ground, origin_),
                    Control(), SimulatorSettings()) {}
 
   void Run(RolloutDrift* drift) {
@@ -153,10 +158,11 @@ class Rollout {
     return settings;
   }
 
-  /// Of the independent joints.
+  /// Of the independent joints, seen from the origin of the simulation.
   VectorXd Configuration(const Knot& knot) const {
     VectorXd q(model_->nq());
     q.head<7>() = knot.q.head<7>();
+    q.segment<3>(4) -= origin_;
     for (int j = 0; j < model_->num_joints(); ++j) q[7 + j] = knot.q[7 + model_->joints()[j]];
     return q;
   }
@@ -202,6 +208,7 @@ class Rollout {
 
   const Segment& segment_;
   const RolloutCheckSettings& settings_;
+  Vector3d origin_;  ///< m
   std::shared_ptr<const dynamics::MultibodyModel> model_;
   Track track_;
   dynamics::RobotSimulator simulator_;

@@ -32,6 +32,23 @@ std::vector<MotionPhase> GaitPhases(const LocomotionModel& model, const RouteLeg
   return gait.motion->Phases(strides, leg.z, time_scale);
 }
 
+/// The leg as seen from its beginning, turned as it is. Motion is generated there and shifted, for
+/// what decides on it is done to tolerances that have nothing to do with the place: 10 km from the
+/// origin the steps between doubles are larger than the tolerance of inverse kinematics.
+RouteLeg SeenFromItsBeginning(RouteLeg leg) {
+  leg.to.x -= leg.from.x;
+  leg.to.y -= leg.from.y;
+  leg.from.x = leg.from.y = leg.z = leg.z_to = 0;
+  return leg;
+}
+
+std::vector<Phase> Shifted(std::vector<Phase> phases, const Eigen::Vector3d& by) {
+  for (Phase& phase : phases) {
+    for (Knot& knot : phase.knots) knot.q.segment<3>(4) += by;
+  }
+  return phases;
+}
+
 /// Configuration at the beginning of GaitPhases.
 Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) {
   Eigen::VectorXd q = model.gaits[leg.gait]->stance.q;
@@ -156,9 +173,12 @@ std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg
   if (leg.manoeuvre != nullptr) return ManoeuvrePhases(model, leg, keep_going);
   if (leg.transition >= 0) return TransitionPhases(model, leg);
   MotionBuilder builder(*model.robot);
+  const RouteLeg local = SeenFromItsBeginning(leg);
   for (const double scale : kTimeScales) {
     try {
-      return builder.Build(GaitPhases(model, leg, scale), InitialGuess(model, leg), keep_going);
+      return Shifted(
+          builder.Build(GaitPhases(model, local, scale), InitialGuess(model, local), keep_going),
+          {leg.from.x, leg.from.y, leg.z});
     } catch (const MotionError&) {
       if (scale == std::end(kTimeScales)[-1]) throw;
     }

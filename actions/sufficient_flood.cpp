@@ -1,314 +1,304 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
 
-#include "actions/blockers.h"
-#include "actions/cell_grid.h"
-#include "actions/flood_grid.h"
+#include "actions/block_flood.h"
+#include "actions/blocks_from_above.h"
 #include "actions/launch_box.h"
 #include "actions/route_flood.h"
-#include "models/collision.h"
-#include "models/ground_map.h"
-#include "models/upright_boxes.h"
+#include "actions/stance_cells.h"
 
 namespace possibility::actions {
 namespace {
 
-using Cell = CellGrid::Cell;
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
-/// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
-constexpr double kCheckerError = 0.0002;
-constexpr int kHeadings = 24;
 /// How often the launches of a cell are halved, along one dimension each time, before a landing
 /// counts as possible: more did not narrow down the gaps that stay in doubt.
 constexpr int kLaunchHalvings = 16;
 
-/// The flood over C_S. Cells: layer (a gait at a height), x, y, heading.
+double FarthestTransition(const LocomotionModel& model) {
+  double farthest = 0;
+  for (const auto& transition : model.transitions) {
+    farthest = std::max(farthest, transition.motion->displacement().position().norm());
+  }
+  return farthest;
+}
+
+/// The flood over C_S: cells of stances, joined by strides, transitions and manoeuvres.
 class SufficientFlood {
  public:
-  SufficientFlood(const LocomotionModel& model, const World& world, double z, double resolution,
-                  const std::vector<FloodManoeuvre>& manoeuvres, int halvings)
+  SufficientFlood(const LocomotionModel& model, const World& world, const GroundedStance& start,
+                  const std::vector<GroundedStance>& goals, const StanceCellSettings& settings,
+                  FloodLimits limits, const std::vector<FloodManoeuvre>& manoeuvres)
       : model_(model),
         world_(world),
-        heights_(manoeuvres.empty() ? std::vector<double>{z} : world.ground->levels()),
+        start_(start),
+        goals_(goals),
         manoeuvres_(manoeuvres),
-        resolution_(resolution),
-        origin_(world.environment->bounds.min() - Vector2d::Constant(Margin(model))),
-        checker_(*world.environment),
-        grid_(GridSize()) {
-    for (const auto& gait : model.gaits) {
-      // Wherever a way leads, there is room to stand: every swept volume holds that (GaitVolumes).
-      const std::vector<Eigen::AlignedBox3d>& standing = gait->volumes.standing;
-      whole_.emplace_back(standing);
-      shrunk_.emplace_back();
-      for (int i = 0; i <= halvings; ++i) shrunk_.back().push_back(Shrink(standing, 1 << i));
-    }
-  }
+        keep_going_(limits.keep_going),
+        cells_(model, world,
+               manoeuvres.empty() ? std::vector<double>{start.z} : world.ground->levels(),
+               FarthestTransition(model), settings),
+        flood_(
+            cells_.num_planes(), cells_.NumCells().x(), cells_.NumCells().y(),
+            [this](const CellBlock& block) { return cells_.Judge(block); }, std::move(limits)) {}
 
-  FloodResult Run(const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                  const std::function<bool()>& keep_going) {
-    std::set<Cell> goal_cells;
-    for (const GroundedStance& goal : goals) {
-      if (const auto layer = LayerOf(goal)) goal_cells.insert(CellOf(*layer, goal.pose));
+  FloodResult Run() {
+    FloodResult result;
+    const std::optional<CellBlock> first = cells_.CellOf(start_);
+    if (!first) return result;
+    std::vector<CellBlock> goal_cells;
+    for (const GroundedStance& goal : goals_) {
+      if (const auto cell = cells_.CellOf(goal)) goal_cells.push_back(*cell);
     }
-    const std::optional<int> first = LayerOf(start);
-    if (!first) return {};
-    return FloodGrid(
-        &grid_, CellOf(*first, start.pose), goal_cells, goals, keep_going,
-        [this](const Cell& cell) { return Centre(cell).position(); },
-        [this](const Cell& cell) { OfferNeighbours(cell); },
-        [&](const Cell& cell) { return ClosedBy(cell, goals); }, [this] { return Reached(); });
+    const BlocksFromAbove view(cells_.origin(), Vector2d::Constant(cells_.settings().resolution),
+                               goals_);
+    const FloodEnd end = flood_.Run(
+        *first,
+        [&](const CellBlock& block) {
+          return std::any_of(goal_cells.begin(), goal_cells.end(),
+                             [&](const CellBlock& cell) { return block.Contains(cell); });
+        },
+        [&](const CellBlock& block) { return view.Distance(block); },
+        [this](const CellBlock& block) { OfferNeighbours(block); },
+        [this](const CellBlock& block) { OfferLandings(block); });
+    result.cells = flood_.judged();
+    result.is_cut_short = end == FloodEnd::kCutShort;
+    result.route_may_exist = end != FloodEnd::kNothingLeft;
+    if (end == FloodEnd::kGoal) result.way = Stances(flood_.WayToGoal());
+    if (end == FloodEnd::kNothingLeft) result.barrier = BarrierOf(view);
+    return result;
   }
 
  private:
-  static double Margin(const LocomotionModel& model) {
-    double margin = 0;
-    for (const auto& transition : model.transitions) {
-      margin = std::max(margin, transition.motion->displacement().position().norm());
+  void OfferNeighbours(const CellBlock& block) {
+    flood_.Offer({block.plane, block.x0 - 1, block.y0, block.x0, block.y1});
+    flood_.Offer({block.plane, block.x1, block.y0, block.x1 + 1, block.y1});
+    flood_.Offer({block.plane, block.x0, block.y0 - 1, block.x1, block.y0});
+    flood_.Offer({block.plane, block.x0, block.y1, block.x1, block.y1 + 1});
+    for (const int turn : {-1, 1}) {
+      CellBlock turned = block;
+      turned.plane = cells_.PlaneTurned(block, turn);
+      flood_.Offer(turned);
     }
-    return margin;
-  }
-
-  Cell GridSize() const {
-    const Vector2d size =
-        world_.environment->bounds.max() - origin_ + Vector2d::Constant(Margin(model_));
-    return {static_cast<int>(model_.gaits.size() * heights_.size()),
-            static_cast<int>(std::ceil(size.x() / resolution_)) + 1,
-            static_cast<int>(std::ceil(size.y() / resolution_)) + 1, kHeadings};
-  }
-
-  double HalfDiagonal() const { return resolution_ * std::numbers::sqrt2 / 2; }
-  static double HalfHeading() { return std::numbers::pi / kHeadings; }
-
-  /// What a box covers wherever in a part of a cell, of so many to an axis, the stance is: every
-  /// vertical side moved inward.
-  models::UprightBoxes Shrink(const std::vector<Eigen::AlignedBox3d>& boxes, int parts) const {
-    std::vector<Eigen::AlignedBox3d> shrunk;
-    for (const Eigen::AlignedBox3d& box : boxes) {
-      const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
-      const double inward = (HalfDiagonal() + far.norm() * HalfHeading()) / parts + kCheckerError;
-      const Vector3d margin(inward, inward, kCheckerError);
-      if ((box.sizes() - 2 * margin).minCoeff() <= 0) continue;
-      shrunk.emplace_back(box.min() + margin, box.max() - margin);
+    const int gait = cells_.GaitOf(block);
+    for (const LocomotionModel::TransitionEntry& transition : model_.transitions) {
+      const PlanarPose& d = transition.motion->displacement();
+      if (transition.from == gait) OfferTransition(block, transition.to, d);
+      if (transition.to == gait) OfferTransition(block, transition.from, d.Inverse());
     }
-    return models::UprightBoxes(std::move(shrunk));
   }
 
-  int GaitOf(const Cell& cell) const { return cell[0] % static_cast<int>(model_.gaits.size()); }
-  double HeightOf(const Cell& cell) const { return heights_[cell[0] / model_.gaits.size()]; }
-  int Layer(int gait, size_t height) const {
-    return static_cast<int>(height * model_.gaits.size()) + gait;
+  void OfferTransition(const CellBlock& block, int gait, const PlanarPose& displacement) {
+    const int layer = cells_.LayerOf(block) - cells_.GaitOf(block) + gait;
+    flood_.Offer(Image(block, layer, displacement, 0));
   }
-  std::optional<int> LayerOf(const GroundedStance& stance) const {
-    for (size_t i = 0; i < heights_.size(); ++i) {
-      if (std::abs(heights_[i] - stance.z) < 1e-6) return Layer(stance.gait, i);
+
+  /// All cells that a stance in one of the block's can be displaced into, or so far (m) beside
+  /// them.
+  CellBlock Image(const CellBlock& block, int layer, const PlanarPose& displacement,
+                  double beside) const {
+    const double spread = cells_.settings().resolution / 2 +
+                          displacement.position().norm() * cells_.half_heading() + beside;
+    const PlanarPose low =
+        cells_.Centre(CellBlock::Of(block.plane, block.x0, block.y0)) * displacement;
+    const PlanarPose high =
+        cells_.Centre(CellBlock::Of(block.plane, block.x1 - 1, block.y1 - 1)) * displacement;
+    CellBlock image = cells_.CellOf(layer, {low.x - spread, low.y - spread, low.yaw});
+    const CellBlock last = cells_.CellOf(layer, {high.x + spread, high.y + spread, high.yaw});
+    image.x1 = last.x1;
+    image.y1 = last.y1;
+    return image;
+  }
+
+  void OfferLandings(const CellBlock& block) {
+    for (const FloodManoeuvre& manoeuvre : manoeuvres_) {
+      if (manoeuvre.from != cells_.GaitOf(block)) continue;
+      for (size_t i = 0; i < cells_.heights().size(); ++i) {
+        const double rise = cells_.heights()[i] - cells_.HeightOf(block);
+        const std::optional<LandingRange> range = manoeuvre.landings(rise);
+        if (range) OfferLandings(block, cells_.Layer(manoeuvre.to, i), *range);
+      }
     }
-    return std::nullopt;
-  }
-  /// The layer of another gait at the cell's height.
-  int SameHeight(const Cell& cell, int gait) const { return cell[0] - GaitOf(cell) + gait; }
-
-  Cell CellOf(int layer, const PlanarPose& pose) const {
-    const Vector2d p = (pose.position() - origin_) / resolution_;
-    const double turn = std::floor((pose.yaw + HalfHeading()) / (2 * HalfHeading()));
-    const int heading = static_cast<int>(turn - kHeadings * std::floor(turn / kHeadings));
-    return {layer, static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
-            heading % kHeadings};
   }
 
-  PlanarPose Centre(const Cell& cell) const {
-    return {origin_.x() + (cell[1] + 0.5) * resolution_,
-            origin_.y() + (cell[2] + 0.5) * resolution_, cell[3] * 2 * HalfHeading()};
-  }
-
-  bool GroundMayHold(const Cell& cell) const {
-    return actions::GroundMayHold(model_, *world_.ground, GaitOf(cell), Centre(cell),
-                                  HeightOf(cell), HalfDiagonal(), HalfHeading());
-  }
-
-  bool CentreStands(int gait, const PlanarPose& centre, double z) const {
-    return actions::GroundMayHold(model_, *world_.ground, gait, centre, z, 0, 0) &&
-           checker_.AreFree(whole_[gait], centre.At(z));
-  }
-
-  /// Whether some stance may be possible in the part of a cell about `centre`, halved so often
-  /// along every axis already.
-  bool MayStand(int gait, const PlanarPose& centre, double z, int halvings) const {
-    const int parts = 1 << halvings;
-    if (!actions::GroundMayHold(model_, *world_.ground, gait, centre, z, HalfDiagonal() / parts,
-                                HalfHeading() / parts) ||
-        !checker_.AreFree(shrunk_[gait][halvings], centre.At(z))) {
-      return false;
+  void OfferLandings(const CellBlock& block, int layer, const LandingRange& range) {
+    const double lenient = 2 * cells_.settings().leniency;
+    const Vector2d low = range.offset.min();
+    const Vector2d high = range.offset.max() + Vector2d(lenient, 0);
+    const double heading = 2 * cells_.half_heading();
+    const int turns = static_cast<int>(std::ceil(range.turn / heading - 1e-9));
+    const double resolution = cells_.settings().resolution;
+    LaunchBox launches = LaunchesFrom(block, layer);
+    launches.half_turn = turns > 0 ? cells_.half_heading() : 0;
+    // A landing lies at most half a sample beside one of the samples.
+    launches.half_displacement = ((high - low).array() > 0).cast<double>() * resolution / 4;
+    const std::vector<double> ahead = Samples(low.x(), high.x());
+    for (const double y : Samples(low.y(), high.y())) {
+      for (int turn = -turns; turn <= turns; ++turn) {
+        launches.displacement = {0, y, turn * heading};
+        OfferLandings(block, layer, &launches, ahead);
+      }
     }
-    if (halvings + 1 == static_cast<int>(shrunk_[gait].size())) return true;
-    if (CentreStands(gait, centre, z)) return true;
-    const double shift = resolution_ / 4 / parts, turn = HalfHeading() / 2 / parts;
-    for (int part = 0; part < 8; ++part) {
-      const PlanarPose middle{centre.x + (part & 1 ? shift : -shift),
-                              centre.y + (part & 2 ? shift : -shift),
-                              centre.yaw + (part & 4 ? turn : -turn)};
-      if (MayStand(gait, middle, z, halvings + 1)) return true;
+  }
+
+  /// Of so many displacements ahead those that may lead where nobody has been yet.
+  void OfferLandings(const CellBlock& block, int layer, LaunchBox* launches,
+                     std::span<const double> ahead) {
+    const double beside = launches->half_displacement.norm();
+    const auto image = [&](double x) {
+      launches->displacement.x = x;
+      return Image(block, layer, launches->displacement, beside);
+    };
+    const CellBlock first = image(ahead.front()), last = image(ahead.back());
+    if (!flood_.HasLeft({first.plane, std::min(first.x0, last.x0), std::min(first.y0, last.y0),
+                         std::max(first.x1, last.x1), std::max(first.y1, last.y1)})) {
+      return;
+    }
+    if (ahead.size() == 1) return OfferLandings(block, layer, *launches);
+    OfferLandings(block, layer, launches, ahead.first(ahead.size() / 2));
+    OfferLandings(block, layer, launches, ahead.subspan(ahead.size() / 2));
+  }
+
+  /// Of all cells of the block together; they lead nowhere yet.
+  LaunchBox LaunchesFrom(const CellBlock& block, int layer) const {
+    const CellBlock landing = CellBlock::Of(cells_.Plane(layer, 0), 0, 0);
+    LaunchBox launches{
+        .launch = {cells_.GaitOf(block), cells_.HeightOf(block)},
+        .landing = {cells_.GaitOf(landing), cells_.HeightOf(landing)},
+        .middle = cells_.Centre(block),
+        .half_place =
+            Vector2d(block.x1 - block.x0, block.y1 - block.y0) * (cells_.settings().resolution / 2),
+        .half_heading = cells_.half_heading(),
+    };
+    return launches;
+  }
+
+  void OfferLandings(const CellBlock& block, int layer, const LaunchBox& launches) {
+    // What no launch of the block can do, none of a cell can.
+    if (!block.IsCell() && !MayLand(model_, *world_.ground, launches, 0)) return;
+    const double beside = launches.half_displacement.norm();
+    std::map<std::pair<int, int>, bool>
+        may_land;  // by launch cell: once, and only where it matters
+    flood_.Offer(Image(block, layer, launches.displacement, beside), [&](const CellBlock&
+                                                                             landings) {
+      return SomeCellLeads(block, landings, launches, [&](const CellBlock& cell) {
+        const auto known = may_land.find({cell.x0, cell.y0});
+        if (known != may_land.end()) return known->second;
+        LaunchBox own = launches;
+        own.middle = cells_.Centre(cell);
+        own.half_place = Vector2d::Constant(cells_.settings().resolution / 2);
+        return may_land[{cell.x0, cell.y0}] = MayLand(model_, *world_.ground, own, kLaunchHalvings);
+      });
+    });
+  }
+
+  /// Whether some cell of `block` whose image shares cells with `landings` leads there.
+  template <typename Leads>
+  bool SomeCellLeads(const CellBlock& block, const CellBlock& landings, const LaunchBox& launches,
+                     const Leads& leads) const {
+    const double beside = launches.half_displacement.norm();
+    const auto image = [&](int x, int y) {
+      return Image(CellBlock::Of(block.plane, x, y), cells_.LayerOf(landings),
+                   launches.displacement, beside);
+    };
+    // Images move with their cells, but for rounding.
+    const CellBlock first = image(block.x0, block.y0);
+    const auto low = [](int begin, int landing, int image_end) {
+      return std::max(begin, begin + landing - image_end);
+    };
+    const int x0 = low(block.x0, landings.x0, first.x1), y0 = low(block.y0, landings.y0, first.y1);
+    const int x1 = std::min(block.x1, block.x0 + landings.x1 - first.x0 + 2);
+    const int y1 = std::min(block.y1, block.y0 + landings.y1 - first.y0 + 2);
+    for (int x = x0; x < x1; ++x) {
+      for (int y = y0; y < y1; ++y) {
+        const CellBlock own = image(x, y);
+        if (own.plane != landings.plane || own.x0 >= landings.x1 || own.x1 <= landings.x0 ||
+            own.y0 >= landings.y1 || own.y1 <= landings.y0) {
+          continue;
+        }
+        if (leads(CellBlock::Of(block.plane, x, y))) return true;
+      }
     }
     return false;
   }
 
-  void OfferNeighbours(const Cell& cell) {
-    const auto is_open = [this](const Cell& c) {
-      return MayStand(GaitOf(c), Centre(c), HeightOf(c), 0);
-    };
-    const auto offer = [&](Cell c) {
-      c[3] = (c[3] + kHeadings) % kHeadings;
-      grid_.Offer(c, is_open);
-    };
-    for (int axis = 1; axis < 4; ++axis) {
-      for (int step : {-1, 1}) {
-        Cell next = cell;
-        next[axis] += step;
-        offer(next);
-      }
-    }
-    for (const LocomotionModel::TransitionEntry& transition : model_.transitions) {
-      const PlanarPose& d = transition.motion->displacement();
-      const int gait = GaitOf(cell);
-      if (transition.from == gait) OfferImage(cell, SameHeight(cell, transition.to), d, offer);
-      if (transition.to == gait) {
-        OfferImage(cell, SameHeight(cell, transition.from), d.Inverse(), offer);
-      }
-    }
-    for (const FloodManoeuvre& manoeuvre : manoeuvres_) {
-      if (manoeuvre.from == GaitOf(cell)) OfferLandings(cell, manoeuvre, is_open);
-    }
-  }
-
-  template <typename Test>
-  void OfferLandings(const Cell& cell, const FloodManoeuvre& manoeuvre, const Test& is_open) {
-    for (size_t i = 0; i < heights_.size(); ++i) {
-      const std::optional<LandingRange> range = manoeuvre.landings(heights_[i] - HeightOf(cell));
-      if (!range) continue;
-      const Vector2d low = range->offset.min();
-      const Vector2d high = range->offset.max();
-      const int turns = static_cast<int>(std::ceil(range->turn / (2 * HalfHeading()) - 1e-9));
-      LaunchBox launches{.launch = {GaitOf(cell), HeightOf(cell)},
-                         .landing = {manoeuvre.to, heights_[i]},
-                         .middle = Centre(cell),
-                         .half_place = Vector2d::Constant(resolution_ / 2),
-                         .half_heading = HalfHeading(),
-                         .half_turn = turns > 0 ? HalfHeading() : 0};
-      // A landing lies at most half a sample beside one of the samples.
-      launches.half_displacement = ((high - low).array() > 0).cast<double>() * resolution_ / 4;
-      for (const double x : Samples(low.x(), high.x())) {
-        for (const double y : Samples(low.y(), high.y())) {
-          for (int turn = -turns; turn <= turns; ++turn) {
-            launches.displacement = {x, y, turn * 2 * HalfHeading()};
-            OfferLandings(cell, Layer(manoeuvre.to, i), launches, is_open);
-          }
-        }
-      }
-    }
-  }
-
-  template <typename Test>
-  void OfferLandings(const Cell& cell, int layer, const LaunchBox& launches, const Test& is_open) {
-    std::optional<bool> may_land;  // once, and only where it matters
-    const auto leads_there = [&] {
-      if (!may_land) may_land = MayLand(model_, *world_.ground, launches, kLaunchHalvings);
-      return *may_land;
-    };
-    OfferImage(
-        cell, layer, launches.displacement,
-        [&](const Cell& c) { grid_.Offer(c, is_open, leads_there); },
-        launches.half_displacement.norm());
-  }
-
   /// `low`, `high` and what lies between, at half the size of cells.
   std::vector<double> Samples(double low, double high) const {
+    const double spacing = cells_.settings().resolution / 2;
     std::vector<double> samples = {low};
-    for (double s = low + resolution_ / 2; s < high; s += resolution_ / 2) samples.push_back(s);
+    for (double s = low + spacing; s < high; s += spacing) samples.push_back(s);
     if (high > low) samples.push_back(high);
     return samples;
   }
 
-  /// All cells that a stance in `cell` can be displaced into, or so far (m) beside them.
-  template <typename Offer>
-  void OfferImage(const Cell& cell, int layer, const PlanarPose& displacement, const Offer& offer,
-                  double beside = 0) {
-    const PlanarPose image = Centre(cell) * displacement;
-    const double spread = resolution_ / 2 + displacement.position().norm() * HalfHeading() + beside;
-    const Cell low = CellOf(layer, {image.x - spread, image.y - spread, image.yaw});
-    const Cell high = CellOf(layer, {image.x + spread, image.y + spread, image.yaw});
-    for (int x = low[1]; x <= high[1]; ++x) {
-      for (int y = low[2]; y <= high[2]; ++y) offer({layer, x, y, low[3]});
+  std::vector<GroundedStance> Stances(const std::vector<CellBlock>& way) const {
+    std::vector<GroundedStance> stances;
+    for (const CellBlock& block : way) {
+      stances.push_back({cells_.GaitOf(block), cells_.Centre(block), cells_.HeightOf(block)});
     }
+    return stances;
+  }
+
+  Barrier BarrierOf(const BlocksFromAbove& view) const {
+    Barrier barrier;
+    const ClosestApproach closest = view.ClosestOf(flood_.reached());
+    barrier.closest = closest.point;
+    barrier.distance = closest.distance;
+    barrier.closed_by = ClosedBy(closest.cell);
+    std::map<int, std::vector<CellBlock>> by_layer;
+    for (const BlockFlood::Reached& reached : flood_.reached()) {
+      by_layer[cells_.LayerOf(reached.block)].push_back(reached.block);
+    }
+    for (const auto& [layer, blocks] : by_layer) {
+      const CellBlock cell = CellBlock::Of(cells_.Plane(layer, 0), 0, 0);
+      barrier.reached.push_back(
+          {model_.gaits[cells_.GaitOf(cell)]->stance.gait->name, cells_.HeightOf(cell),
+           view.OutlinesOf(blocks, cells_.NumCells().cast<int>(), keep_going_)});
+    }
+    return barrier;
   }
 
   /// What closes the cells next to `cell` in the direction of the goals.
-  std::vector<std::string> ClosedBy(const Cell& cell, const std::vector<GroundedStance>& goals) {
+  std::vector<std::string> ClosedBy(const CellBlock& cell) const {
     std::set<std::string> names;
-    const PlanarPose centre = Centre(cell);
-    for (const GroundedStance& goal : goals) {
+    const PlanarPose centre = cells_.Centre(cell);
+    for (const GroundedStance& goal : goals_) {
       const Vector2d towards = goal.pose.position() - centre.position();
       if (towards.norm() < 1e-9) continue;
-      Cell beyond = CellOf(
-          cell[0], {centre.x + 1.5 * resolution_ * towards.x() / towards.norm(),
-                    centre.y + 1.5 * resolution_ * towards.y() / towards.norm(), centre.yaw});
-      if (!grid_.Contains(beyond)) continue;
-      if (!GroundMayHold(beyond)) names.insert("no ground");
-      std::vector<models::PosedShape> posed;
-      const models::UprightBoxes& boxes = shrunk_[GaitOf(cell)].back();
-      for (size_t i = 0; i < boxes.boxes().size(); ++i) {
-        posed.push_back({models::Shape::Box(boxes.boxes()[i].sizes()),
-                         Centre(beyond).At(HeightOf(beyond)) * boxes.X_SB()[i]});
-      }
-      for (std::string& name : Blockers(*world_.environment, posed)) names.insert(std::move(name));
+      const Vector2d beyond =
+          centre.position() + 1.5 * cells_.settings().resolution * towards.normalized();
+      const CellBlock next =
+          cells_.CellOf(cells_.LayerOf(cell), {beyond.x(), beyond.y(), centre.yaw});
+      if (!cells_.Contains(next)) continue;
+      for (std::string& name : cells_.Blockers(next)) names.insert(std::move(name));
     }
     return {names.begin(), names.end()};
   }
 
-  std::vector<ReachedRegion> Reached() const {
-    std::vector<ReachedRegion> regions;
-    for (int layer = 0; layer < grid_.size()[0]; ++layer) {
-      CellMask mask(grid_.size()[1], grid_.size()[2]);
-      for (int x = 0; x < grid_.size()[1]; ++x) {
-        for (int y = 0; y < grid_.size()[2]; ++y) {
-          for (int heading = 0; heading < kHeadings; ++heading) {
-            if (grid_.IsReached({layer, x, y, heading})) mask.Add(x, y);
-          }
-        }
-      }
-      ReachedRegion region;
-      region.action = model_.gaits[GaitOf({layer})]->stance.gait->name;
-      region.z = HeightOf({layer});
-      region.outlines = OutlinesOf(mask, origin_, Vector2d::Constant(resolution_));
-      if (!region.outlines.empty()) regions.push_back(std::move(region));
-    }
-    return regions;
-  }
-
   const LocomotionModel& model_;
   const World& world_;
-  std::vector<double> heights_;  ///< of the ground, that the flood may reach
+  const GroundedStance& start_;
+  const std::vector<GroundedStance>& goals_;
   const std::vector<FloodManoeuvre>& manoeuvres_;
-  double resolution_;
-  Vector2d origin_;
-  models::CollisionChecker checker_;
-  CellGrid grid_;
-  std::vector<models::UprightBoxes> whole_;                ///< by gait
-  std::vector<std::vector<models::UprightBoxes>> shrunk_;  ///< by gait and halvings
+  std::function<bool()> keep_going_;
+  StanceCells cells_;
+  BlockFlood flood_;
 };
 
 }  // namespace
 
 FloodResult FloodSufficient(const LocomotionModel& model, const World& world,
                             const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                            double resolution, const std::function<bool()>& keep_going,
-                            const std::vector<FloodManoeuvre>& manoeuvres, int halvings) {
-  return SufficientFlood(model, world, start.z, resolution, manoeuvres, halvings)
-      .Run(start, goals, keep_going);
+                            const StanceCellSettings& settings, const FloodLimits& limits,
+                            const std::vector<FloodManoeuvre>& manoeuvres) {
+  return SufficientFlood(model, world, start, goals, settings, limits, manoeuvres).Run();
 }
 
 }  // namespace possibility::actions

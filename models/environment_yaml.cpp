@@ -1,5 +1,6 @@
 #include "models/environment_yaml.h"
 
+#include <cmath>
 #include <set>
 
 #include "models/shape_yaml.h"
@@ -7,10 +8,28 @@
 namespace possibility::models {
 namespace {
 
+/// m. Doubles are 1.5e-11 m apart there, and jumps between places so far out verify as they do at
+/// the origin; what is farther was not tried.
+constexpr double kFarthest = 1e5;
+
+void RequireNear(const YamlNode& node, double coordinate) {
+  if (std::abs(coordinate) <= kFarthest) return;
+  node.Fail(
+      "lies more than 100 km from the origin, expected coordinates between -100000 and "
+      "100000 m");
+}
+
+void RequireNear(const YamlNode& node, const Obstacle& obstacle) {
+  const Eigen::AlignedBox3d bounds = obstacle.shape.Bounds(obstacle.X_WO);
+  RequireNear(node, bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff());
+}
+
 Eigen::AlignedBox2d ReadBounds(const YamlNode& node) {
   node.MapOf({"x", "y"});
   const Eigen::Vector2d x = node.At("x").Interval();
   const Eigen::Vector2d y = node.At("y").Interval();
+  RequireNear(node.At("x"), x.cwiseAbs().maxCoeff());
+  RequireNear(node.At("y"), y.cwiseAbs().maxCoeff());
   return {Eigen::Vector2d(x[0], y[0]), Eigen::Vector2d(x[1], y[1])};
 }
 
@@ -45,6 +64,7 @@ Environment ReadEnvironment(const YamlNode& node) {
   std::set<std::string> names;
   const auto add = [&](const YamlNode& item, Obstacle obstacle) {
     if (!names.insert(obstacle.name).second) item.At("name").Fail("this name is already taken");
+    RequireNear(item, obstacle);
     environment.obstacles.push_back(std::move(obstacle));
   };
   for (const YamlNode& item : node.At("ground").Items()) add(item, ReadGround(item));

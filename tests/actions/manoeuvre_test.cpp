@@ -124,7 +124,7 @@ TEST(ManoeuvreTest, TheFloodReachesEveryDeclaredLanding) {
     const GroundedStance start{0, launch, 0};
     const GroundedStance goal{0, landing, rise};
     const auto flood = [&](const std::vector<FloodManoeuvre>& manoeuvres) {
-      return FloodSufficient(DrcHubo1Locomotion(), (*context).world, start, {goal}, 0.1, {},
+      return FloodSufficient(DrcHubo1Locomotion(), (*context).world, start, {goal}, {}, {},
                              manoeuvres)
           .route_may_exist;
     };

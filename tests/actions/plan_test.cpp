@@ -119,6 +119,18 @@ TEST_F(PlanFile, IsTheSameBytesEachTimeAndAfterReading) {
   EXPECT_EQ(Written(ReadPlan(file())), first);
 }
 
+/// What rounding leaves of a place must not depend on where it is.
+TEST_F(PlanFile, PlacesFarFromTheOriginKeepTheirDecimals) {
+  for (const double x : {0.0, -3.25, 9.87654321, 1e4 / 3, -1e5 / 7, 1e5 / 3}) {
+    Knot& knot = plan_.segments[0].phases[0].knots[0];
+    knot.q.segment<3>(4) << x, 2 * x, x / 3;
+    const std::string text = Written(plan_);
+    const Eigen::VectorXd q = ParsePlan(text, file()).segments[0].phases[0].knots[0].q;
+    EXPECT_LT((q - knot.q).lpNorm<Eigen::Infinity>(), 2e-11) << x;
+    EXPECT_EQ(Written(ParsePlan(text, file())), text);
+  }
+}
+
 TEST_F(PlanFile, NamesFilesRelativeToItsFolder) {
   const json document = json::parse(Written(plan_));
   EXPECT_EQ(document["robot"]["file"], "robots/robot.yaml");

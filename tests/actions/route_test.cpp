@@ -164,11 +164,11 @@ TEST_F(RouteTest, FloodsNeverCloseARouteThatExists) {
     const Route route = RandomRoute(&generator, 10);
     if (route.empty()) continue;
     const GroundedStance start{0, route.front().from, 0}, goal{0, route.back().to, 0};
-    EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, 0.1).route_may_exist);
-    EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, 0.1, {}, {}, 3).route_may_exist);
+    EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, {}).route_may_exist);
+    EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, {.halvings = 3}).route_may_exist);
     EXPECT_TRUE(FloodNecessary(model_, world_, start, {goal}, 0.1).route_may_exist);
     const GroundedStance outside{0, {100, 0, 0}, 0};
-    closed += !FloodSufficient(model_, world_, start, {outside}, 0.1).route_may_exist;
+    closed += !FloodSufficient(model_, world_, start, {outside}, {}).route_may_exist;
   }
   EXPECT_GT(closed, 0);
 }
@@ -178,9 +178,9 @@ TEST_F(RouteTest, ABarTooLowForWalkingClosesWalkingOnlyAndIsNamed) {
   Load(scenario.environment);
   const GroundedStance start{0, {scenario.start.x, scenario.start.y, 0}, 0};
   const GroundedStance goal{0, {scenario.goals[0].x, scenario.goals[0].y, 0}, 0};
-  EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, 0.1).route_may_exist);
+  EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, {}).route_may_exist);
   const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
-  const FloodResult flood = FloodSufficient(walking, world_, start, {goal}, 0.1);
+  const FloodResult flood = FloodSufficient(walking, world_, start, {goal}, {});
   EXPECT_FALSE(flood.route_may_exist);
   ASSERT_FALSE(flood.barrier.closed_by.empty());
   EXPECT_NE(flood.barrier.closed_by.front().find("bar"), std::string::npos);

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "actions/cell_grid.h"
 #include "actions/route_flood.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/gap.h"
@@ -53,7 +52,7 @@ bool MayPass(double width, int halvings) {
   const models::Environment environment = Corridor(width);
   const models::GroundMap ground(environment);
   return FloodSufficient(walking, {&environment, &ground}, {0, {-1.8, 0, 0}, 0},
-                         {{0, {1.8, 0, 0}, 0}}, 0.1, {}, {}, halvings)
+                         {{0, {1.8, 0, 0}, 0}}, {.halvings = halvings})
       .route_may_exist;
 }
 
@@ -77,28 +76,11 @@ TEST(SufficientFlood, TellsAGapFromTheFarthestLanding) {
                            : std::nullopt;
         }};
     return FloodSufficient(DrcHubo1Locomotion(), {&environment, &ground}, {0, {-1, 0, 0}, 0},
-                           {{1, {gap + 1, 0, 0}, 0}}, 0.1, {}, {leap})
+                           {{1, {gap + 1, 0, 0}, 0}}, {}, {}, {leap})
         .route_may_exist;
   };
   EXPECT_TRUE(may_cross(WidestGap(kFarthest) - 0.01));
   EXPECT_FALSE(may_cross(WidestGap(kFarthest) + 0.1));
-}
-
-TEST(CellGrid, AnOpenCellWaitsForAnOfferThatLeadsThere) {
-  CellGrid grid({1, 4, 1, 1});
-  const CellGrid::Cell cell{0, 2, 0, 0};
-  int asked = 0;
-  const auto is_open = [&](const CellGrid::Cell&) { return ++asked > 0; };
-  grid.Offer(cell, is_open, [] { return false; });
-  EXPECT_FALSE(grid.IsReached(cell));
-  EXPECT_TRUE(grid.Empty());
-  grid.Offer(cell, is_open, [] { return true; });
-  EXPECT_TRUE(grid.IsReached(cell));
-  EXPECT_EQ(asked, 1);
-  EXPECT_EQ(grid.tested(), 1);
-  grid.Offer(
-      {0, 3, 0, 0}, [](const CellGrid::Cell&) { return false; }, [] { return true; });
-  EXPECT_FALSE(grid.IsReached({0, 3, 0, 0}));
 }
 
 }  // namespace

@@ -220,6 +220,15 @@ const BadScenario kBad[] = {
      "room.yaml:4: start.x: expected a finite number, got nan"},
     {"GoalOutside", "x: 3, y: 2", "x: 3, y: 20",
      "room.yaml:6: goals[0]: (3, 20) lies outside environment.bounds"},
+    {"BoundsTooFar", "x: [0, 4]", "x: [0, 100001]",
+     "room.yaml:11: environment.bounds.x: lies more than 100 km from the origin, expected "
+     "coordinates between -100000 and 100000 m"},
+    {"CrateTooFar", "position: [1, 0, 0]", "position: [1, 0, -100001]",
+     "room.yaml:15: environment.obstacles[0]: lies more than 100 km from the origin, expected "
+     "coordinates between -100000 and 100000 m"},
+    {"FloorTooLarge", "size: [4, 6, 0.5]", "size: [4, 3e5, 0.5]",
+     "room.yaml:13: environment.ground[0]: lies more than 100 km from the origin, expected "
+     "coordinates between -100000 and 100000 m"},
     {"GoalAndGoals", "goals:", "goal: {action: stand, x: 1, y: 2, yaw_deg: 0}\ngoals:",
      "room.yaml:7: goals: expected either 'goal' or 'goals', got both"},
     {"NoGoal", "goals:\n  - {action: squat, x: 3, y: 2, z: 0.5, yaw_deg: 0}\n", "",
