@@ -40,7 +40,7 @@ class DenseFlood {
              static_cast<int>(std::ceil(size.x() / resolution)) + 1,
              static_cast<int>(std::ceil(size.y() / resolution)) + 1, kHeadings};
     states_.resize(static_cast<size_t>(size_[0]) * size_[1] * size_[2] * size_[3], kUntested);
-    for (const auto& gait : model.gaits) shrunk_.emplace_back(Shrunk(gait->sweep));
+    for (const auto& gait : model.gaits) shrunk_.emplace_back(Shrunk(gait->volumes.standing));
   }
 
   const Cell& size() const { return size_; }

@@ -60,17 +60,20 @@ class PassageTest : public testing::Test {
   }
 };
 
-/// The narrowest that a gait fits through, whatever it heads for.
+/// The narrowest that a gait fits through, whatever it heads for, ahead or sideways.
 double Narrowest(int gait) {
   double narrowest = 10;
-  for (double yaw = 0; yaw < 3.2; yaw += 0.01) {
-    double widest = 0;
-    for (const Eigen::AlignedBox3d& box : DrcHubo1Locomotion().gaits[gait]->sweep) {
-      const Vector2d size = box.sizes().head<2>();
-      widest =
-          std::max(widest, std::abs(std::sin(yaw)) * size.x() + std::abs(std::cos(yaw)) * size.y());
+  for (const StrideClass strides : {StrideClass::kStraight, StrideClass::kSideways}) {
+    for (double yaw = 0; yaw < 3.2; yaw += 0.01) {
+      double widest = 0;
+      for (const Eigen::AlignedBox3d& box :
+           DrcHubo1Locomotion().gaits[gait]->volumes.sweep(strides)) {
+        const Vector2d size = box.sizes().head<2>();
+        widest = std::max(widest,
+                          std::abs(std::sin(yaw)) * size.x() + std::abs(std::cos(yaw)) * size.y());
+      }
+      narrowest = std::min(narrowest, widest);
     }
-    narrowest = std::min(narrowest, widest);
   }
   return narrowest;
 }
@@ -100,7 +103,8 @@ TEST_F(PassageTest, ALowBarSaysHowLow) {
   EXPECT_EQ(crawl.dimension, PassageDimension::kHeight);
   EXPECT_NEAR(crawl.available, 0.62, 0.005);
   double top = 0;
-  for (const auto& box : DrcHubo1Locomotion().gaits[1]->sweep) top = std::max(top, box.max().z());
+  for (const auto& box : DrcHubo1Locomotion().gaits[1]->volumes.sweep(StrideClass::kStraight))
+    top = std::max(top, box.max().z());
   EXPECT_NEAR(crawl.needed, top, 1e-9);
   EXPECT_EQ(passage->between, std::vector<std::string>{"beam"});
 }
