@@ -73,11 +73,12 @@ std::vector<MotionPhase> GaitMotion::Phases(const std::vector<PlanarPose>& strid
     const std::vector<int> order = SwingOrder(a, b);
     for (int j = 0; j < limb_count; ++j) {
       const PlanarPose reference = Interpolate(a, b, (j + 0.5) / limb_count);
-      AppendShift(SupportedCentreOfMass(progress, order[j], reference), &progress, &phases);
+      const bool begins = phases.empty();
+      AppendShift(SupportedCentreOfMass(progress, order[j], reference), begins, &progress, &phases);
       AppendSwing(order[j], b, Interpolate(a, b, (j + 1.0) / limb_count).yaw, &progress, &phases);
     }
   }
-  AppendShift(strides.back() * stance_->centre_of_mass, &progress, &phases);
+  AppendShift(strides.back() * stance_->centre_of_mass, true, &progress, &phases);
   return phases;
 }
 
@@ -147,11 +148,12 @@ WholeBodyTask GaitMotion::StandingTask(const Progress& progress) const {
   return task;
 }
 
-void GaitMotion::AppendShift(const Vector2d& target, Progress* progress,
+void GaitMotion::AppendShift(const Vector2d& target, bool is_end, Progress* progress,
                              std::vector<MotionPhase>* phases) const {
   const Vector2d from = progress->centre_of_mass;
   const double distance = (target - from).norm();
-  if (distance < kNegligibleShift) return;
+  // The robot stands on all its limbs where the motion begins and ends.
+  if (distance < kNegligibleShift && !is_end) return;
   const models::GaitParameters& parameters = stance_->gait->parameters;
   MotionPhase phase;
   phase.duration =

@@ -45,7 +45,7 @@ class GaitMotion {
   std::vector<Eigen::Vector2d> Placed(int limb, const PlanarPose& at) const;
   Eigen::Vector2d SupportedCentreOfMass(const Progress& progress, int swinging,
                                         const PlanarPose& reference) const;
-  void AppendShift(const Eigen::Vector2d& target, Progress* progress,
+  void AppendShift(const Eigen::Vector2d& target, bool is_end, Progress* progress,
                    std::vector<MotionPhase>* phases) const;
   void AppendSwing(int limb, const PlanarPose& to, double root_yaw, Progress* progress,
                    std::vector<MotionPhase>* phases) const;

@@ -32,9 +32,10 @@ double Exact(double x) {
   return x;
 }
 
+/// To the last bit: a page shows the same, whether it is made of the plan or of its file.
 Json Numbers(const double* data, Eigen::Index size) {
   Json array = Json::array();
-  for (Eigen::Index i = 0; i < size; ++i) array.push_back(Rounded(data[i]));
+  for (Eigen::Index i = 0; i < size; ++i) array.push_back(Exact(data[i]));
   return array;
 }
 

@@ -105,6 +105,18 @@ TEST_P(GaitMotionTest, OneLimbSwingsAtATimeAndTheOthersSupportTheCentreOfMass) {
   }
 }
 
+/// However little the centre of mass has to move for the first swing.
+TEST_P(GaitMotionTest, BeginsAndEndsOnAllLimbs) {
+  const size_t limbs = gait_.stance.gait->limbs.size();
+  for (const PlanarPose& d :
+       {PlanarPose{0, 0, 1e-3}, PlanarPose{0, 0, -1e-3}, PlanarPose{1e-3, 0, 0},
+        PlanarPose{0, 1e-3, 0}, PlanarPose{0, 0, parameters_.turn}}) {
+    const std::vector<MotionPhase> phases = gait_.motion->Phases({{}, d}, 0, 1);
+    EXPECT_EQ(phases.front().contacts.size(), limbs);
+    EXPECT_EQ(phases.back().contacts.size(), limbs);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Gaits, GaitMotionTest, testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
 

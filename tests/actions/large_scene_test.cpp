@@ -50,10 +50,10 @@ double PeakMegabytes() {
 TEST(LargeSceneTest, AHallOfAHundredMetresIsExhausted) {
   PlanRequest request;
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
-  const PlanResult result = PlanTraversal(DrcHubo1(), Hall(100, 0.6), request);
+  const PlanResult result = PlanTraversal(DrcHubo1(), Hall(100, 0.5), request);
   EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
   ASSERT_TRUE(result.plan.no && result.plan.no->passage);
-  EXPECT_NE(result.explanation.find("0.60 m wide"), std::string::npos) << result.explanation;
+  EXPECT_NE(result.explanation.find("0.50 m wide"), std::string::npos) << result.explanation;
 }
 
 /// Floods, search and what prepares them keep to their time, whatever the bounds.
@@ -62,7 +62,7 @@ TEST(LargeSceneTest, LimitsHoldInScenesOfKilometres) {
     PlanRequest request;
     request.time_limit = 4;
     const auto start = std::chrono::steady_clock::now();
-    const PlanResult result = PlanTraversal(DrcHubo1(), Hall(side, 0.6), request);
+    const PlanResult result = PlanTraversal(DrcHubo1(), Hall(side, 0.5), request);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_EQ(result.status, PlanStatus::kTimeLimit) << result.explanation;

@@ -112,7 +112,7 @@ TEST(TableReportTest, ShortTimesKeepTheirDigits) {
   record.timings.graph_s = 0.000154;
   TableReport report;
   report.trials = {record};
-  EXPECT_NE(report.Markdown().find("| default | 0.00015 (0.000) |"), std::string::npos)
+  EXPECT_NE(report.Markdown().find("| default | \u2013 | 0.00015 (0.000) |"), std::string::npos)
       << report.Markdown();
 }
 
@@ -128,7 +128,7 @@ TEST(TableReportTest, ARowWithoutAPlanHasNoFigures) {
 TEST(TableReportTest, MarkdownSetsOursBesideThePrintedFigures) {
   const std::string text = SampleReport().Markdown();
   for (const char* part :
-       {"| Hallway | 3 | default | 0.200 (0.100) |", "3.67 (11.52)", "127.2 (6.96)", "| 96 % |",
+       {"| Hallway | 3 | default | \u2013 | 0.200 (0.100) |", "3.67 (11.52)", "127.2 (6.96)", "| 96 % |",
         "75 %", "our own", "machine \"one\"; machine two", "E3-1290 v2",
         "| hallway_3 | paper | Graph (s) | 0.200 (0.100) | 0.200 | 0.300 | 0.300 |",
         "| closed_room | 2 proven_infeasible | 2 | 2.000 (0.707) | 2.000 | 2.500 | 2.500 |"}) {
