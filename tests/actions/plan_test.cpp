@@ -184,6 +184,37 @@ TEST_F(PlanFile, ANoComesBackAsWritten) {
   EXPECT_EQ(Written(plan_).find("\"no\""), std::string::npos);
 }
 
+TEST_F(PlanFile, ANarrowPassageComesBackAsWritten) {
+  plan_.segments.clear();
+  plan_.no = ClosedRoom();
+  for (const bool has_barrier : {true, false}) {
+    if (!has_barrier) plan_.no->barrier.reset();
+    NarrowPassage& passage = plan_.no->passage.emplace();
+    passage.place = {4.5, -2};
+    passage.missing = 0.125;
+    passage.between = {"left", "right"};
+    passage.needs = {{"walk", PassageDimension::kWidth, 0.75, 0.875},
+                     {"crawl", PassageDimension::kHeight, 0.5, 0.625},
+                     {"jump", PassageDimension::kGap, 1, 0.5}};
+    const std::optional<NoPlan> read = ParsePlan(Written(plan_), file()).no;
+    ASSERT_TRUE(read && read->passage);
+    EXPECT_EQ(read->barrier.has_value(), has_barrier);
+    EXPECT_EQ(read->passage->place, passage.place);
+    EXPECT_EQ(read->passage->missing, 0.125);
+    EXPECT_EQ(read->passage->between, passage.between);
+    ASSERT_EQ(read->passage->needs.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(read->passage->needs[i].action, passage.needs[i].action);
+      EXPECT_EQ(read->passage->needs[i].dimension, passage.needs[i].dimension);
+      EXPECT_EQ(read->passage->needs[i].available, passage.needs[i].available);
+      EXPECT_EQ(read->passage->needs[i].needed, passage.needs[i].needed);
+    }
+    ExpectRefused([](json* d) { (*d)["no"]["passage"].erase("missing"); }, "no.passage");
+    ExpectRefused([](json* d) { (*d)["no"]["passage"]["needs"][0]["dimension"] = "depth"; },
+                  "no.passage.needs[0].dimension");
+  }
+}
+
 TEST_F(PlanFile, RefusesANoThatIsNone) {
   ExpectRefused(
       [](json* d) {
