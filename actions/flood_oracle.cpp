@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "actions/dead_end.h"
 #include "actions/passage_gauge.h"
 #include "actions/passage_search.h"
 
@@ -31,7 +32,11 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
                                              const std::vector<GroundedStance>& goals) {
   std::optional<std::vector<FloodManoeuvre>> manoeuvres = FloodManoeuvres();
   const bool leads_are_known = manoeuvres.has_value();
-  if (leads_are_known) {
+  const std::optional<FloodResult> dead_end =
+      FindDeadEnd(model_, world_, manoeuvres_, start, goals);
+  if (dead_end) {
+    flood_ = dead_end;
+  } else if (leads_are_known) {
     flood_ = CoarseToFine(start, goals, *manoeuvres);
     if (!flood_->route_may_exist && ReplaceGuesses()) {
       manoeuvres = FloodManoeuvres();
@@ -43,8 +48,9 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
       return graph::RouteOracleAnswer::kUnknown;
     }
   }
-  const graph::RouteOracleAnswer otherwise =
-      leads_are_known ? graph::RouteOracleAnswer::kExhausted : graph::RouteOracleAnswer::kUnknown;
+  const graph::RouteOracleAnswer otherwise = leads_are_known || dead_end
+                                                 ? graph::RouteOracleAnswer::kExhausted
+                                                 : graph::RouteOracleAnswer::kUnknown;
   const std::optional<std::vector<FlightBounds>> flights = Flights();
   if (!flights) {
     if (leads_are_known) FindPassage(start, goals, *manoeuvres);

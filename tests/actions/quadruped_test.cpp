@@ -100,9 +100,9 @@ TEST(Quadruped, PointFeetReachTheGround) {
   EXPECT_FALSE(scene.action(0).CN(ToPoint(stance.RootPose({-1, 0, 0.3}, 1))));
 }
 
-TEST(Quadruped, SufficientIsVerifiedIsNecessary) { ExpectSufficientIsVerifiedIsNecessary(10, 1); }
+TEST(Quadruped, SufficientIsVerifiedIsNecessary) { ExpectSufficientIsVerifiedIsNecessary(4, 1); }
 TEST(QuadrupedLong, SufficientIsVerifiedIsNecessary) {
-  ExpectSufficientIsVerifiedIsNecessary(300, 2);
+  ExpectSufficientIsVerifiedIsNecessary(80, 2);
 }
 
 TEST(Quadruped, OfTwoDoorsOnlyTheOneTooNarrowForTheTrunkIsAProof) {

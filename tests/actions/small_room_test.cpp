@@ -6,6 +6,11 @@
 #include <cmath>
 #include <random>
 
+#include "actions/dead_end.h"
+#include "actions/exploration_pose.h"
+#include "actions/flood_oracle.h"
+#include "actions/planner.h"
+#include "actions/route_suggestion.h"
 #include "actions/verification_report.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/leg_scene.h"
@@ -13,6 +18,15 @@
 
 namespace possibility::actions {
 namespace {
+
+models::Obstacle Box(const std::string& name, const Eigen::Vector3d& low,
+                     const Eigen::Vector3d& high) {
+  models::Obstacle obstacle;
+  obstacle.name = name;
+  obstacle.shape = models::Shape::Box(high - low);
+  obstacle.X_WO.translation() = (low + high) / 2;
+  return obstacle;
+}
 
 /// Walls around the origin, each with the direction that it stands in and its distance.
 class Room {
@@ -102,6 +116,7 @@ void ExpectWaysThroughSmallRoomsVerify(const LocomotionModel& model, StrideClass
     const LegScene scene(model, room.Environment());
     ASSERT_TRUE(scene.action(gait).CS(LegEdge(model, leg)));
     EXPECT_TRUE(scene.action(gait).CN(LegEdge(model, leg)));
+    EXPECT_FALSE(FindDeadEnd(model, scene.world(), {}, {gait, leg.from, 0}, {{gait, leg.to, 0}}));
     const VerificationReport report = scene.VerifyLeg(leg);
     EXPECT_TRUE(report.accepted()) << FormatText(report);
   }
@@ -110,14 +125,14 @@ void ExpectWaysThroughSmallRoomsVerify(const LocomotionModel& model, StrideClass
 class SmallRooms : public testing::TestWithParam<StrideClass> {};
 TEST_P(SmallRooms, WhatIsSufficientInThemVerifies) {
   ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 2, 1);
-  ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 2, 2);
+  ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 1, 2);
 }
 INSTANTIATE_TEST_SUITE_P(Classes, SmallRooms, testing::ValuesIn(kStrideClasses));
 
 class SmallRoomsLong : public testing::TestWithParam<StrideClass> {};
 TEST_P(SmallRoomsLong, WhatIsSufficientInThemVerifies) {
-  ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 100, 3);
-  ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 100, 4);
+  ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 40, 3);
+  ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 40, 4);
 }
 INSTANTIATE_TEST_SUITE_P(Classes, SmallRoomsLong, testing::ValuesIn(kStrideClasses));
 
@@ -149,6 +164,102 @@ TEST(SmallRoom, StandingNeedsTheRoomOfThePostureAlone) {
       EXPECT_EQ(examine(0.005), StanceFault::kNone);
       EXPECT_EQ(examine(-0.005), StanceFault::kCollision);
     }
+  }
+}
+
+/// Who leans from foot to foot beside a wall so close would touch it.
+TEST(SmallRoom, AStanceThatNoStrideLeadsAwayFromExhaustsAtOnce) {
+  const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
+  const GroundedStance beside{0, {0, 0, 0}, 0}, away{0, {0.5, -1, 0}, 0};
+  for (const bool begins : {true, false}) {
+    for (const double gap : {0.05, 0.1}) {
+      models::Environment environment;
+      environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(-3, -3), Eigen::Vector2d(3, 3));
+      environment.obstacles = {Box("floor", {-4, -4, -0.2}, {4, 4, 0}),
+                               Box("wall", {-3, 0.356 + gap, 0}, {3, 0.5 + gap, 2})};
+      environment.obstacles.front().is_ground = true;
+      const LegScene scene(walking, environment);
+      EXPECT_EQ(scene.action(0).Examine(beside), StanceFault::kNone);
+      const std::vector<std::shared_ptr<Manoeuvre>> nothing_else;
+      FloodOracle oracle(walking, scene.world(), nothing_else, 0.1, [] { return true; });
+      const auto answer = begins ? oracle.Ask(beside, {away}) : oracle.Ask(away, {beside});
+      if (gap < 0.08) {
+        EXPECT_EQ(answer, graph::RouteOracleAnswer::kExhausted);
+        EXPECT_EQ(oracle.barrier().closed_by, std::vector<std::string>{"wall"});
+      } else {
+        EXPECT_EQ(answer, graph::RouteOracleAnswer::kUnknown);
+      }
+      EXPECT_FALSE(FindDeadEnd(walking, scene.world(), {}, beside, {beside}));
+    }
+  }
+}
+
+/// Two rooms and a door between them, straight ahead of the start.
+models::Scenario DoorScene(double width) {
+  models::Scenario scenario;
+  scenario.name = scenario.file = "door.yaml";
+  scenario.robot_file = DrcHubo1().file;
+  scenario.actions = {"walk"};
+  scenario.start = {"walk", -1.5, 0, 0, 0};
+  scenario.goals = {{"walk", 1.5, 0, 0, 0}};
+  scenario.environment.bounds =
+      Eigen::AlignedBox2d(Eigen::Vector2d(-2.5, -1.5), Eigen::Vector2d(2.5, 1.5));
+  scenario.environment.obstacles = {
+      Box("floor", {-2.5, -1.5, -0.5}, {2.5, 1.5, 0}),
+      Box("left_wall", {-0.1, width / 2, 0}, {0.1, 1.5, 2}),
+      Box("right_wall", {-0.1, -1.5, 0}, {0.1, -width / 2, 2}),
+  };
+  scenario.environment.obstacles.front().is_ground = true;
+  return scenario;
+}
+
+TEST(SmallRoom, WalksStraightThroughADoorOf95Centimetres) {
+  PlanRequest request;
+  request.time_limit = 1000;  // sanitizers are slow
+  const PlanResult result = PlanTraversal(DrcHubo1(), DoorScene(0.95), request);
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_TRUE(result.verification.accepted()) << FormatText(result.verification);
+  for (const Segment& segment : result.plan.segments) {
+    for (const Phase& phase : segment.phases) {
+      for (const Knot& knot : phase.knots) {
+        EXPECT_LT(knot.q.segment<3>(1).norm(), 1e-6) << "it turns at " << knot.t;
+        EXPECT_LT(std::abs(knot.q[5]), 0.1) << "it steps aside at " << knot.t;
+      }
+    }
+  }
+}
+
+/// Posts 1 m apart, as far as one sees.
+models::Environment Posts() {
+  models::Environment environment;
+  environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(0, 0), Eigen::Vector2d(14, 5));
+  environment.obstacles = {Box("floor", {-1, -1, -0.5}, {15, 6, 0})};
+  environment.obstacles.front().is_ground = true;
+  for (int x = 2; x <= 12; ++x) {
+    for (int y = 0; y <= 5; ++y) {
+      models::Obstacle post;
+      post.shape = models::Shape::Cylinder(0.075, 1.5);
+      post.X_WO.translation() << x, y, 0.75;
+      environment.obstacles.push_back(post);
+    }
+  }
+  return environment;
+}
+
+/// However the places that the search looks at lie between the posts.
+TEST(SmallRoom, WaysBetweenPostsAreFoundWhereverTheyBegin) {
+  const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
+  const models::Environment environment = Posts();
+  const models::GroundMap ground(environment);
+  const World world{&environment, &ground};
+  const auto space = std::make_shared<PelvisPoseSpace>(environment.bounds, ground.levels(), 0.137);
+  const std::vector<std::shared_ptr<QuasiStaticAction>> gaits = {
+      std::make_shared<QuasiStaticAction>(walking, 0, world, space, 0.25)};
+  const std::vector<std::shared_ptr<Manoeuvre>> nothing_else;
+  for (double y = 0.55; y < 0.9; y += 0.05) {
+    const GroundedStance start{0, {0.69, y, 0}, 0};
+    const GroundedStance goal{0, {12.99, y, 0}, 0};
+    EXPECT_FALSE(SuggestRoute({&walking, &gaits, &nothing_else}, start, {goal}, {}).empty()) << y;
   }
 }
 

@@ -120,8 +120,8 @@ TEST_F(StepUpScene, NecessaryConditionsAreRefusedOneByOne) {
   EXPECT_FALSE(step_up_->CN(graph::PointPair{low, At(0.48, 0, 0, 0)})) << "into the plinth";
   EXPECT_FALSE(step_up_->CN(graph::PointPair{At(-0.1, 0, 0, 0), At(0.4, 0, 0, 0.1)}))
       << "heels over the edge";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{At(0.1, 0, 0, 0), At(0.6, 0, 0, 0.1)}))
-      << "too close to walk there";
+  EXPECT_FALSE(step_up_->CN(graph::PointPair{At(0.3, 0, 0, 0), At(0.8, 0, 0, 0.1)}))
+      << "too close to stand there";
 }
 
 TEST_F(StepUpScene, TheExpectedDurationIsThatOfTheMotion) {

@@ -123,7 +123,8 @@ TEST_F(Template, EveryTemplateOfOursGivesScenarios) {
   const std::map<std::string, std::pair<std::string, std::vector<double>>> cases = {
       {"gap_width", {"gap", {0.2, 1}}},        {"bar_height", {"height", {0.7, 1.4}}},
       {"corridor_width", {"width", {0.6, 2}}}, {"obstacle_count", {"count", {10, 10000}}},
-      {"room_size", {"side", {6, 24}}},        {"actions", {"actions", {1, 2, 3}}}};
+      {"room_size", {"side", {6, 24}}},        {"actions", {"actions", {1, 2, 3}}},
+      {"door_width", {"width", {0.6, 1.1}}}};
   int found = 0;
   for (const auto& entry : fs::directory_iterator(sweeps)) {
     ++found;
