@@ -54,6 +54,9 @@ fs::path FolderOf(const fs::path& file) {
 
 AtomicFile::AtomicFile(fs::path file) : file_(std::move(file)) {
   std::error_code error;
+  if (fs::is_symlink(file_, error)) {
+    if (const fs::path target = fs::weakly_canonical(file_, error); !error) file_ = target;
+  }
   const fs::file_status status = fs::status(file_, error);
   if (fs::is_directory(status)) {
     throw InputError(fmt::format("{}: is a folder, expected a file to write", file_.string()));

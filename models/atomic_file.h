@@ -8,7 +8,8 @@ namespace possibility::models {
 
 /// A file that is complete or absent: it is written under another name in the same folder and takes
 /// its own with Commit. Its writer holds a lock on it (flock), so whoever writes next into the
-/// folder removes what writers that were killed left there. Devices and pipes are written directly.
+/// folder removes what writers that were killed left there. Links stay links; devices and pipes are
+/// written directly.
 class AtomicFile {
  public:
   /// @throws InputError naming the file if none can be made there.

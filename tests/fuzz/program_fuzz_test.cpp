@@ -24,6 +24,7 @@ struct Kind {
   Subject (*make)(const fs::path&);
   /// Of the program; SPOILT is the file, SOURCE the project's folder.
   std::vector<std::string> commands;
+  std::string before = {};  ///< commands of the shell
 };
 
 const std::string kPlan =
@@ -40,7 +41,11 @@ const Kind kKinds[] = {
     {"Solution",
      &SolutionSubject,
      {"view SPOILT --robot 'SOURCE/models/drchubo1/drchubo1.yaml' --out page.html"}},
-    {"Library", &LibrarySubject, {"regress --problem kirk --against SPOILT"}},
+    {"Library",
+     &LibrarySubject,
+     {"plan 'SOURCE/experiments/scenarios/double_jump.yaml' --out out --time-limit 1 --threads 1 "
+      "--library library"},
+     "for f in library/*; do cp spoilt.json $f/reach.json; done;"},
 };
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {
@@ -64,7 +69,7 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
         const std::string words =
             Replaced(Replaced(command, "SPOILT", "spoilt" + subject.extension), "SOURCE",
                      POSSIBILITY_SOURCE_DIR);
-        const int code = WaitInTime(Start(words));
+        const int code = WaitInTime(Start(words, GetParam().before));
         if (IsRight(code)) continue;
         ADD_FAILURE() << subject.name << ", seed " << seed << ": " << words << ": exit code "
                       << code << "\n"
@@ -75,9 +80,10 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
   }
 
  private:
-  /// A scenario whose robot is the spoilt one.
+  /// A scenario whose robot is the spoilt one, and a library.
   void WriteWholeFiles(const Subject& subject) const {
     const fs::path source = POSSIBILITY_SOURCE_DIR;
+    fs::copy(source / "models/drchubo1/jumps", folder_ / "library", fs::copy_options::recursive);
     const std::string scenario =
         models::ReadFileContents(source / "experiments/scenarios/closed_room.yaml");
     const bool is_urdf = subject.extension == ".urdf";

@@ -126,6 +126,15 @@ TEST(AtomicFile, DevicesStayDevices) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
+TEST(AtomicFile, LinksStayLinks) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.Write("a.txt", "old");
+  fs::create_symlink("a.txt", folder.path() / "link");
+  WriteAtomically(folder.path() / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(ReadFileContents(file), "new");
+}
+
 TEST(AtomicFile, PermissionsAreThoseOfTheProcess) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "a.txt";
