@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "actions/exploration_pose.h"
-#include "actions/lattice_explorer.h"
 #include "actions/long_jump.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/lattice_proposal.h"
 
 namespace possibility::actions {
 namespace {
@@ -39,15 +39,7 @@ class Scene {
 
   /// What a LatticeExplorer proposes first.
   std::vector<graph::PathEdge> Proposal() const {
-    const graph::Deadline deadline(60);
-    const graph::ExplorerContext context{.deadline = &deadline};
-    LatticeExplorer explorer(space(), Grounded(scenario_.start), goals(), context);
-    for (;;) {
-      graph::Findings findings = explorer.Explore();
-      if (!findings.route.empty() || findings.outlook == graph::Outlook::kOver) {
-        return findings.route;
-      }
-    }
+    return FirstProposal(space(), Grounded(scenario_.start), goals());
   }
 
   RouteSpace space() const { return {&DrcHubo1Locomotion(), &gaits_, &manoeuvres_}; }

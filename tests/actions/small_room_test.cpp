@@ -10,9 +10,9 @@
 #include "actions/exploration_pose.h"
 #include "actions/flood_oracle.h"
 #include "actions/planner.h"
-#include "actions/route_suggestion.h"
 #include "actions/verification_report.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/lattice_proposal.h"
 #include "tests/actions/leg_scene.h"
 #include "tests/actions/quadruped.h"
 
@@ -259,7 +259,7 @@ TEST(SmallRoom, WaysBetweenPostsAreFoundWhereverTheyBegin) {
   for (double y = 0.55; y < 0.9; y += 0.05) {
     const GroundedStance start{0, {0.69, y, 0}, 0};
     const GroundedStance goal{0, {12.99, y, 0}, 0};
-    EXPECT_FALSE(SuggestRoute({&walking, &gaits, &nothing_else}, start, {goal}, {}).empty()) << y;
+    EXPECT_FALSE(FirstProposal({&walking, &gaits, &nothing_else}, start, {goal}).empty()) << y;
   }
 }
 
