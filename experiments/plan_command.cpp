@@ -66,6 +66,7 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
   if (!options.preset.empty()) request->preset = ParsePreset("--preset", options.preset);
   if (!options.explorers.empty()) {
     request->explorers = ParseNames("--explorers", options.explorers);
+    actions::WithExplorers({}, request->explorers, "--explorers");
   }
   if (!options.library.empty()) {
     if (!std::filesystem::is_directory(options.library)) {
