@@ -175,9 +175,9 @@ void CheckFiles(const Plan& plan, const models::RobotModel& robot, const models:
   require_same("robot", robot.content_hash, plan.robot_hash);
   require_same("scenario", scenario.content_hash, plan.scenario_hash);
   if (!scenario.robot_hash.empty() && scenario.robot_hash != robot.content_hash) {
-    log->Report(ViolationKind::kFileMismatch, {},
-                fmt::format("robot is {}, the scenario's is {}", robot.content_hash,
-                            scenario.robot_hash));
+    log->Report(
+        ViolationKind::kFileMismatch, {},
+        fmt::format("robot is {}, the scenario's is {}", robot.content_hash, scenario.robot_hash));
   }
 }
 

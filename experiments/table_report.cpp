@@ -61,9 +61,9 @@ std::string ExplorersOf(const TrialGroup& group) {
 /// The paper's table, its figures beside ours.
 TextTable SideBySide(const std::vector<TrialGroup>& groups) {
   TextTable table;
-  table.header = {"Scenario",   "N_a",     "Preset",           "Found by",
-                  "Graph (s)",  "Motion (s)", "\u03b3",        "Success",
-                  "Verified",   "Paper: graph (s)", "motion (s)", "\u03b3", "success"};
+  table.header = {"Scenario",   "N_a",    "Preset",  "Found by", "Graph (s)",
+                  "Motion (s)", "\u03b3", "Success", "Verified", "Paper: graph (s)",
+                  "motion (s)", "\u03b3", "success"};
   for (const TrialGroup& group : groups) {
     const TableRow* row = Find(group.row);
     if (row == nullptr) continue;
@@ -71,11 +71,11 @@ TextTable SideBySide(const std::vector<TrialGroup>& groups) {
       return MeanAndStd(group.Summary(MetricNamed(name)));
     };
     const double count = static_cast<double>(group.trials.size());
-    table.rows.push_back({row->title, fmt::format("{}", row->actions.size()), group.preset,
-                          ExplorersOf(group), ours("graph_s"), ours("motion_s"), ours("real_time_ratio"),
-                          Percent(group.successes() / count), Percent(group.verified() / count),
-                          Printed(row->graph), Printed(row->motion), Printed(row->real_time_ratio),
-                          Percent(row->success)});
+    table.rows.push_back(
+        {row->title, fmt::format("{}", row->actions.size()), group.preset, ExplorersOf(group),
+         ours("graph_s"), ours("motion_s"), ours("real_time_ratio"),
+         Percent(group.successes() / count), Percent(group.verified() / count), Printed(row->graph),
+         Printed(row->motion), Printed(row->real_time_ratio), Percent(row->success)});
   }
   return table;
 }

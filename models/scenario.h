@@ -26,8 +26,8 @@ struct PlannerSettings {
   int flood_after_cycles = 200;       ///< exploration cycles before asking whether a route exists
   /// Of the time limit, for the search for a quicker route than the first.
   double improvement_share = 0.1;
-  double flood_resolution = 0.1;      ///< m, cell of that flood
-  double skip_jumps = 0.9;            ///< probability that a cycle does not grow jumps (paper: 0.9)
+  double flood_resolution = 0.1;  ///< m, cell of that flood
+  double skip_jumps = 0.9;        ///< probability that a cycle does not grow jumps (paper: 0.9)
 };
 
 /// What to plan: robot, world, start, goals, actions and settings.

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "actions/exploration_pose.h"
-#include "actions/route_flood.h"
 #include "actions/lattice_search.h"
+#include "actions/route_flood.h"
 #include "models/collision.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"

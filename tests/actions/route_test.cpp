@@ -1,9 +1,10 @@
 // Shortcuts of routes, and the floods that answer "no".
 
+#include "actions/route.h"
+
 #include <gtest/gtest.h>
 
 #include "actions/exploration_pose.h"
-#include "actions/route.h"
 #include "actions/route_flood.h"
 #include "actions/shortcuts.h"
 #include "models/ground_map.h"

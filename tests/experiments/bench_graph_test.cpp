@@ -146,7 +146,8 @@ TEST(BenchGraphTest, ReportHasARatioPerGait) {
   for (const BenchmarkRow& row : report.rows) rows[row.name] = row.microseconds;
   for (const char* scene : {"three_routes_a", "field_of_200"}) {
     for (const std::string gait : {"walk", "crawl"}) {
-      EXPECT_GT(rows.at(scene + (", " + gait) + ": possibility graph (straight, lattice, random)"), 0);
+      EXPECT_GT(rows.at(scene + (", " + gait) + ": possibility graph (straight, lattice, random)"),
+                0);
       EXPECT_GT(rows.at(scene + (", " + gait) + ": possibility graph (random)"), 0);
     }
   }
@@ -160,7 +161,8 @@ TEST(BenchGraphTest, ReportHasARatioPerGait) {
       for (const auto& [name, microseconds] : rows) {
         if (name.starts_with(begin + "OMPL ")) best = std::min(best, microseconds);
       }
-      least = std::min(least, best / rows.at(begin + "possibility graph (straight, lattice, random)"));
+      least =
+          std::min(least, best / rows.at(begin + "possibility graph (straight, lattice, random)"));
     }
     EXPECT_DOUBLE_EQ(ratios.at("first_solution_vs_ompl_" + gait), least);
   }

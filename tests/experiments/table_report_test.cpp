@@ -128,8 +128,8 @@ TEST(TableReportTest, ARowWithoutAPlanHasNoFigures) {
 TEST(TableReportTest, MarkdownSetsOursBesideThePrintedFigures) {
   const std::string text = SampleReport().Markdown();
   for (const char* part :
-       {"| Hallway | 3 | default | \u2013 | 0.200 (0.100) |", "3.67 (11.52)", "127.2 (6.96)", "| 96 % |",
-        "75 %", "our own", "machine \"one\"; machine two", "E3-1290 v2",
+       {"| Hallway | 3 | default | \u2013 | 0.200 (0.100) |", "3.67 (11.52)", "127.2 (6.96)",
+        "| 96 % |", "75 %", "our own", "machine \"one\"; machine two", "E3-1290 v2",
         "| hallway_3 | paper | Graph (s) | 0.200 (0.100) | 0.200 | 0.300 | 0.300 |",
         "| closed_room | 2 proven_infeasible | 2 | 2.000 (0.707) | 2.000 | 2.500 | 2.500 |"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;

@@ -377,8 +377,8 @@ TEST(Turns, OfJobsComeInTimeThoughConditionsAreSlow) {
   const auto job = [](const PointPair&) {
     return std::make_unique<ScriptedJob>(Ending::kConfirm, 1500, std::chrono::microseconds(500));
   };
-  const Actions actions = {std::make_shared<SlowAction>("leap", Interval{0.7, 1.0}, 0.85,
-                                                        Interval{4.5, 4.6}, job)};
+  const Actions actions = {
+      std::make_shared<SlowAction>("leap", Interval{0.7, 1.0}, 0.85, Interval{4.5, 4.6}, job)};
   const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, {.time_limit = 20});
   EXPECT_EQ(result.status, PathStatus::kFound);
   EXPECT_GE(result.counters.at("jobs confirmed"), 1);
