@@ -21,7 +21,12 @@ Subject With(const std::function<void(std::uint64_t)>& use) {
   subject.name = "sample";
   subject.extension = ".json";
   subject.syntax = Syntax::kJson;
-  subject.text = [](std::uint64_t) { return std::string("{\"a\": [1, 2, {\"b\": 3.5}]}"); };
+  // As long as a file is: of a few bytes there are only so many mutations.
+  subject.text = [](std::uint64_t) {
+    std::string text = "{\"b\": [0.5";
+    for (int i = 0; i < 200; ++i) text += ", {\"a\": " + std::to_string(i) + "}";
+    return text + "]}";
+  };
   subject.use = [use](std::uint64_t seed, const std::string&) { use(seed); };
   subject.limit_s = 0.1;
   return subject;
