@@ -12,6 +12,7 @@
 #include <csignal>
 #include <fstream>
 #include <new>
+#include <stdexcept>
 
 #include "models/input_error.h"
 
@@ -26,7 +27,7 @@ constexpr double kSlowdown = 1;
 constexpr bool kLimitsMemory = true;
 #endif
 constexpr rlim_t kMemory = rlim_t{4} << 30;
-constexpr int kMostFailures = 20;
+constexpr std::size_t kMostFailures = 20;
 
 /// What the processes share.
 struct Progress {
@@ -121,29 +122,38 @@ std::filesystem::path KeepFailure(const std::string& name, std::uint64_t seed,
   return file;
 }
 
-void RunCases(const Subject& subject, std::uint64_t first_seed, int count) {
+Findings FindFailures(const Subject& subject, std::uint64_t first_seed, int count) {
   const SharedProgress progress;
   const std::uint64_t end = first_seed + count;
   progress->seed = first_seed;
-  for (int failures = 0; progress->seed < end;) {
+  Findings findings;
+  while (progress->seed < end && findings.failures.size() < kMostFailures) {
     progress->failure[0] = '\0';
     const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
+    if (child < 0) throw std::runtime_error("no process can be started");
     if (child == 0) UseAll(subject, end, progress);
     int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ::waitpid(child, &status, 0);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) break;
     const std::uint64_t seed = progress->seed++;
-    ADD_FAILURE() << subject.name << ", seed " << seed << ": "
-                  << HowItEnded(status, *progress.operator->()) << "\n"
-                  << KeepFailure(subject.name, seed, subject.extension, SpoiltText(subject, seed));
-    if (++failures >= kMostFailures) break;
+    findings.failures.push_back({seed, HowItEnded(status, *progress.operator->())});
+  }
+  findings.used = progress->used;
+  findings.refused = progress->refused;
+  return findings;
+}
+
+void RunCases(const Subject& subject, std::uint64_t first_seed, int count) {
+  const Findings findings = FindFailures(subject, first_seed, count);
+  for (const Finding& failure : findings.failures) {
+    ADD_FAILURE() << subject.name << ", seed " << failure.seed << ": " << failure.what << "\n"
+                  << KeepFailure(subject.name, failure.seed, subject.extension,
+                                 SpoiltText(subject, failure.seed));
   }
   // Of texts that are all refused at the door nothing would be learnt, nor of texts that are whole.
-  EXPECT_GT(progress->used, 0) << subject.name;
-  EXPECT_GT(progress->refused, count / 4) << subject.name;
-  fmt::print("{}: {} used, {} refused\n", subject.name, progress->used.load(),
-             progress->refused.load());
+  EXPECT_GT(findings.used, 0) << subject.name;
+  EXPECT_GT(findings.refused, count / 4) << subject.name;
+  fmt::print("{}: {} used, {} refused\n", subject.name, findings.used, findings.refused);
 }
 
 }  // namespace possibility::fuzz

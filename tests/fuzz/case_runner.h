@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/fuzz/mutator.h"
 
@@ -22,10 +23,24 @@ struct Subject {
   double limit_s = 20;
 };
 
-/// Uses `count` spoilt texts of a subject, in a process of its own: a signal, a sanitizer's
-/// finding, another exception, a message that is not one line or a case that takes too long fails
-/// the test and leaves the text in the folder fuzz_failures of the build tree. Then the next case
-/// has its turn.
+/// A case that did not end as it should.
+struct Finding {
+  std::uint64_t seed = 0;
+  std::string what;  ///< "signal 11", "another exception: ...", ...
+};
+
+struct Findings {
+  std::vector<Finding> failures;  ///< no more than 20 are looked for
+  int used = 0;                   ///< cases whose text was read and used
+  int refused = 0;                ///< by InputError
+};
+
+/// Uses `count` spoilt texts of a subject, in a process of its own. A signal, a sanitizer's
+/// finding, another exception, a message that is not one line or a case that takes too long is a
+/// failure. Then the next case has its turn.
+Findings FindFailures(const Subject& subject, std::uint64_t first_seed, int count);
+
+/// The same as a test. Texts that failed are kept in the folder fuzz_failures of the build tree.
 void RunCases(const Subject& subject, std::uint64_t first_seed, int count);
 
 /// The text of one case, as RunCases spoils it.

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <ostream>
 #include <thread>
 
 #include "models/file_contents.h"
@@ -26,6 +27,8 @@ struct Kind {
   std::vector<std::string> commands;
   std::string before = {};  ///< commands of the shell
 };
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 const std::string kPlan =
     " --out out --time-limit 1 --threads 1 --library 'SOURCE/models/drchubo1/jumps'";

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "tests/fuzz/case_runner.h"
 #include "tests/fuzz/subjects.h"
 #include "tests/models/temporary_folder.h"
@@ -16,6 +18,8 @@ struct Kind {
   const char* name;
   Make make;
 };
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 const Kind kKinds[] = {{"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},
                        {"Urdf", &UrdfSubject},         {"Plan", &PlanSubject},
