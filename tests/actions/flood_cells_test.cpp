@@ -88,7 +88,7 @@ TEST(FloodCellsTest, BlocksOfThePelvisAreWhatTheirCellsAre) {
     }
   }
   EXPECT_GT(all[BlockState::kOpen], 500);
-  EXPECT_GT(all[BlockState::kClosed], 200);
+  EXPECT_GT(all[BlockState::kClosed], 500);
 }
 
 /// What is reached, by strides, transitions and leaps, of which some are too short for the gap.
