@@ -79,14 +79,20 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
   return reach;
 }
 
-FlightBounds BoundFlight(const JumpModel& model) {
-  double fastest = 0;
-  for (const double speed : model.planar()->velocity()) {
-    if (std::isfinite(speed)) fastest = std::max(fastest, speed);
+double HighestLaunchSpeed(const JumpModel& model) {
+  const models::RobotModel& tree = model.planar()->tree();
+  double rates = 0;
+  for (int link = model.leg().tip.link; link > 0; link = tree.joints[link - 1].parent) {
+    rates += tree.joints[link - 1].velocity;
   }
-  const double length = model.leg().length;
-  const double energy = fastest * fastest * length * length / dynamics::kGravity;
-  return {energy / 2, energy + 2 * length};
+  return rates * model.leg().length;
+}
+
+std::optional<FlightBounds> BoundFlight(const JumpModel& model) {
+  const double speed = HighestLaunchSpeed(model);
+  if (!std::isfinite(speed)) return std::nullopt;
+  const double energy = speed * speed / dynamics::kGravity;
+  return FlightBounds{energy / 2, energy + 2 * model.leg().length};
 }
 
 }  // namespace possibility::actions

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "actions/jump_library.h"
@@ -19,7 +20,12 @@ JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& height
 JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
                          const std::function<bool()>& keep_going = {});
 
-/// By joint speeds and lengths alone, of how a body that legs throw up can fly.
-FlightBounds BoundFlight(const JumpModel& model);
+/// No faster (m/s) does a leg that stands throw up the root: all its joints turn at their limits at
+/// once, each at a lever no longer than the leg. Infinite if one of them has no limit.
+double HighestLaunchSpeed(const JumpModel& model);
+
+/// By joint speeds and lengths alone, of how a body that legs throw up can fly; nothing if a joint
+/// has no limit.
+std::optional<FlightBounds> BoundFlight(const JumpModel& model);
 
 }  // namespace possibility::actions

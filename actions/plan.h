@@ -121,7 +121,7 @@ struct SearchReport {
       explorers;              ///< that found edges of the route: "straight", "lattice", ...
   double first_duration = 0;  ///< expected, of the first confirmed route, s
   double duration = 0;        ///< expected, of the route, s
-  double lower_bound = 0;     ///< of what was searched, s; 0: none is known
+  double lower_bound = 0;     ///< nothing searched takes less, s; 0: none is known
 };
 
 /// What `possibility plan` finds (format possibility-plan/1, docs/file_formats.md).

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "graph/random_explorer.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -114,6 +116,9 @@ std::string ExplainSearch(const std::map<std::string, std::int64_t>& statistics)
   std::string text = fmt::format(
       " The search went through {} and knows {} and {} between them.", Counted(cycles, "cycle"),
       Counted(Count(statistics, "vertices"), "place"), Counted(Count(statistics, "edges"), "way"));
+  if (Count(statistics, graph::kGraphIsFull) > 0) {
+    text += " It ended because the graph is full.";
+  }
   const std::vector<std::string> refusals = MostFrequentRefusals(statistics);
   if (!refusals.empty()) text += fmt::format(" Most often: {}.", fmt::join(refusals, "; "));
   if (const std::int64_t jobs = Count(statistics, "jobs spawned"); jobs > 0) {

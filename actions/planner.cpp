@@ -69,6 +69,12 @@ PlannerSwitches SwitchesOf(const PlanRequest& request) {
                                    : WithExplorers(switches, request.explorers, "explorers");
 }
 
+/// To a micrometre: the explored graph is for people to look at, and large.
+ExploredGraph::Vertex ExploredVertex(const graph::Point& point) {
+  const auto rounded = [](double x) { return std::round(1e6 * x) / 1e6; };
+  return {point.head<3>().unaryExpr(rounded), rounded(Heading(ToPose(point).linear()))};
+}
+
 /// One request, from the checked scenario to a verified plan.
 class TraversalPlanner {
  public:
@@ -244,7 +250,7 @@ class TraversalPlanner {
     ExploredGraph& explored = result->plan.explored;
     explored = {};
     for (const graph::Point& point : path.graph.vertices) {
-      explored.vertices.push_back({point.head<3>(), Heading(ToPose(point).linear())});
+      explored.vertices.push_back(ExploredVertex(point));
     }
     const std::vector<std::shared_ptr<const graph::Action>> all = AllActions();
     for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {

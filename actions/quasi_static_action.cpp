@@ -20,6 +20,9 @@ using Eigen::Vector3d;
 /// Heights and positions of points in E agree when closer than this, m.
 constexpr double kSamePlace = 1e-6;
 
+/// Headings agree when closer than this, rad.
+constexpr double kSameHeading = 1e-7;
+
 /// Spacing at which C_N looks at an edge, m.
 constexpr double kNecessarySpacing = 0.05;
 
@@ -60,6 +63,36 @@ Vector2d BetweenSamples(StrideClass strides, double inflation) {
   if (strides == StrideClass::kStraight) return {inflation, 0};
   if (strides == StrideClass::kSideways) return {0, inflation};
   return {inflation, inflation};
+}
+
+Isometry3d WithHeading(const Isometry3d& X_WR, double heading) {
+  Isometry3d turned = X_WR;
+  const double turn = heading - Heading(X_WR.linear());
+  turned.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * X_WR.linear();
+  return turned;
+}
+
+/// The heading closest to `heading` in which a way in this direction leads ahead, back or to a
+/// side.
+double HeadingOnTheWay(const Vector2d& way, double heading) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double direction = std::atan2(way.y(), way.x());
+  return direction + kQuarter * std::round(WrapAngle(heading - direction) / kQuarter);
+}
+
+/// A gait needs least room where it goes along one of its axes. So a way to a pose is gone in three
+/// parts: a turn on the spot, the way along an axis, and a turn into the last heading. Where the
+/// first part ends; nothing if there is but the last one.
+/// `offset`: heading of the root in the stance frame, rad.
+std::optional<Isometry3d> EndOfFirstPart(const Isometry3d& from, const Isometry3d& to,
+                                         double offset) {
+  const Vector2d way = (to.translation() - from.translation()).head<2>();
+  if (way.norm() < kSamePlace) return std::nullopt;
+  const double heading = offset + HeadingOnTheWay(way, Heading(to.linear()) - offset);
+  if (std::abs(WrapAngle(heading - Heading(from.linear()))) > kSameHeading) {
+    return WithHeading(from, heading);
+  }
+  return WithHeading(to, heading);
 }
 
 bool SamePoint(const graph::Point& a, const graph::Point& b) {
@@ -113,9 +146,14 @@ std::string QuasiStaticAction::name() const { return model_->gaits[gait_]->stanc
 
 graph::Point QuasiStaticAction::ExtendTowards(const graph::Point& v0,
                                               const graph::Point& v1) const {
-  const double distance = space_->Distance(v0, v1);
-  if (distance <= step_) return v1;
-  return ToPoint(Interpolate(ToPose(v0), ToPose(v1), step_ / distance));
+  const Isometry3d from = ToPose(v0);
+  const Isometry3d to = ToPose(v1);
+  const std::optional<Isometry3d> part =
+      EndOfFirstPart(from, to, Heading(model_->gaits[gait_]->stance.X_SR.linear()));
+  const graph::Point end = part ? ToPoint(*part) : v1;
+  const double distance = space_->Distance(v0, end);
+  if (distance <= step_) return end;
+  return ToPoint(Interpolate(from, part.value_or(to), step_ / distance));
 }
 
 graph::Point QuasiStaticAction::Project(const graph::Point& v) const {

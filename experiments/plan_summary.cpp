@@ -41,7 +41,7 @@ std::string SearchText(const actions::Plan& plan) {
       "expected",
       fmt::format("{:.2f} s, the first route {:.2f} s{}", search.duration, search.first_duration,
                   search.lower_bound > 0
-                      ? fmt::format(", no less than {:.2f} s on its lattice", search.lower_bound)
+                      ? fmt::format(", nothing searched takes less than {:.2f} s", search.lower_bound)
                       : std::string()));
   return text;
 }

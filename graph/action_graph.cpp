@@ -2,35 +2,16 @@
 
 #include <utility>
 
+#include "graph/random.h"
+
 namespace possibility::graph {
-
-void SubGraph::AddVertex(VertexId vertex, const Point& point) {
-  vertices_.push_back(vertex);
-  points_.push_back(point);
-}
-
-void SubGraph::Append(const SubGraph& other) {
-  vertices_.insert(vertices_.end(), other.vertices_.begin(), other.vertices_.end());
-  points_.insert(points_.end(), other.points_.begin(), other.points_.end());
-}
-
-SubGraph::Closest SubGraph::FindClosestVertexTo(const Point& p,
-                                                const ExplorationSpace& space) const {
-  std::size_t closest = 0;
-  double least = space.Distance(points_[0], p);
-  for (std::size_t i = 1; i < points_.size(); ++i) {
-    const double distance = space.Distance(points_[i], p);
-    if (distance < least) {
-      least = distance;
-      closest = i;
-    }
-  }
-  return {vertices_[closest], least};
-}
 
 void ActionGraph::Append(const NewElements& elements) {
   for (const VertexId vertex : elements.vertices) {
-    AddVertex(vertex);
+    if (!Contains(vertex)) {
+      BeginSubGraph(vertex);
+      nearest_.Insert(vertex, master_->point(vertex));
+    }
   }
   for (const NewEdge& edge : elements.edges) {
     edges_.push_back(edge);
@@ -56,13 +37,24 @@ std::optional<int> ActionGraph::SubGraphOf(VertexId vertex) const {
   return subgraph_of_[vertex];
 }
 
-void ActionGraph::AddVertex(VertexId vertex) {
-  if (Contains(vertex)) {
-    return;
-  }
+std::optional<VertexId> ActionGraph::RandomVertex(RandomGenerator* generator) const {
+  const std::vector<VertexId>& all = nearest_.vertices();
+  if (all.empty()) return std::nullopt;
+  return all[UniformIndex(all.size(), generator)];
+}
+
+std::optional<VertexId> ActionGraph::FindClosestVertexTo(const Point& p, VertexId v,
+                                                         const NearestVertices::Filter& admits) {
+  SubGraphs();
+  const int own = subgraph_of_[v];
+  return nearest_.Closest(
+      p, [&](VertexId other) { return subgraph_of_[other] != own && admits(other); });
+}
+
+void ActionGraph::BeginSubGraph(VertexId vertex) {
   subgraph_of_.resize(master_->topology().num_vertices(), -1);
   subgraph_of_[vertex] = static_cast<int>(subgraphs_.size());
-  subgraphs_.emplace_back().AddVertex(vertex, master_->point(vertex));
+  subgraphs_.push_back({vertex});
 }
 
 void ActionGraph::Join(VertexId a, VertexId b) {
@@ -73,16 +65,17 @@ void ActionGraph::Join(VertexId a, VertexId b) {
   }
   int kept = *subgraph_a;
   int dissolved = *subgraph_b;
-  if (subgraphs_[kept].vertices().size() < subgraphs_[dissolved].vertices().size()) {
+  if (subgraphs_[kept].size() < subgraphs_[dissolved].size()) {
     std::swap(kept, dissolved);
   }
-  for (const VertexId vertex : subgraphs_[dissolved].vertices()) {
+  for (const VertexId vertex : subgraphs_[dissolved]) {
     subgraph_of_[vertex] = kept;
   }
-  subgraphs_[kept].Append(subgraphs_[dissolved]);
+  subgraphs_[kept].insert(subgraphs_[kept].end(), subgraphs_[dissolved].begin(),
+                          subgraphs_[dissolved].end());
   const int last = static_cast<int>(subgraphs_.size()) - 1;
   if (dissolved != last) {
-    for (const VertexId vertex : subgraphs_[last].vertices()) {
+    for (const VertexId vertex : subgraphs_[last]) {
       subgraph_of_[vertex] = dissolved;
     }
     subgraphs_[dissolved] = std::move(subgraphs_[last]);
@@ -103,7 +96,7 @@ void ActionGraph::Rebuild() {
   subgraphs_.clear();
   for (VertexId vertex = 0; vertex < static_cast<int>(subgraph_of_.size()); ++vertex) {
     if (std::exchange(subgraph_of_[vertex], -1) >= 0) {
-      AddVertex(vertex);
+      BeginSubGraph(vertex);
     }
   }
   for (const NewEdge& edge : edges_) {

@@ -3,37 +3,21 @@
 #include <optional>
 #include <vector>
 
+#include "graph/nearest_vertices.h"
 #include "graph/possibility_graph.h"
 
 namespace possibility::graph {
 
 /// Vertices of one action that its own edges join together, whatever their direction.
-class SubGraph {
- public:
-  struct Closest {
-    VertexId vertex = 0;
-    double distance = 0;
-  };
-
-  void AddVertex(VertexId vertex, const Point& point);
-  /// Takes over the vertices of another subgraph.
-  void Append(const SubGraph& other);
-
-  const std::vector<VertexId>& vertices() const { return vertices_; }
-
-  Closest FindClosestVertexTo(const Point& p, const ExplorationSpace& space) const;
-
- private:
-  std::vector<VertexId> vertices_;
-  std::vector<Point> points_;  ///< of the vertices, side by side for the linear scan
-};
+using SubGraph = std::vector<VertexId>;
 
 /// Gamma_a: the vertices and edges of one action, as a set of subgraphs. Edges that were removed
 /// from the master graph hold no subgraph together.
 class ActionGraph {
  public:
   /// `master` must outlive this.
-  ActionGraph(int action, const PossibilityGraph* master) : action_(action), master_(master) {}
+  ActionGraph(int action, const PossibilityGraph* master)
+      : action_(action), master_(master), nearest_(&master->space()) {}
 
   bool Contains(VertexId vertex) const { return SubGraphOf(vertex).has_value(); }
 
@@ -41,9 +25,17 @@ class ActionGraph {
 
   const std::vector<SubGraph>& SubGraphs();
 
+  /// The closest vertex of all; nothing if there is none.
+  std::optional<VertexId> FindClosestVertexTo(const Point& p) const { return nearest_.Closest(p); }
+  /// Any of all; nothing if there is none.
+  std::optional<VertexId> RandomVertex(RandomGenerator* generator) const;
+  /// The closest one of another subgraph than `v`'s that `admits`.
+  std::optional<VertexId> FindClosestVertexTo(const Point& p, VertexId v,
+                                              const NearestVertices::Filter& admits);
+
  private:
   std::optional<int> SubGraphOf(VertexId vertex) const;
-  void AddVertex(VertexId vertex);
+  void BeginSubGraph(VertexId vertex);
   void Join(VertexId a, VertexId b);
   bool Severed(const NewEdge& edge) const;
   void Rebuild();
@@ -53,6 +45,7 @@ class ActionGraph {
   std::vector<int> subgraph_of_;  ///< per master vertex: index into subgraphs_, or -1
   std::vector<SubGraph> subgraphs_;
   std::vector<NewEdge> edges_;
+  NearestVertices nearest_;
   int changes_seen_ = 0;
 };
 

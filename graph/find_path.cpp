@@ -239,7 +239,6 @@ class PathFinder {
   void CompleteResult() {
     result_.statistics = Progress();
     result_.seconds = result_.statistics.seconds;
-    result_.lower_bound = exploration_.lower_bound();
     result_.confirmations = confirmation_.TakeReports();
     if (best_) SetFound();
     const DirectedGraph& topology = master_.topology();
@@ -258,6 +257,7 @@ class PathFinder {
     result_.status = PathStatus::kFound;
     result_.goal = best_->goal;
     result_.duration = best_->duration;
+    result_.lower_bound = std::min(exploration_.lower_bound(), best_->duration);
     result_.path = EdgesOf(best_->path);
     for (const EdgeId edge : best_->path) {
       const std::string& name = exploration_.found_by(edge);

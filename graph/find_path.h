@@ -46,6 +46,9 @@ struct FindPathSettings {
   int confirmation_threads = 0;        ///< 0: jobs run one by one between cycles, never beside them
   double confirmation_job_limit = 30;  ///< s that one job may run before it has failed
   std::int64_t max_cycles = -1;        ///< -1: until the time limit
+  /// Random exploration ends when Gamma_PG has so many vertices and edges together; a million takes
+  /// about half a GB.
+  std::int64_t max_graph_size = 2'500'000;
   /// The oracle is asked after this many cycles without a confirmed path, or as soon as an explorer
   /// has nothing left to explore while no job is open.
   std::int64_t ask_oracle_after = 200;
@@ -84,7 +87,9 @@ struct PathResult {
   double first_path_seconds = 0;      ///< until a path was confirmed
   double first_duration = 0;          ///< expected, of that path, s
   double duration = 0;                ///< expected, of `path`, s
-  double lower_bound = 0;  ///< of what explorers can propose, s; 0 if none of them knows one
+  /// No path of `graph`, nor any that an explorer with a bound has searched among, is expected to
+  /// take less, s; 0 if no explorer knows a bound.
+  double lower_bound = 0;
   FindPathProgress statistics;
   Counters counters;                              ///< what was tried and rejected, by name
   std::vector<ConfirmationReport> confirmations;  ///< jobs that ended, in that order

@@ -1,8 +1,16 @@
 #include "graph/holonomic_exploration.h"
 
-#include "graph/sorted_vertex_queue.h"
+#include "graph/random.h"
 
 namespace possibility::graph {
+namespace {
+
+/// Growth that begins at a random vertex, not the closest one. Once rooms are full of vertices, the
+/// closest ones are so close that growth is short, and turns every way; it takes long ways to
+/// thread narrow passages.
+constexpr double kShareFromAfar = 0.5;
+
+}  // namespace
 
 HolonomicExploration::HolonomicExploration(const HolonomicAction& action, int index,
                                            const ExplorerContext& context)
@@ -14,30 +22,35 @@ HolonomicExploration::HolonomicExploration(const HolonomicAction& action, int in
       edges_made_(Counter("extend made")) {}
 
 NewElements HolonomicExploration::GrowTowards(const Point& p_target) {
-  const PossibilityGraph& master = *context().master;
-  SortedVertexQueue q_closest;
-  for (const SubGraph& g : action_graph().SubGraphs()) {
-    const SubGraph::Closest v = g.FindClosestVertexTo(p_target, *context().space);
-    q_closest.Insert(v.distance, v.vertex);
-  }
-  if (q_closest.empty()) {
+  const std::optional<VertexId> v_0 = ChooseRoot(p_target);
+  if (!v_0) {
     return {};
   }
-  const VertexId v_0 = q_closest.PopFront();
-  const Connection first = Connect(v_0, {p_target, std::nullopt}, ExecutionOfFirst(v_0));
+  const Connection first = Connect(*v_0, {p_target, std::nullopt}, ExecutionOfFirst(*v_0));
   NewElements found = first.found;
-  if (master.UpstreamFromGoal(v_0)) {
-    while (!q_closest.empty() && master.UpstreamFromGoal(q_closest.Front())) {
-      q_closest.PopFront();
-    }
-  }
-  if (!q_closest.empty()) {
-    const VertexId v_1 = q_closest.PopFront();
-    const Target end_of_first = {master.point(first.last), first.last};
-    found.Append(Connect(v_1, end_of_first, ExecutionOfSecond(v_1, v_0)).found);
+  const std::optional<VertexId> v_1 = action_graph().FindClosestVertexTo(
+      p_target, *v_0, [&](VertexId v) { return IsWorthJoining(*v_0, v); });
+  if (v_1) {
+    const Target end_of_first = {context().master->point(first.last), first.last};
+    found.Append(Connect(*v_1, end_of_first, ExecutionOfSecond(*v_1, *v_0)).found);
   }
   action_graph().Append(found);
   return found;
+}
+
+std::optional<VertexId> HolonomicExploration::ChooseRoot(const Point& p_target) {
+  const bool from_afar = UniformReal(0, 1, context().generator) < kShareFromAfar;
+  return from_afar ? action_graph().RandomVertex(context().generator)
+                   : action_graph().FindClosestVertexTo(p_target);
+}
+
+/// Not if it would join the goal's side to itself, or the start's.
+bool HolonomicExploration::IsWorthJoining(VertexId v_0, VertexId v_1) const {
+  const PossibilityGraph& master = *context().master;
+  if (master.UpstreamFromGoal(v_0)) {
+    return !master.UpstreamFromGoal(v_1);
+  }
+  return !(master.DownstreamFromStart(v_0) && master.DownstreamFromStart(v_1));
 }
 
 HolonomicExploration::Connection HolonomicExploration::Connect(VertexId v_start,

@@ -34,6 +34,8 @@ class HolonomicExploration : public ActionExploration {
   /// Extends the connection to the point v_p; false if there is no getting there.
   bool AppendEdge(const Point& v_p, Execution execution, Connection* connection);
 
+  std::optional<VertexId> ChooseRoot(const Point& p_target);
+  bool IsWorthJoining(VertexId v_0, VertexId v_1) const;
   Execution ExecutionOfFirst(VertexId v_0) const;
   Execution ExecutionOfSecond(VertexId v_1, VertexId v_0) const;
 

@@ -43,7 +43,7 @@ NewElements NonholonomicExploration::GrowTowards(const Point& p_target) {
   const PossibilityGraph& master = *context().master;
   SortedVertexQueue q_closest;
   for (const SubGraph& g : action_graph().SubGraphs()) {
-    for (const VertexId v : g.vertices()) {
+    for (const VertexId v : g) {
       q_closest.Insert(context().space->Distance(master.point(v), p_target), v);
     }
   }

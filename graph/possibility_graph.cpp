@@ -28,7 +28,7 @@ void NewElements::Append(const NewElements& other) {
 PossibilityGraph::PossibilityGraph(const std::vector<std::shared_ptr<const Action>>& actions,
                                    const ExplorationSpace* space, const Point& start,
                                    const std::vector<Point>& goals)
-    : actions_(actions), index_(space, start), num_changes_(actions.size(), 0) {
+    : actions_(actions), space_(space), index_(space, start), num_changes_(actions.size(), 0) {
   start_ = VertexAt(start);
   downstream_from_start_.AddRoot(start_);
   for (const Point& goal : goals) {

@@ -102,6 +102,7 @@ class PossibilityGraph {
   /// duration of `limit`.
   bool LeadsWithin(VertexId from, VertexId to, double limit, const EdgeFilter& include) const;
 
+  const ExplorationSpace& space() const { return *space_; }
   const DirectedGraph& topology() const { return topology_; }
   const Point& point(VertexId vertex) const { return points_[vertex]; }
   PointPair points(EdgeId edge) const;
@@ -132,6 +133,7 @@ class PossibilityGraph {
   EdgeId AddEdge(int action, VertexId from, VertexId to);
 
   std::vector<std::shared_ptr<const Action>> actions_;
+  const ExplorationSpace* space_;
   DirectedGraph topology_;
   std::vector<Point> points_;
   std::vector<Edge> edges_;

@@ -20,6 +20,10 @@ RandomExplorer::RandomExplorer(const ExplorerContext& context) : context_(contex
 }
 
 Findings RandomExplorer::Explore() {
+  if (GraphIsFull()) {
+    (*context_.counters)[kGraphIsFull] = 1;
+    return {Outlook::kOver, {}};
+  }
   for (std::size_t a = 0; a < explorations_.size(); ++a) {
     NewElements found = explorations_[a]->PerformTransitions();
     if (!Skips(a)) {
@@ -46,6 +50,12 @@ void RandomExplorer::OfferToOthers(std::size_t action, const NewElements& found)
       explorations_[other]->TakeOver(found);
     }
   }
+}
+
+bool RandomExplorer::GraphIsFull() const {
+  const DirectedGraph& topology = context_.master->topology();
+  return topology.num_vertices() + std::int64_t{topology.num_edges()} >=
+         context_.settings->max_graph_size;
 }
 
 bool RandomExplorer::Skips(std::size_t action) {

@@ -9,6 +9,9 @@
 
 namespace possibility::graph {
 
+/// Counter that is 1 once FindPathSettings::max_graph_size has ended random exploration.
+inline constexpr const char* kGraphIsFull = "random exploration: graph is full";
+
 /// The paper's exploration: every action performs transitions (Algorithm 2) and grows towards
 /// random targets (Algorithms 3 and 4). A turn is one round of Algorithm 1.
 class RandomExplorer : public Explorer {
@@ -23,6 +26,7 @@ class RandomExplorer : public Explorer {
   void TakeOver(const Discovery& discovery) override;
 
  private:
+  bool GraphIsFull() const;
   bool Skips(std::size_t action);
   void OfferToOthers(std::size_t action, const NewElements& found);
 

@@ -72,6 +72,7 @@ void ExpectGoodRoute(const PlanResult& result) {
   ExpectNothingInVain(plan);
   ASSERT_TRUE(plan.search.has_value());
   EXPECT_LE(plan.search->duration, plan.search->first_duration + 1e-9);
+  EXPECT_LE(plan.search->lower_bound, plan.search->duration + 1e-9);
   EXPECT_FALSE(plan.search->explorers.empty());
   // What routes are chosen by is what they come to.
   EXPECT_NEAR(plan.search->duration, plan.duration(), 0.1 * plan.duration());

@@ -6,11 +6,13 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
 #include "graph/action_graph.h"
+#include "graph/nearest_vertices.h"
 #include "graph/possibility_graph.h"
 #include "graph/random.h"
 #include "graph/sorted_vertex_queue.h"
@@ -256,9 +258,9 @@ TEST_F(RandomGraph, SubGraphsAreTheWeakComponentsOfTheEdgesThatAreLeft) {
       }
       std::set<int> members;
       for (const SubGraph& g : action_graph.SubGraphs()) {
-        for (const VertexId v : g.vertices()) {
+        for (const VertexId v : g) {
           EXPECT_TRUE(members.insert(v).second);
-          EXPECT_EQ(component[v], component[g.vertices()[0]]);
+          EXPECT_EQ(component[v], component[g[0]]);
         }
       }
       EXPECT_EQ(members.size(), kVertices);
@@ -268,19 +270,36 @@ TEST_F(RandomGraph, SubGraphsAreTheWeakComponentsOfTheEdgesThatAreLeft) {
   }
 }
 
-TEST(SubGraph, FindClosestVertexToIsTheLeastOfAllDistances) {
+/// The closest of those that `admits`, by measuring all.
+std::optional<VertexId> ClosestByMeasuring(const std::vector<Point>& points, const Point& target,
+                                           const NearestVertices::Filter& admits) {
+  std::optional<VertexId> closest;
+  for (VertexId v = 0; v < static_cast<int>(points.size()); ++v) {
+    if (admits(v) &&
+        (!closest || (points[v] - target).norm() < (points[*closest] - target).norm())) {
+      closest = v;
+    }
+  }
+  return closest;
+}
+
+TEST(NearestVertices, ClosestIsTheLeastOfAllDistances) {
   RandomGenerator generator(3);
   const test::Room room;
-  SubGraph subgraph;
-  std::vector<Point> points;
-  for (int i = 0; i < 300; ++i) {
-    points.push_back(room.RandomSample(&generator));
-    subgraph.AddVertex(1000 + i, points.back());
-    const Point target = room.RandomSample(&generator);
-    const auto closest = subgraph.FindClosestVertexTo(target, room);
-    EXPECT_DOUBLE_EQ(closest.distance, (points[closest.vertex - 1000] - target).norm());
-    for (const Point& point : points) {
-      EXPECT_LE(closest.distance, (point - target).norm());
+  for (const double spread : {1e-6, 1.0, 1e5}) {
+    NearestVertices nearest(&room);
+    std::vector<Point> points;
+    EXPECT_EQ(nearest.Closest(MakePoint(0, 0)), std::nullopt);
+    for (int i = 0; i < 700; ++i) {
+      // Every seventh is a point that there is already.
+      points.push_back(i % 7 == 6 ? points[i / 2] : Point(spread * room.RandomSample(&generator)));
+      nearest.Insert(i, points.back());
+      const Point target = spread * room.RandomSample(&generator);
+      const auto everyone = [](VertexId) { return true; };
+      const auto some = [&](VertexId v) { return v % 5 == i % 5 && v < 300; };
+      EXPECT_EQ(nearest.Closest(target), ClosestByMeasuring(points, target, everyone));
+      EXPECT_EQ(nearest.Closest(target, some), ClosestByMeasuring(points, target, some));
+      EXPECT_EQ(nearest.Closest(points[i]), ClosestByMeasuring(points, points[i], everyone));
     }
   }
 }

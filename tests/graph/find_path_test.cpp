@@ -661,9 +661,22 @@ void ExpectTheSameHoweverSlow(int checkpoints, int cycles) {
   ExpectSamePath(quick, slow);
 }
 
+TEST(FindPath, AFullGraphEndsRandomExploration) {
+  const auto walk = std::make_shared<UncertainAction>(
+      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair&) { return nullptr; });
+  const PathResult result =
+      FindPath(Start(), {Goal()}, {walk}, kRoom, {.time_limit = 600, .max_graph_size = 500});
+  EXPECT_EQ(result.status, PathStatus::kTimeLimit);
+  EXPECT_LT(result.seconds, 300);
+  EXPECT_EQ(result.counters.at(kGraphIsFull), 1);
+  const auto size = result.graph.vertices.size() + result.graph.edges.size();
+  EXPECT_GT(size, 400);
+  EXPECT_LT(size, 600);
+}
+
 TEST(FindPath, JobsWithoutThreadsAreReproducible) { ExpectTheSameHoweverSlow(7, -1); }
 
-TEST(FindPath, JobsThatOutliveTheirTurnsAreReproducible) { ExpectTheSameHoweverSlow(1200, 30); }
+TEST(FindPath, JobsThatOutliveTheirTurnsAreReproducible) { ExpectTheSameHoweverSlow(1200, 60); }
 
 }  // namespace
 }  // namespace possibility::graph
