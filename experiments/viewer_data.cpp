@@ -129,8 +129,17 @@ Json ExploredJson(const actions::ExploredGraph& explored) {
   return {{"vertices", Packed(vertices)}, {"edges", Packed(edges)}, {"actions", names}};
 }
 
+Json PassageJson(const actions::NarrowPassage& passage) {
+  Json needs = Json::array();
+  for (const actions::PassageNeed& need : passage.needs) {
+    needs.push_back({{"available", Rounded(need.available)}, {"needed", Rounded(need.needed)}});
+  }
+  return {{"place", Numbers(passage.place)}, {"needs", needs}};
+}
+
 Json NoJson(const actions::NoPlan& no) {
   Json json = {{"status", no.status}, {"explanation", no.explanation}, {"barrier", Json()}};
+  json["passage"] = no.passage ? PassageJson(*no.passage) : Json();
   if (!no.barrier) return json;
   Json reached = Json::array();
   for (const actions::ReachedRegion& region : no.barrier->reached) {

@@ -92,13 +92,15 @@ class Player {
     const {no} = this.data;
     const barrier = no && no.barrier;
     element('no').hidden = !no;
-    element('barrier').parentElement.hidden = !barrier;
+    const passage = no && no.passage;
+    element('barrier').parentElement.hidden = !barrier && !passage;
     if (!no) return;
     element('no').textContent = no.explanation;
     document.body.classList.add('no-motion');
     for (const part of ['follow', 'route', 'footprints', 'com', 'forces']) {
       element(part).parentElement.hidden = true;
     }
+    if (passage) addKey('narrowest place', kPassageColour, 'action');
     if (!barrier) return;
     const actions = new Set(barrier.reached.map((region) => region.action));
     for (const action of actions) {

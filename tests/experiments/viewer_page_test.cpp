@@ -288,6 +288,19 @@ TEST_F(ViewerPageTest, DrawsABarrierAndSaysWhy) {
   EXPECT_EQ(barrier["reached"][0]["outlines"][0].size(), 3u);
 }
 
+TEST_F(ViewerPageTest, MarksTheNarrowestPlace) {
+  plan_.segments.clear();
+  plan_.no = {"time_limit", "why", {}};
+  EXPECT_TRUE(EmbeddedData(Page())["no"]["passage"].is_null());
+  plan_.no->passage = {.place = {2, 0.5},
+                       .missing = 0.09,
+                       .needs = {{"walk", actions::PassageDimension::kWidth, 0.5, 0.59}}};
+  const nlohmann::json passage = EmbeddedData(Page())["no"]["passage"];
+  EXPECT_EQ(passage["place"], (std::vector<double>{2, 0.5}));
+  EXPECT_EQ(passage["needs"][0]["available"], 0.5);
+  EXPECT_EQ(passage["needs"][0]["needed"], 0.59);
+}
+
 TEST_F(ViewerPageTest, FiveMinutesOfAHumanoidStayUnderSixMegabytes) {
   const models::Joint hinge = robot_.joints[0];
   for (int i = 0; i < 26; ++i) {
