@@ -21,6 +21,8 @@ class ActionGraph {
 
   bool Contains(VertexId vertex) const { return SubGraphOf(vertex).has_value(); }
 
+  int num_vertices() const { return static_cast<int>(nearest_.vertices().size()); }
+
   void Append(const NewElements& elements);
 
   const std::vector<SubGraph>& SubGraphs();

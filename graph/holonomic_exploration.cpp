@@ -5,10 +5,11 @@
 namespace possibility::graph {
 namespace {
 
-/// Growth that begins at a random vertex, not the closest one. Once rooms are full of vertices, the
-/// closest ones are so close that growth is short, and turns every way; it takes long ways to
-/// thread narrow passages.
+/// Growth that begins at a random vertex, not the closest one, once there are so many. When rooms
+/// are full of vertices, the closest ones are so close that growth is short, and turns every way;
+/// it takes long ways to thread narrow passages.
 constexpr double kShareFromAfar = 0.5;
+constexpr int kManyVertices = 200;
 
 }  // namespace
 
@@ -39,7 +40,8 @@ NewElements HolonomicExploration::GrowTowards(const Point& p_target) {
 }
 
 std::optional<VertexId> HolonomicExploration::ChooseRoot(const Point& p_target) {
-  const bool from_afar = UniformReal(0, 1, context().generator) < kShareFromAfar;
+  const bool from_afar = action_graph().num_vertices() >= kManyVertices &&
+                         UniformReal(0, 1, context().generator) < kShareFromAfar;
   return from_afar ? action_graph().RandomVertex(context().generator)
                    : action_graph().FindClosestVertexTo(p_target);
 }
