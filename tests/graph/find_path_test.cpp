@@ -676,7 +676,7 @@ TEST(FindPath, AFullGraphEndsRandomExploration) {
 
 TEST(FindPath, JobsWithoutThreadsAreReproducible) { ExpectTheSameHoweverSlow(7, -1); }
 
-TEST(FindPath, JobsThatOutliveTheirTurnsAreReproducible) { ExpectTheSameHoweverSlow(1200, 60); }
+TEST(FindPath, JobsThatOutliveTheirTurnsAreReproducible) { ExpectTheSameHoweverSlow(1200, 30); }
 
 }  // namespace
 }  // namespace possibility::graph
