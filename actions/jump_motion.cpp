@@ -18,9 +18,13 @@ namespace {
 using collocation::PhaseTrajectory;
 using Eigen::VectorXd;
 
-// Where nothing but dynamics holds the robot, s; a push changes faster than a flight.
-constexpr double kPushSpacing = 0.005;
-constexpr double kFlightSpacing = 0.01;
+// Where nothing but dynamics holds the robot, between the knots as well, s.
+constexpr double kRollSpacing = 0.0025;
+constexpr double kFlightSpacing = 0.005;
+
+/// Rise and descent meet in position and speed only; a quintic leads from so long before to so long
+/// after, s. No interpolation between knots could follow a leap of the acceleration.
+constexpr double kApexBlend = 0.02;
 
 int Intervals(double duration, double spacing) {
   return std::max(4, static_cast<int>(std::ceil(duration / spacing - 1e-9)));
@@ -93,7 +97,7 @@ Phase JumpMotion::RollOverToes(const PhaseTrajectory& plan, const Knot& from) co
   Phase phase;
   phase.contacts = toes.names;
   phase.knots = ToeRoll(spatial_, toes.points, stance_.settings())
-                    .Roll(from.q, from.v, joints, duration, Intervals(duration, kPushSpacing));
+                    .Roll(from.q, from.v, joints, duration, Intervals(duration, kRollSpacing));
   return phase;
 }
 
@@ -103,9 +107,17 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
   const double duration = rise.duration + descent.duration;
   const int intervals = Intervals(duration, kFlightSpacing);
   VectorXd correction = VectorXd::Zero(n);
+  const double blend = std::min({kApexBlend, rise.duration / 2, descent.duration / 2});
+  const Signal<VectorXd> before = stance_.Joints(rise, rise.duration - blend);
+  const Signal<VectorXd> after = stance_.Joints(descent, blend);
+  const auto plan = [&](double t) {
+    const double past_apex = t - rise.duration;
+    if (past_apex < -blend) return stance_.Joints(rise, t);
+    if (past_apex > blend) return stance_.Joints(descent, past_apex);
+    return Quintic(before, after, past_apex + blend, 2 * blend);
+  };
   const JointMotion joints = [&](double t) {
-    const Signal<VectorXd> planned =
-        t < rise.duration ? stance_.Joints(rise, t) : stance_.Joints(descent, t - rise.duration);
+    const Signal<VectorXd> planned = plan(t);
     const VectorXd none = VectorXd::Zero(n);
     return planned + BlendVector<VectorXd>(none, correction, RestToRest(t, duration));
   };

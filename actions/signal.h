@@ -45,6 +45,24 @@ Signal<T> DyingOut(const T& value, const T& rate, double t, double duration) {
             rate * (-s * (36 - 96 * s + 60 * s2) / duration))};
 }
 
+/// The quintic that is `from` at t = 0 and `to` at t = `duration`, in all three.
+template <typename T>
+Signal<T> Quintic(const Signal<T>& from, const Signal<T>& to, double t, double duration) {
+  const double s = t / duration;
+  const double d2 = duration * duration;
+  const T c1 = from.rate * duration;
+  const T c2 = from.acceleration * (d2 / 2);
+  const T value = to.value - from.value - c1 - c2;
+  const T rate = to.rate * duration - c1 - 2 * c2;
+  const T acceleration = to.acceleration * d2 - 2 * c2;
+  const T c3 = 10 * value - 4 * rate + acceleration / 2;
+  const T c4 = -15 * value + 7 * rate - acceleration;
+  const T c5 = 6 * value - 3 * rate + acceleration / 2;
+  return {T(from.value + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))))),
+          T((c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / duration),
+          T((2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / d2)};
+}
+
 template <typename T>
 Signal<T> operator+(const Signal<T>& a, const Signal<T>& b) {
   return {T(a.value + b.value), T(a.rate + b.rate), T(a.acceleration + b.acceleration)};

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "actions/bare_ground.h"
 #include "actions/interpolation.h"
 #include "actions/jump_library.h"
 #include "dynamics/simbody_dynamics.h"
@@ -315,6 +316,23 @@ TEST_F(JumpLibraryTest, MalformedTableIsAnInputError) {
   Fill();
   std::ofstream(Library().folder() / "reach.json") << "{\"format\": \"possibility-jumps/1\"}";
   EXPECT_THROW(Library(), InputError);
+}
+
+TEST_F(JumpLibraryTest, TheVerifierAcceptsEveryShippedJump) {
+  JumpLibrary library(DrcHubo1(), Solver(), DrcHubo1().file.parent_path() / "jumps");
+  ASSERT_TRUE(library.reach_is_derived());
+  const auto [shortest, farthest] = library.reach().Distances(0).value();
+  const auto first = std::lround(shortest / JumpLibrary::kDistanceStep);
+  const auto last = std::lround(farthest / JumpLibrary::kDistanceStep);
+  for (auto step = first; step <= last; ++step) {
+    const JumpTask task = JumpLibrary::OnGrid({step * JumpLibrary::kDistanceStep, 0});
+    const auto answer = library.Find(task);
+    ASSERT_TRUE(answer && answer->jump) << task.distance << " m";
+    EXPECT_EQ(FaultOnBareGround(DrcHubo1(), Solver().model(), Stance("walk"), Stance("crawl"), task,
+                                answer->jump->phases),
+              "")
+        << task.distance << " m";
+  }
 }
 
 TEST(JumpReachTest, BetweenRowsWhateverEitherCan) {

@@ -24,6 +24,22 @@ TEST(SignalTest, DerivativesAreThoseOfTheValue) {
   ExpectDerivativesMatch(&Bump, 0.7);
 }
 
+TEST(SignalTest, QuinticLeadsFromOneStateToAnother) {
+  const ScalarSignal from = {0.3, -1.2, 4}, to = {-0.1, 0.7, -9};
+  constexpr double kDuration = 0.4;
+  const auto at = [&](double t) { return Quintic(from, to, t, kDuration); };
+  for (const bool end : {false, true}) {
+    const ScalarSignal s = at(end ? kDuration : 0);
+    EXPECT_NEAR(s.value, (end ? to : from).value, 1e-14);
+    EXPECT_NEAR(s.rate, (end ? to : from).rate, 1e-13);
+    EXPECT_NEAR(s.acceleration, (end ? to : from).acceleration, 1e-12);
+  }
+  for (double t = 2 * kStep; t < kDuration; t += kDuration / 37) {
+    EXPECT_NEAR(at(t).rate, (at(t + kStep).value - at(t - kStep).value) / (2 * kStep), 1e-6);
+    EXPECT_NEAR(at(t).acceleration, (at(t + kStep).rate - at(t - kStep).rate) / (2 * kStep), 1e-5);
+  }
+}
+
 TEST(SignalTest, RestToRestGoesFromZeroToOneAtRest) {
   for (const double t : {0.0, 2.5}) {
     const ScalarSignal s = RestToRest(t, 2.5);
