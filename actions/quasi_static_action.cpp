@@ -150,7 +150,7 @@ graph::Point QuasiStaticAction::ExtendTowards(const graph::Point& v0,
   const Isometry3d to = ToPose(v1);
   const std::optional<Isometry3d> part =
       EndOfFirstPart(from, to, Heading(model_->gaits[gait_]->stance.X_SR.linear()));
-  const graph::Point end = part ? ToPoint(*part) : v1;
+  graph::Point end = part ? ToPoint(*part) : v1;
   const double distance = space_->Distance(v0, end);
   if (distance <= step_) return end;
   return ToPoint(Interpolate(from, part.value_or(to), step_ / distance));
