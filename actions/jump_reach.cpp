@@ -81,11 +81,14 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
 
 double HighestLaunchSpeed(const JumpModel& model) {
   const models::RobotModel& tree = model.planar()->tree();
-  double rates = 0;
+  double rates = 0;  // of the joints from here to the tip
+  double speed = 0;
   for (int link = model.leg().tip.link; link > 0; link = tree.joints[link - 1].parent) {
-    rates += tree.joints[link - 1].velocity;
+    const models::Joint& joint = tree.joints[link - 1];
+    rates += joint.velocity;
+    speed += rates * joint.X_PJ.translation().norm();
   }
-  return rates * model.leg().length;
+  return speed;
 }
 
 std::optional<FlightBounds> BoundFlight(const JumpModel& model) {
