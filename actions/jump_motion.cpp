@@ -75,6 +75,7 @@ std::vector<Phase> JumpMotion::Realise(const JumpProblem& problem,
   Append(RollOverToes(plans[JumpProblem::kToes], last()), &motion);
   Append(Fly(plans[JumpProblem::kRise], plans[JumpProblem::kDescent], last(), feet, report),
          &motion);
+  RequireLimits(motion.back(), problem.settings().limits.max_base_speed);
   Eigen::Matrix3Xd impulses;
   const Knot after = AfterImpact(last(), feet, &impulses, report);
   Append(stance_.FollowUntilPlaced(plans[JumpProblem::kSettle], after, feet, all), &motion);
@@ -132,15 +133,20 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
   report->landing_correction = correction.lpNorm<Eigen::Infinity>();
   Phase phase;
   phase.knots = flight.Fly(joints, duration, intervals);
-  RequireLimits(phase);
   return phase;
 }
 
-void JumpMotion::RequireLimits(const Phase& flight) const {
+void JumpMotion::RequireLimits(const Phase& flight, double max_base_speed) const {
   const models::RobotModel& robot = stance_.robot();
   const MotionSettings& settings = stance_.settings();
   for (const Knot& knot : flight.knots) {
     RequireJointLimits(robot, knot.q, knot.v, settings.speed_margin, knot.t);
+    const double base_speed = knot.v.segment<3>(3).norm();
+    if (base_speed > settings.speed_margin * max_base_speed) {
+      throw MotionError(fmt::format("the root flies at {:.1f} m/s at {:.2f} s of the flight, faster "
+                                    "than {:.1f}",
+                                    base_speed, knot.t, settings.speed_margin * max_base_speed));
+    }
     for (int j = 0; j < robot.num_joints(); ++j) {
       if (std::abs(knot.tau[j]) > settings.torque_margin * robot.joints[j].effort) {
         throw MotionError(fmt::format("{} needs {:.1f} at {:.2f} s of the flight, more than {:.1f}",

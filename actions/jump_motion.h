@@ -36,7 +36,7 @@ class JumpMotion {
   Phase RollOverToes(const collocation::PhaseTrajectory& plan, const Knot& from) const;
   Phase Fly(const collocation::PhaseTrajectory& rise, const collocation::PhaseTrajectory& descent,
             const Knot& from, const Support& feet, JumpMotionReport* report);
-  void RequireLimits(const Phase& flight) const;
+  void RequireLimits(const Phase& flight, double max_base_speed) const;
   /// The impact of `support` at a touchdown: velocities after it and impulses in the cones.
   Knot AfterImpact(const Knot& touchdown, const Support& support, Eigen::Matrix3Xd* impulses,
                    JumpMotionReport* report) const;

@@ -40,8 +40,8 @@ JumpProblem::JumpProblem(const JumpModel& model, const JumpTask& task, const Jum
 void JumpProblem::AddPhases() {
   AddPhase("crouch", Feet(), {0.3, 1.0});
   AddPhase("toes", {model_.toe()}, {0.03, 0.25});
-  AddPhase("rise", {}, {0.03, 0.5});
-  AddPhase("descent", {}, {0.03, 0.5});
+  AddPhase("rise", {}, {0.03, kLongestHalfFlight});
+  AddPhase("descent", {}, {0.03, kLongestHalfFlight});
   AddPhase("settle", Feet(), {0.03, 1.2});
   AddPhase("landing", FeetAndHands(), {0.3, 1.5});
   for (int phase = 1; phase < kNumPhases; ++phase) {

@@ -30,11 +30,13 @@ struct JumpSettings : SagittalSettings {
 class JumpProblem : public SagittalProblem {
  public:
   enum PhaseIndex { kCrouch, kToes, kRise, kDescent, kSettle, kLanding, kNumPhases };
+  static constexpr double kLongestHalfFlight = 0.5;  ///< s, rise and descent each
 
   /// `model` must outlive the problem.
   JumpProblem(const JumpModel& model, const JumpTask& task, const JumpSettings& settings);
 
   JumpTask task() const { return {distance_, height_}; }
+  const SagittalSettings& settings() const { return settings_; }
 
   /// Impulses of the feet's impact at heel and toe, x and z, N s.
   Eigen::Matrix2Xd Impulses(const collocation::Trajectory& trajectory) const;

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <future>
 
-#include "actions/motion_builder.h"
 #include "collocation/solve_control.h"
-#include "dynamics/tree_kinematics.h"
 
 namespace possibility::actions {
 namespace {
@@ -79,23 +77,10 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
   return reach;
 }
 
-double HighestLaunchSpeed(const JumpModel& model) {
-  const models::RobotModel& tree = model.planar()->tree();
-  double rates = 0;  // of the joints from here to the tip
-  double speed = 0;
-  for (int link = model.leg().tip.link; link > 0; link = tree.joints[link - 1].parent) {
-    const models::Joint& joint = tree.joints[link - 1];
-    rates += joint.velocity;
-    speed += rates * joint.X_PJ.translation().norm();
-  }
-  return speed;
-}
-
-std::optional<FlightBounds> BoundFlight(const JumpModel& model) {
-  const double speed = HighestLaunchSpeed(model);
-  if (!std::isfinite(speed)) return std::nullopt;
-  const double energy = speed * speed / dynamics::kGravity;
-  return FlightBounds{energy / 2, energy + 2 * model.leg().length};
+FlightBounds BoundFlight(const JumpSettings& settings) {
+  // From take-off or touchdown, where the feet reach the ground, whichever is nearer in time.
+  const double farthest = settings.limits.max_base_speed * JumpProblem::kLongestHalfFlight;
+  return {farthest, farthest};
 }
 
 }  // namespace possibility::actions

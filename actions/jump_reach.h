@@ -20,13 +20,8 @@ JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& height
 JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
                          const std::function<bool()>& keep_going = {});
 
-/// No faster (m/s) does a leg throw up the root while its foot stands: all joints turn at their
-/// limits at once, each at a lever as long as the links between it and the root. Infinite if one of
-/// them has no limit. How fast a foot may turn over its toes meanwhile is not counted.
-double HighestLaunchSpeed(const JumpModel& model);
-
-/// By joint speeds and lengths alone, of how a body that legs throw up can fly; nothing if a joint
-/// has no limit.
-std::optional<FlightBounds> BoundFlight(const JumpModel& model);
+/// By how long a jump may fly and how fast its root may move meanwhile: JumpProblem bounds both,
+/// and JumpMotion refuses what is faster.
+FlightBounds BoundFlight(const JumpSettings& settings);
 
 }  // namespace possibility::actions

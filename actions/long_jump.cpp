@@ -23,9 +23,6 @@ constexpr double kSameHeading = 1e-6;
 constexpr double kRiseSpacing = 0.05;
 constexpr double kArcSpacing = 0.05;
 
-/// Of a robot whose joints have no speed limit, C_N looks at no higher ones, m.
-constexpr double kHighestApex = 20;
-
 /// Ground this far to all sides is wide enough for every stance, m: what is narrower is looked at
 /// closely.
 constexpr double kWideGround = 0.4;
@@ -104,7 +101,7 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
                  ? library_->reach()
                  : GuessReach(*solver_, RisesOf(world().ground->levels()))),
       skip_growth_(context.settings.skip_jumps),
-      highest_rise_(BoundFlight(solver_->model()).value_or(FlightBounds{kHighestApex, 0}).rise),
+      highest_rise_(BoundFlight(solver_->settings()).rise),
       pelvis_checker_(*world().environment),
       pelvis_(*model().robot, pelvis_checker_) {
   for (const LocomotionModel::TransitionEntry& transition : model().transitions) {
@@ -323,7 +320,7 @@ ManoeuvreBounds LongJump::Bounds() const {
     // How near does not matter: nearer ones only join what walking joins.
     return LandingRange{{Vector2d::Zero(), Vector2d(distances->second, 0)}};
   };
-  bounds.flight = BoundFlight(solver_->model());
+  bounds.flight = BoundFlight(solver_->settings());
   return bounds;
 }
 

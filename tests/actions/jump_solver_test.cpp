@@ -10,6 +10,7 @@
 #include "actions/bare_ground.h"
 #include "actions/interpolation.h"
 #include "actions/jump_library.h"
+#include "actions/jump_reach.h"
 #include "dynamics/simbody_dynamics.h"
 #include "dynamics/tree_kinematics.h"
 #include "models/input_error.h"
@@ -223,6 +224,16 @@ TEST(JumpSolverLoopholes, TheBodyReallyTravels) {
   EXPECT_GT((com(flight.knots.back()) - com(flight.knots.front())).x(), 0.15);
 }
 
+TEST(JumpSolverTest, RefusesARootThatIsTooFast) {
+  // The root flies at 2 m/s.
+  JumpSettings slow = Solver().settings();
+  slow.limits.max_base_speed = 1;
+  const JumpSolver solver(DrcHubo1(), Stance("walk"), Stance("crawl"), slow);
+  const JumpAnswer answer = solver.Realise(kTask, *Answer().solution);
+  EXPECT_FALSE(answer.jump);
+  EXPECT_NE(answer.reason.find("the root flies at"), std::string::npos) << answer.reason;
+}
+
 TEST(JumpSolverTest, CancelledKnowsNothing) {
   collocation::SolveControl control;
   control.Cancel();
@@ -318,20 +329,43 @@ TEST_F(JumpLibraryTest, MalformedTableIsAnInputError) {
   EXPECT_THROW(Library(), InputError);
 }
 
-TEST_F(JumpLibraryTest, TheVerifierAcceptsEveryShippedJump) {
+/// Over level ground, all that the reach table promises.
+std::vector<std::shared_ptr<const SolvedJump>> ShippedJumps() {
   JumpLibrary library(DrcHubo1(), Solver(), DrcHubo1().file.parent_path() / "jumps");
-  ASSERT_TRUE(library.reach_is_derived());
+  EXPECT_TRUE(library.reach_is_derived());
   const auto [shortest, farthest] = library.reach().Distances(0).value();
   const auto first = std::lround(shortest / JumpLibrary::kDistanceStep);
   const auto last = std::lround(farthest / JumpLibrary::kDistanceStep);
+  std::vector<std::shared_ptr<const SolvedJump>> jumps;
   for (auto step = first; step <= last; ++step) {
     const JumpTask task = JumpLibrary::OnGrid({step * JumpLibrary::kDistanceStep, 0});
     const auto answer = library.Find(task);
-    ASSERT_TRUE(answer && answer->jump) << task.distance << " m";
-    EXPECT_EQ(FaultOnBareGround(DrcHubo1(), Solver().model(), Stance("walk"), Stance("crawl"), task,
-                                answer->jump->phases),
+    if (answer && answer->jump) jumps.push_back(answer->jump);
+    EXPECT_TRUE(answer && answer->jump) << task.distance << " m";
+  }
+  return jumps;
+}
+
+TEST_F(JumpLibraryTest, TheVerifierAcceptsEveryShippedJump) {
+  for (const auto& jump : ShippedJumps()) {
+    EXPECT_EQ(FaultOnBareGround(DrcHubo1(), Solver().model(), Stance("walk"), Stance("crawl"),
+                                jump->task, jump->phases),
               "")
-        << task.distance << " m";
+        << jump->task.distance << " m";
+  }
+}
+
+TEST_F(JumpLibraryTest, NoShippedJumpFliesBeyondItsBound) {
+  const FlightBounds bounds = BoundFlight(Solver().settings());
+  for (const auto& jump : ShippedJumps()) {
+    const std::vector<Knot>& flight = jump->phases.at(kFlight).knots;
+    const auto place = [](const Knot& knot) -> Vector3d { return knot.q.segment<3>(4); };
+    for (const Knot& knot : flight) {
+      const Vector3d up = place(knot) - place(flight.front());
+      const Vector3d down = place(knot) - place(flight.back());
+      EXPECT_LT(std::min(up.head<2>().norm(), down.head<2>().norm()), bounds.range);
+      EXPECT_LT(std::min(up.z(), down.z()), bounds.rise);
+    }
   }
 }
 

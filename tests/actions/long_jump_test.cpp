@@ -11,9 +11,7 @@
 
 #include "actions/exploration_pose.h"
 #include "actions/jump_reach.h"
-#include "dynamics/multibody_dynamics.h"
 #include "graph/confirmation_queue.h"
-#include "graph/random.h"
 #include "models/ground_map.h"
 #include "tests/actions/drchubo1.h"
 
@@ -226,53 +224,6 @@ TEST(JumpReachTest, GuessesLieOnTheGrid) {
     EXPECT_GT(row.farthest, row.shortest);
     EXPECT_NEAR(std::remainder(row.farthest, JumpLibrary::kDistanceStep), 0, 1e-9);
   }
-}
-
-/// How fast the root of a jumper moves whose leg stands, joints turning at these rates (m/s): the
-/// base turns and moves so that heel and toe stay where they are.
-double SpeedOverStandingFoot(const JumpModel& model, const Eigen::VectorXd& q,
-                             const Eigen::VectorXd& rates) {
-  const dynamics::MultibodyModel& planar = *model.planar();
-  const auto feet = [&](const Eigen::VectorXd& q_at) {
-    Eigen::Vector3d places;
-    const Eigen::Vector2d heel = model.Position(model.heel(), q_at);
-    places << heel, model.Position(model.toe(), q_at).y() - heel.y();
-    return places;
-  };
-  constexpr double kStep = 1e-6;
-  const auto derivative = [&](const Eigen::VectorXd& v) -> Eigen::Vector3d {
-    return (feet(planar.Displaced(q, kStep * v)) - feet(planar.Displaced(q, -kStep * v))) /
-           (2 * kStep);
-  };
-  Eigen::VectorXd v = Eigen::VectorXd::Zero(planar.nv());
-  v.tail(rates.size()) = rates;
-  Eigen::Matrix3d J;
-  for (int i = 0; i < 3; ++i) J.col(i) = derivative(Eigen::VectorXd::Unit(planar.nv(), i));
-  const Eigen::Vector3d base = -J.colPivHouseholderQr().solve(derivative(v));
-  return base.tail<2>().norm();
-}
-
-TEST(JumpReachTest, NoLegLaunchesFasterThanItsBound) {
-  const JumpScene scene(TwoFloors(0));
-  const JumpModel& model = scene.jump().solver().model();
-  const double bound = HighestLaunchSpeed(model);
-  graph::RandomGenerator generator(3);
-  double fastest = 0;
-  for (int i = 0; i < 2000; ++i) {
-    Eigen::VectorXd q = model.landed();
-    Eigen::VectorXd rates = model.planar()->velocity();
-    for (Eigen::Index j = 0; j < rates.size(); ++j) {
-      q[3 + j] = graph::UniformReal(model.lower()[j], model.upper()[j], &generator);
-      rates[j] *= graph::UniformIndex(2, &generator) == 0 ? -1 : 1;
-    }
-    fastest = std::max(fastest, SpeedOverStandingFoot(model, q, rates));
-  }
-  EXPECT_LE(fastest, bound);
-  // One joint at its limit would be too little.
-  EXPECT_GT(fastest, model.planar()->velocity().maxCoeff() * model.leg().length);
-  const std::optional<FlightBounds> flight = BoundFlight(model);
-  ASSERT_TRUE(flight.has_value());
-  EXPECT_GE(flight->rise, fastest * fastest / (2 * dynamics::kGravity));
 }
 
 }  // namespace
