@@ -143,9 +143,10 @@ void JumpMotion::RequireLimits(const Phase& flight, double max_base_speed) const
     RequireJointLimits(robot, knot.q, knot.v, settings.speed_margin, knot.t);
     const double base_speed = knot.v.segment<3>(3).norm();
     if (base_speed > settings.speed_margin * max_base_speed) {
-      throw MotionError(fmt::format("the root flies at {:.1f} m/s at {:.2f} s of the flight, faster "
-                                    "than {:.1f}",
-                                    base_speed, knot.t, settings.speed_margin * max_base_speed));
+      throw MotionError(
+          fmt::format("the root flies at {:.1f} m/s at {:.2f} s of the flight, faster "
+                      "than {:.1f}",
+                      base_speed, knot.t, settings.speed_margin * max_base_speed));
     }
     for (int j = 0; j < robot.num_joints(); ++j) {
       if (std::abs(knot.tau[j]) > settings.torque_margin * robot.joints[j].effort) {
