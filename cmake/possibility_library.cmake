@@ -24,20 +24,63 @@ function(possibility_uses_regex)
   endif()
 endfunction()
 
-# possibility_library(<folder>): a static library of all sources in the folder,
-# exported as possibility::<folder>.
-function(possibility_library name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
-  add_library(possibility_${name} STATIC ${sources})
-  add_library(possibility::${name} ALIAS possibility_${name})
-  set_target_properties(possibility_${name} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(possibility_${name} PUBLIC
+# What most files include, compiled once for all libraries.
+set(possibility_common_headers
+    <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits>
+    <map> <memory> <mutex> <numbers> <numeric> <optional> <set> <sstream> <stdexcept> <string>
+    <string_view> <thread> <tuple> <unordered_map> <utility> <variant> <vector>
+    <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry>)
+
+# possibility_library(<target> <folder>): a static library of all sources in the folder but main.cpp,
+# called possibility::<target>.
+function(possibility_library target folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "main\\.cpp$")
+  add_library(possibility_${target} STATIC ${sources})
+  add_library(possibility::${target} ALIAS possibility_${target})
+  target_include_directories(possibility_${target} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/possibility>)
-  target_compile_features(possibility_${name} PUBLIC cxx_std_20)
-  possibility_compile_options(possibility_${name})
-  install(TARGETS possibility_${name} EXPORT possibilityTargets
+  target_compile_features(possibility_${target} PUBLIC cxx_std_20)
+  possibility_compile_options(possibility_${target})
+endfunction()
+
+# possibility_install(<target> [<folder>]): the target and the folder's headers, for find_package.
+function(possibility_install target)
+  set_target_properties(possibility_${target} PROPERTIES EXPORT_NAME ${target})
+  install(TARGETS possibility_${target} EXPORT possibilityTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/possibility/${name})
+  foreach(folder ${ARGN})
+    file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/possibility/${folder})
+  endforeach()
+endfunction()
+
+# possibility_part(<folder> <link>...): the library of a folder inside a floor. <link>: a room or
+# floor that it includes from (as a folder), or a target.
+function(possibility_part folder)
+  string(REPLACE / _ target ${folder})
+  possibility_library(${target} ${folder})
+  set(links ${ARGN})
+  list(TRANSFORM links REPLACE "^([a-z]+)/([a-z]+)$" "possibility::\\1_\\2")
+  list(TRANSFORM links REPLACE "^graph$" "possibility::graph")
+  target_link_libraries(possibility_${target} PUBLIC Eigen3::Eigen fmt::fmt Threads::Threads ${links})
+  target_precompile_headers(possibility_${target} REUSE_FROM possibility_common)
+endfunction()
+
+# possibility_room(<folder> <link>...): the same, installed.
+function(possibility_room folder)
+  possibility_part(${folder} ${ARGN})
+  string(REPLACE / _ target ${folder})
+  possibility_install(${target} ${folder})
+endfunction()
+
+# possibility_floor(<floor> <room>...): all rooms of a floor together, as possibility::<floor>.
+function(possibility_floor floor)
+  set(rooms ${ARGN})
+  list(TRANSFORM rooms PREPEND possibility::${floor}_)
+  add_library(possibility_${floor} INTERFACE)
+  add_library(possibility::${floor} ALIAS possibility_${floor})
+  target_link_libraries(possibility_${floor} INTERFACE ${rooms})
+  possibility_install(${floor})
 endfunction()

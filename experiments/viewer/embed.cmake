@@ -18,7 +18,7 @@ set(resources
     orbit_controls ${THREE_DIR}/examples/js/controls/OrbitControls.js)
 
 set(delimiter "resource_text")
-set(source "#include \"experiments/viewer_resources.h\"\n\n")
+set(source "#include \"experiments/viewer/viewer_resources.h\"\n\n")
 string(APPEND source "namespace possibility::experiments::viewer_resources {\n")
 while(resources)
   list(POP_FRONT resources name path)

@@ -2,9 +2,10 @@
 
 #include <string>
 
-#include "actions/locomotion_model.h"
-#include "models/robot_model.h"
-#include "models/scenario.h"
+#include "actions/conditions/locomotion_model.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
+#include "models/world/scenario.h"
 
 namespace possibility::actions {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "actions/planar_pose.h"
-#include "models/scenario.h"
+#include "actions/motion/planar_pose.h"
+#include "models/world/scenario.h"
 #include "tests/actions/drchubo1.h"
 
 namespace possibility::actions {

@@ -5,12 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "actions/free_flight.h"
-#include "actions/interpolation.h"
-#include "actions/motion_builder.h"
-#include "actions/nominal_stance.h"
-#include "dynamics/contact_feasibility.h"
-#include "dynamics/forward_dynamics.h"
+#include "actions/motion/free_flight.h"
+#include "actions/motion/motion_builder.h"
+#include "actions/motion/nominal_stance.h"
+#include "actions/motion/phase_sequence.h"
+#include "actions/plan/interpolation.h"
+#include "dynamics/contact/contact_feasibility.h"
+#include "dynamics/forward/forward_dynamics.h"
 #include "tests/actions/standing_plan.h"
 
 namespace possibility::actions::testing {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "actions/lattice_explorer.h"
+#include "actions/route/lattice_explorer.h"
 #include "graph/deadline.h"
 
 namespace possibility::actions {

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "actions/exploration_pose.h"
-#include "actions/manoeuvre.h"
-#include "actions/signal.h"
-#include "models/ground_map.h"
-#include "models/scenario.h"
+#include "actions/conditions/exploration_pose.h"
+#include "actions/conditions/manoeuvre.h"
+#include "actions/motion/signal.h"
+#include "models/world/ground_map.h"
+#include "models/world/scenario.h"
 #include "tests/actions/drchubo1.h"
 
 namespace possibility::actions {

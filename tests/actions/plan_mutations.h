@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "actions/verifier.h"
-#include "dynamics/tree_kinematics.h"
+#include "actions/verify/verifier.h"
+#include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions::testing {
 

@@ -2,8 +2,9 @@
 
 #include <string>
 
-#include "actions/locomotion_model.h"
-#include "models/robot_model.h"
+#include "actions/conditions/locomotion_model.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
 
 namespace possibility::actions {
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "actions/planar_pose.h"
-#include "models/scenario.h"
+#include "actions/motion/planar_pose.h"
+#include "models/world/scenario.h"
 
 namespace possibility::actions {
 

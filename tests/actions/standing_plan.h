@@ -2,9 +2,10 @@
 
 #include <string>
 
-#include "actions/motion_builder.h"
-#include "actions/nominal_stance.h"
-#include "models/robot_model.h"
+#include "actions/motion/motion_builder.h"
+#include "actions/motion/nominal_stance.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
 #include "tests/actions/plan_mutations.h"
 
 namespace possibility::actions::testing {

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "models/robot_model.h"
+#include "models/robot/robot_model.h"
 
 namespace possibility::dynamics {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "actions/plan.h"
-#include "models/robot_model.h"
-#include "models/scenario.h"
+#include "actions/plan/plan.h"
+#include "models/robot/robot_model.h"
+#include "models/world/scenario.h"
 
 namespace possibility::experiments::testing {
 

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 
-#include "actions/plan.h"
-#include "models/robot_model.h"
-#include "models/scenario.h"
+#include "actions/plan/plan.h"
+#include "actions/plan/plan_writer.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
+#include "models/world/scenario.h"
 
 namespace possibility::experiments::testing {
 

@@ -14,7 +14,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "models/input_error.h"
+#include "models/input/input_error.h"
 
 namespace possibility::fuzz {
 namespace {

@@ -11,7 +11,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "models/input_error.h"
+#include "models/input/input_error.h"
 
 namespace possibility::fuzz {
 namespace {

@@ -10,7 +10,7 @@
 #include <ostream>
 #include <thread>
 
-#include "models/file_contents.h"
+#include "models/input/file_contents.h"
 #include "tests/experiments/program_run.h"
 #include "tests/fuzz/case_runner.h"
 #include "tests/fuzz/subjects.h"

@@ -6,19 +6,23 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "actions/jump_library.h"
-#include "actions/motion_identity.h"
-#include "actions/nominal_stance.h"
-#include "actions/planner.h"
-#include "actions/verifier.h"
-#include "experiments/csv_tables.h"
-#include "experiments/jump_page.h"
-#include "experiments/loaded_plan.h"
-#include "experiments/viewer_page.h"
-#include "models/collision.h"
-#include "models/file_contents.h"
-#include "models/ground_map.h"
-#include "models/scenario.h"
+#include "actions/jump/jump_library.h"
+#include "actions/motion/nominal_stance.h"
+#include "actions/plan/plan_reader.h"
+#include "actions/plan/plan_writer.h"
+#include "actions/planner/planner.h"
+#include "actions/sagittal/motion_identity.h"
+#include "actions/verify/verifier.h"
+#include "collocation/study/stored_solution_reader.h"
+#include "experiments/program/loaded_plan.h"
+#include "experiments/report/csv_tables.h"
+#include "experiments/viewer/jump_page.h"
+#include "experiments/viewer/viewer_page.h"
+#include "models/input/file_contents.h"
+#include "models/robot/robot_yaml.h"
+#include "models/world/collision.h"
+#include "models/world/ground_map.h"
+#include "models/world/scenario.h"
 #include "tests/actions/hop_plan.h"
 #include "tests/experiments/standing_plan.h"
 #include "tests/models/two_legged_robot.h"
@@ -148,7 +152,7 @@ struct Jumps {
   actions::NominalStance landing =
       actions::SolveNominalStance(robot, robot.GaitNamed(robot.jumps[0].to));
   actions::JumpSolver solver{robot, launch, landing};
-  std::string identity = actions::MotionIdentity(robot, solver.settings());
+  std::string identity = actions::JumpIdentity(robot, solver.settings());
   fs::path shipped = actions::MotionFolder(kRobotFolder / "jumps", identity);
 };
 

@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "models/shape.h"
+#include "models/shapes/shape.h"
 
 namespace possibility::models::testing {
 

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/gait/gait_motion.h"
+#include "actions/gait/swept_volume.h"
+#include "actions/motion/nominal_stance.h"
+#include "actions/transition/transition_motion.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// Everything about how one robot moves that does not depend on where: the nominal stance and
+/// swept volumes of each gait, and the transitions between gaits. Immutable, safe to share.
+struct LocomotionModel {
+  struct GaitEntry {
+    NominalStance stance;
+    std::unique_ptr<GaitMotion> motion;
+    GaitVolumes volumes;
+  };
+  struct TransitionEntry {
+    int from = 0;  ///< indices into gaits
+    int to = 0;
+    std::unique_ptr<TransitionMotion> motion;
+    std::vector<Eigen::AlignedBox3d> sweep;  ///< in the first gait's stance frame
+  };
+
+  const models::RobotModel* robot = nullptr;
+  std::vector<std::unique_ptr<GaitEntry>> gaits;
+  std::vector<TransitionEntry> transitions;
+
+  /// Index of the gait called `name`, or -1.
+  int GaitIndex(const std::string& name) const;
+};
+
+/// Solves the stances and computes the swept volumes of the gaits among `actions` and the
+/// transitions among them; jumps among them add nothing. `robot` must outlive the result.
+/// `library`: folder of solved transitions, empty for none.
+/// @throws InputError if an action does not exist, a gait's bounds allow a stride that the robot
+/// cannot
+///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may
+///   be empty) says no.
+LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
+                                     const std::vector<std::string>& actions,
+                                     const std::function<bool()>& keep_going = {},
+                                     const std::filesystem::path& library = {});
+
+/// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
+/// do, m.
+double ChainLength(const models::RobotModel& robot, const models::ContactPatch& patch);
+
+/// Upper bound of the distance from the root's origin to where any limb of the gait bears, soles
+/// and points alike, m.
+double BearingReach(const models::RobotModel& robot, const models::Gait& gait);
+
+/// The robot standing in a gait's nominal posture on a ground level.
+struct GroundedStance {
+  int gait = 0;
+  PlanarPose pose;
+  double z = 0;  ///< m, height of the ground
+};
+
+/// The stance whose root pose is `X_WR`, if that is nominal for `gait` (to 1e-6 in tilt).
+std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,
+                                       const Eigen::Isometry3d& X_WR);
+
+}  // namespace possibility::actions

@@ -1,0 +1,39 @@
+#include "actions/conditions/motion_job.h"
+
+#include <utility>
+
+#include "actions/motion/motion_collision.h"
+
+namespace possibility::actions {
+
+MotionJob::MotionJob(const Manoeuvre& manoeuvre,
+                     std::shared_ptr<const models::CollisionChecker> checker, graph::PointPair edge)
+    : manoeuvre_(manoeuvre), checker_(std::move(checker)), edge_(std::move(edge)) {}
+
+graph::JobVerdict MotionJob::Run(graph::JobControl* control) {
+  const auto keep_going = [control] { return control->Checkpoint(); };
+  std::vector<Phase> motion;
+  try {
+    motion = manoeuvre_.Motion(edge_, keep_going);
+  } catch (const Abandoned&) {
+    return graph::JobVerdict::kUndecided;
+  } catch (const MotionError& error) {
+    return Decide(error.what());
+  }
+  const models::RobotModel& robot = *manoeuvre_.model().robot;
+  const MotionPoses poses(robot, motion);
+  std::string hit = FirstSelfHit(robot, *checker_, poses, keep_going);
+  if (hit.empty()) {
+    hit = FirstHit(robot, *manoeuvre_.world().environment, *checker_, poses,
+                   Eigen::Isometry3d::Identity(), keep_going);
+  }
+  return control->Checkpoint() ? Decide(hit) : graph::JobVerdict::kUndecided;
+}
+
+graph::JobVerdict MotionJob::Decide(const std::string& fault) {
+  reason_ = fault;
+  manoeuvre_.Record(edge_, fault.empty(), fault);
+  return fault.empty() ? graph::JobVerdict::kConfirmed : graph::JobVerdict::kRefuted;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <utility>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+#include "models/world/collision.h"
+
+namespace possibility::actions {
+
+/// C_N's collision geometry: the pelvis' own shapes, shrunk by more than the collision checker
+/// errs, so that a pelvis which is not free is certainly in collision.
+class PelvisClearance {
+ public:
+  /// `checker` must outlive it.
+  PelvisClearance(const models::RobotModel& robot, const models::CollisionChecker& checker);
+
+  bool IsFree(const Eigen::Isometry3d& X_WR) const;
+
+ private:
+  const models::CollisionChecker* checker_;
+  std::vector<std::pair<models::PreparedShape, Eigen::Isometry3d>> parts_;
+};
+
+}  // namespace possibility::actions

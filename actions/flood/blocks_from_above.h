@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/flood/block_flood.h"
+
+namespace possibility::actions {
+
+/// The place of a flood that is closest to any goal.
+struct ClosestApproach {
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< m
+  double distance = 0;                              ///< from that goal, m
+  CellBlock cell = {};
+};
+
+/// Blocks of cells in the world, seen from above.
+class BlocksFromAbove {
+ public:
+  /// The cells are of `size` (m), the first begins at `origin`. `goals` must outlive it.
+  BlocksFromAbove(const Eigen::Vector2d& origin, const Eigen::Vector2d& size,
+                  const std::vector<GroundedStance>& goals)
+      : origin_(origin), size_(size), goals_(goals) {}
+
+  /// Of the nearest middle of a cell from the nearest goal, m.
+  double Distance(const CellBlock& block) const { return Closest(block).distance; }
+  ClosestApproach ClosestOf(const std::deque<BlockFlood::Reached>& reached) const;
+
+  /// Outlines of all blocks together, whatever plane they are in, of a grid of `num_cells`; none
+  /// once `keep_going` (may be empty) says no.
+  std::vector<std::vector<Eigen::Vector2d>> OutlinesOf(
+      const std::vector<CellBlock>& blocks, const Eigen::Vector2i& num_cells,
+      const std::function<bool()>& keep_going) const;
+
+ private:
+  ClosestApproach Closest(const CellBlock& block) const;
+
+  Eigen::Vector2d origin_;
+  Eigen::Vector2d size_;
+  const std::vector<GroundedStance>& goals_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/conditions/manoeuvre.h"
+#include "actions/flood/route_flood.h"
+#include "actions/plan/plan.h"
+#include "graph/find_path.h"
+
+namespace possibility::actions {
+
+/// Whether a route can exist at all, asked by the search once cycles have found none. The flood
+/// over C_S says what these actions could confirm, the one over C_N what any motion could do.
+class FloodOracle {
+ public:
+  /// All that is passed by reference outlives the oracle; `manoeuvres` may be filled later.
+  /// `resolution`: of a cell, m. `keep_going`: false once time is up.
+  FloodOracle(const LocomotionModel& model, const World& world,
+              const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres, double resolution,
+              std::function<bool()> keep_going);
+
+  /// Before "no", bounds that manoeuvres have guessed are made true. kUnknown at the time limit.
+  graph::RouteOracleAnswer Ask(const GroundedStance& start,
+                               const std::vector<GroundedStance>& goals);
+
+  /// What closes the way, after an answer that was "no".
+  const Barrier& barrier() const { return flood_->barrier; }
+
+  /// After "no": the narrowest place of the way that would be open if less were asked of it. After
+  /// an answer that was none: that of the way which the closest flood believes in. Nothing if there
+  /// is no such place.
+  const std::optional<NarrowPassage>& passage() const { return passage_; }
+
+ private:
+  graph::RouteOracleAnswer Answer(const GroundedStance& start,
+                                  const std::vector<GroundedStance>& goals);
+  void FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                   const std::vector<FloodManoeuvre>& manoeuvres);
+  FloodResult CoarseToFine(const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                           const std::vector<FloodManoeuvre>& manoeuvres) const;
+  FloodLimits Limits(std::int64_t most_judged = FloodLimits::kMostNodes) const;
+  std::optional<std::vector<FloodManoeuvre>> FloodManoeuvres() const;
+  std::optional<std::vector<FlightBounds>> Flights() const;
+  bool ReplaceGuesses();
+
+  const LocomotionModel& model_;
+  const World& world_;
+  const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres_;
+  double resolution_;
+  std::function<bool()> keep_going_;
+  std::optional<NarrowPassage> passage_;
+  std::optional<FloodResult> flood_;  ///< the last one over C_S, or the one that proved "no"
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/motion/planar_pose.h"
+#include "models/world/ground_map.h"
+
+namespace possibility::actions {
+
+/// False only if no stance of `gait` at height `z` (m), displaced from `pose` by up to `place` (m)
+/// and turned by up to `turn` (rad) to either side, has ground under all its bearing points.
+bool GroundMayHold(const LocomotionModel& model, const models::GroundMap& ground, int gait,
+                   const PlanarPose& pose, double z, double place, double turn);
+
+/// True only if GroundMayHold says so of every stance that is displaced from `pose` by up to
+/// `displaced`, m.
+bool GroundMayHoldAllAround(const LocomotionModel& model, const models::GroundMap& ground, int gait,
+                            const PlanarPose& pose, double z, double place, double turn,
+                            double displaced);
+
+/// Launch stances of a manoeuvre and what it displaces them by: all within a box about the middle.
+struct LaunchBox {
+  struct End {
+    int gait = 0;
+    double z = 0;  ///< m
+  };
+  End launch;
+  End landing;
+  PlanarPose middle = {};                                       ///< of the launch stances
+  Eigen::Vector2d half_place = Eigen::Vector2d::Zero();         ///< m
+  double half_heading = 0;                                      ///< rad
+  PlanarPose displacement = {};                                 ///< middle of what it displaces by
+  Eigen::Vector2d half_displacement = Eigen::Vector2d::Zero();  ///< m, in the launch stance
+  double half_turn = 0;                                         ///< rad
+};
+
+/// False only if no launch of the box stands on ground and lands on ground. By branch and bound:
+/// the box is halved along what it is widest in, at most `halvings` times on a way down.
+bool MayLand(const LocomotionModel& model, const models::GroundMap& ground, const LaunchBox& box,
+             int halvings);
+
+}  // namespace possibility::actions

@@ -1,0 +1,178 @@
+#include "actions/gait/swept_volume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/input/input_error.h"
+#include "models/world/collision.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::AlignedBox3d;
+
+/// Knots of sampled motions are closer than those of plans, s.
+constexpr double kSamplingInterval = 0.04;
+
+/// Merging two slabs may add at most this fraction to their volume.
+constexpr double kMergeSlack = 0.03;
+
+/// Displacements at the corners, edge midpoints and face centres of the octahedron of allowed
+/// strides, and none at all.
+std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& parameters) {
+  std::vector<PlanarPose> displacements;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int turn = -1; turn <= 1; ++turn) {
+        const int axes = std::abs(x) + std::abs(y) + std::abs(turn);
+        const double share = axes == 0 ? 0 : 1.0 / axes;
+        displacements.push_back({share * x * parameters.forward, share * y * parameters.lateral,
+                                 share * turn * parameters.turn});
+      }
+    }
+  }
+  return displacements;
+}
+
+/// Builds the motion (which checks limits, torques and friction), checks self-collision at every
+/// knot and hands each knot's link poses to `visit`.
+template <typename Visitor>
+void SampleMotion(const models::RobotModel& robot, const std::vector<MotionPhase>& phases,
+                  const Eigen::VectorXd& guess, const std::function<bool()>& keep_going,
+                  const Visitor& visit) {
+  MotionSettings settings;
+  settings.knot_spacing = kSamplingInterval;
+  const std::vector<Phase> motion = MotionBuilder(robot, settings).Build(phases, guess, keep_going);
+  const models::Environment nothing;
+  models::CollisionChecker checker(robot, nothing);
+  dynamics::TreeKinematics kinematics(robot);
+  for (const Phase& phase : motion) {
+    for (const Knot& knot : phase.knots) {
+      kinematics.SetPosition(knot.q);
+      const std::vector<models::Proximity> close = checker.SelfProximities(kinematics.X_WL(), 0);
+      if (!close.empty()) {
+        throw MotionError(fmt::format(
+            "{} collides with {} by {:.4f} m at {:.2f} s", robot.links[close.front().link].name,
+            robot.links[close.front().other].name, -close.front().distance, knot.t));
+      }
+      visit(kinematics.X_WL());
+    }
+  }
+}
+
+SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& stance,
+                        const GaitMotion& gait, const PlanarPose& displacement,
+                        const std::function<bool()>& keep_going) {
+  SweptVolume volume;
+  const PlanarPose start;
+  try {
+    SampleMotion(robot, gait.Phases({start, displacement}, 0, 1), stance.q, keep_going,
+                 [&](const std::vector<Eigen::Isometry3d>& X_WL) {
+                   volume.Add(robot, X_WL, GaitMotion::StrideFrame(start, displacement));
+                 });
+  } catch (const MotionError& error) {
+    throw InputError(fmt::format(
+        "{}: gaits.{}.parameters: the stride ({:.3f} m, {:.3f} m, {:.3f} rad) is not possible: {}",
+        robot.file.string(), stance.gait->name, displacement.x, displacement.y, displacement.yaw,
+        error.what()));
+  }
+  return volume;
+}
+
+/// Whether one box around both holds little more than they do. Empty ones add nothing.
+bool AddsLittle(const AlignedBox3d& a, const AlignedBox3d& b) {
+  if (a.isEmpty() || b.isEmpty()) return true;
+  return a.merged(b).volume() <= (1 + kMergeSlack) * (a.volume() + b.volume());
+}
+
+}  // namespace
+
+void SweptVolume::Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
+                      const PlanarPose& frame) {
+  const Eigen::Isometry3d X_FW = frame.At(0).inverse();
+  for (int link = 0; link < robot.num_links(); ++link) {
+    for (const models::PosedShape& posed : robot.links[link].shapes) {
+      const AlignedBox3d bounds = posed.shape.Bounds(X_FW * X_WL[link] * posed.X_PS);
+      const int first = std::max(0, static_cast<int>(std::floor(bounds.min().z() / kSlabHeight)));
+      const int last = static_cast<int>(std::floor(bounds.max().z() / kSlabHeight));
+      if (last >= static_cast<int>(slabs_.size())) slabs_.resize(last + 1);
+      for (int slab = first; slab <= last; ++slab) {
+        AlignedBox3d part = bounds;
+        part.min().z() = std::max(part.min().z(), slab * kSlabHeight);
+        part.max().z() = std::min(part.max().z(), (slab + 1) * kSlabHeight);
+        slabs_[slab].extend(part);
+      }
+    }
+  }
+}
+
+void SweptVolume::Add(const SweptVolume& other) {
+  if (other.slabs_.size() > slabs_.size()) slabs_.resize(other.slabs_.size());
+  for (size_t slab = 0; slab < other.slabs_.size(); ++slab) slabs_[slab].extend(other.slabs_[slab]);
+}
+
+std::vector<AlignedBox3d> SweptVolume::Boxes() const {
+  return BoxesOf({*this}, {kSamplingMargin}).front();
+}
+
+std::vector<std::vector<AlignedBox3d>> SweptVolume::BoxesOf(const std::vector<SweptVolume>& volumes,
+                                                            const std::vector<double>& margins) {
+  std::vector<std::vector<AlignedBox3d>> boxes(volumes.size());
+  size_t slabs = 0;
+  for (const SweptVolume& volume : volumes) slabs = std::max(slabs, volume.slabs_.size());
+  for (size_t slab = 0; slab < slabs; ++slab) {
+    std::vector<AlignedBox3d> grown;
+    bool merges = slab > 0;
+    for (size_t i = 0; i < volumes.size(); ++i) {
+      grown.push_back(volumes[i].Grown(slab, margins[i]));
+      merges = merges && AddsLittle(boxes[i].back(), grown.back());
+    }
+    for (size_t i = 0; i < volumes.size(); ++i) {
+      if (merges) {
+        boxes[i].back().extend(grown[i]);
+      } else {
+        boxes[i].push_back(grown[i]);
+      }
+    }
+  }
+  for (std::vector<AlignedBox3d>& list : boxes) {
+    std::erase_if(list, [](const AlignedBox3d& box) { return box.isEmpty(); });
+  }
+  return boxes;
+}
+
+AlignedBox3d SweptVolume::Grown(size_t slab, double margin) const {
+  AlignedBox3d grown = slab < slabs_.size() ? slabs_[slab] : AlignedBox3d();
+  if (grown.isEmpty()) return grown;
+  grown.min().array() -= margin;
+  grown.max().array() += margin;
+  grown.min().z() = std::max(grown.min().z(), kGroundGap);
+  return grown;
+}
+
+GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
+                      const std::function<bool()>& keep_going) {
+  const GaitMotion gait(robot, stance);
+  std::vector<SweptVolume> volumes(kStrideClasses.size() + 1);
+  std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
+  for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
+    const SweptVolume swept = SweepStride(robot, stance, gait, displacement, keep_going);
+    for (size_t i = 0; i < kStrideClasses.size(); ++i) {
+      if (Includes(kStrideClasses[i], displacement)) volumes[i].Add(swept);
+    }
+  }
+  dynamics::TreeKinematics kinematics(robot);
+  kinematics.SetPosition(stance.q);
+  volumes.back().Add(robot, kinematics.X_WL(), PlanarPose());
+  margins.push_back(SweptVolume::kStandingMargin);
+
+  std::vector<std::vector<AlignedBox3d>> boxes = SweptVolume::BoxesOf(volumes, margins);
+  GaitVolumes result;
+  result.standing = std::move(boxes.back());
+  std::move(boxes.begin(), boxes.end() - 1, result.sweeps.begin());
+  return result;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "actions/gait/gait_motion.h"
+#include "actions/gait/stride.h"
+#include "actions/motion/motion_builder.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// Boxes in a stance frame, one per slab of height, that hold every link of the robot during the
+/// motions they were computed from. They start `kGroundGap` above the ground, which the soles
+/// touch.
+class SweptVolume {
+ public:
+  /// Added on every side: motions are sampled in time and displacement, the robot moves on between
+  /// the samples. The property tests of C_S hold this figure to account.
+  static constexpr double kSamplingMargin = 0.005;
+  /// The same for a posture, which does not move.
+  static constexpr double kStandingMargin = 0.002;
+  static constexpr double kGroundGap = 0.001;
+  static constexpr double kSlabHeight = 0.1;
+
+  /// Adds the links at the poses `X_WL`, seen from `frame` on ground of height 0.
+  void Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
+           const PlanarPose& frame);
+  void Add(const SweptVolume& other);
+
+  /// Merges neighbouring slabs where that adds little volume, and adds the sampling margin.
+  std::vector<Eigen::AlignedBox3d> Boxes() const;
+
+  /// One list of boxes per volume, with `margins[i]` (m) on every side of volume i. Neighbouring
+  /// slabs are merged in all volumes or in none, so that the boxes of a volume that lies inside
+  /// another one lie inside that one's, too.
+  static std::vector<std::vector<Eigen::AlignedBox3d>> BoxesOf(
+      const std::vector<SweptVolume>& volumes, const std::vector<double>& margins);
+
+ private:
+  Eigen::AlignedBox3d Grown(std::size_t slab, double margin) const;
+
+  std::vector<Eigen::AlignedBox3d> slabs_;
+};
+
+/// What a gait needs room for.
+struct GaitVolumes {
+  /// The nominal posture, in the stance frame.
+  std::vector<Eigen::AlignedBox3d> standing;
+  /// By class: every stride of the class that the bounds allow, in StrideFrame. Each holds
+  /// `standing` wherever it may be moved by half such a stride without a turn.
+  std::array<std::vector<Eigen::AlignedBox3d>, kStrideClasses.size()> sweeps;
+
+  const std::vector<Eigen::AlignedBox3d>& sweep(StrideClass strides) const {
+    return sweeps[static_cast<std::size_t>(strides)];
+  }
+};
+
+/// @throws InputError naming the stride if the robot cannot execute one of the bounds' extremes
+///   within its limits, without colliding with itself; Abandoned if `keep_going` (may be empty)
+///   says no.
+GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
+                      const std::function<bool()>& keep_going = {});
+
+}  // namespace possibility::actions

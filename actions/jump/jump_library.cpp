@@ -1,0 +1,162 @@
+#include "actions/jump/jump_library.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "actions/sagittal/motion_identity.h"
+#include "collocation/study/stored_solution_reader.h"
+#include "collocation/study/stored_solution_writer.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "models/input/atomic_file.h"
+#include "models/input/file_contents.h"
+#include "models/input/input_error.h"
+#include "models/input/json_cursor.h"
+
+namespace possibility::actions {
+namespace {
+
+constexpr const char* kFormat = "possibility-jumps/1";
+constexpr const char* kReachFile = "reach.json";
+constexpr double kSame = 1e-9;  // m
+
+/// Nobody jumps farther than a body does that leaves the ground as fast as stretching legs could
+/// at their joints' greatest speeds: up by the legs' length in all, v = sum of speed * length.
+JumpReach OptimisticReach(const SagittalModel& model) {
+  const SagittalModel::Limb& leg = model.leg();
+  double fastest = 0;
+  for (const double speed : model.planar()->velocity()) {
+    if (std::isfinite(speed)) fastest = std::max(fastest, speed);
+  }
+  const double speed = fastest * leg.length;
+  const double rise = speed * speed / (2 * dynamics::kGravity);
+  const double range = speed * speed / dynamics::kGravity + 2 * leg.length;
+  return {{{-rise, JumpLibrary::kDistanceStep, range}, {rise, JumpLibrary::kDistanceStep, range}}};
+}
+
+}  // namespace
+
+bool JumpReach::Allows(const JumpTask& task) const {
+  const auto distances = Distances(task.height);
+  return distances && task.distance >= distances->first - kSame &&
+         task.distance <= distances->second + kSame;
+}
+
+std::optional<std::pair<double, double>> JumpReach::Distances(double height) const {
+  std::optional<std::pair<double, double>> result;
+  const auto join = [&result](const Row& row) {
+    if (row.farthest < row.shortest) return;
+    if (!result) result = {row.shortest, row.farthest};
+    result->first = std::min(result->first, row.shortest);
+    result->second = std::max(result->second, row.farthest);
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool at_row = std::abs(rows[i].height - height) < kSame;
+    const bool before =
+        i + 1 < rows.size() && rows[i].height < height && rows[i + 1].height > height;
+    const bool after = i > 0 && rows[i - 1].height < height && rows[i].height > height;
+    if (at_row || before || after) join(rows[i]);
+  }
+  return result;
+}
+
+JumpLibrary::JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
+                         const std::filesystem::path& folder, Use use)
+    : solver_(solver),
+      identity_(JumpIdentity(robot, solver.settings())),
+      folder_(MotionFolder(folder, identity_)),
+      use_(use),
+      reach_(OptimisticReach(solver.model())) {
+  if (!folder_.empty()) ReadReach();
+}
+
+JumpTask JumpLibrary::OnGrid(const JumpTask& task) {
+  return {kDistanceStep * std::round(task.distance / kDistanceStep),
+          kHeightStep * std::round(task.height / kHeightStep)};
+}
+
+JumpLibrary::Key JumpLibrary::KeyOf(const JumpTask& task) {
+  return {static_cast<int>(std::lround(task.distance / kDistanceStep)),
+          static_cast<int>(std::lround(task.height / kHeightStep))};
+}
+
+std::optional<JumpAnswer> JumpLibrary::Find(const JumpTask& task) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = answers_.find(KeyOf(task));
+    if (known != answers_.end()) return known->second;
+  }
+  if (folder_.empty() || use_ == Use::kReachAlone || !std::filesystem::exists(FileOf(task))) {
+    return std::nullopt;
+  }
+  JumpAnswer answer;
+  try {
+    answer = solver_.Realise(OnGrid(task), collocation::ReadSolution(FileOf(task)));
+  } catch (const std::exception&) {
+    // What cannot be read is solved again.
+    return std::nullopt;
+  }
+  if (!answer.jump) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  return answers_.emplace(KeyOf(task), answer).first->second;
+}
+
+JumpAnswer JumpLibrary::FindOrSolve(const JumpTask& task, collocation::SolveControl* control) {
+  if (auto known = Find(task)) return *known;
+  JumpAnswer answer = solver_.Solve(OnGrid(task), control);
+  if (answer.cancelled) return answer;
+  const std::lock_guard lock(mutex_);
+  return answers_.emplace(KeyOf(task), answer).first->second;
+}
+
+std::filesystem::path JumpLibrary::FileOf(const JumpTask& task) const {
+  const auto [distance, height] = KeyOf(task);
+  return folder_ / fmt::format("jump_{}_{}.json", distance, height);
+}
+
+void JumpLibrary::Save(const JumpAnswer& answer, const JumpTask& task) const {
+  if (folder_.empty() || !answer.solution) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  collocation::WriteSolution(FileOf(task), *answer.solution);
+}
+
+void JumpLibrary::SaveReach(const JumpReach& reach) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const JumpReach::Row& row : reach.rows) {
+    rows.push_back({row.height, row.shortest, row.farthest});
+  }
+  const nlohmann::json document = {{"format", kFormat}, {"identity", identity_}, {"reach", rows}};
+  models::WriteAtomically(folder_ / kReachFile, document.dump(1) + "\n");
+}
+
+void JumpLibrary::ReadReach() {
+  const std::filesystem::path file = folder_ / kReachFile;
+  if (!std::filesystem::exists(file)) return;
+  const nlohmann::json document =
+      models::ParseJson(models::ReadFileContents(file), file, "a jump library");
+  const models::JsonCursor root(document, file);
+  root.ExpectFormat(kFormat);
+  root.ExpectKeys({"format", "identity", "reach"});
+  if (root["identity"].String() != identity_) return;
+  JumpReach reach;
+  const models::JsonCursor rows = root["reach"];
+  for (std::size_t i = 0; i < rows.ArraySize(); ++i) {
+    const models::JsonCursor row = rows[i];
+    if (row.ArraySize() != 3) row.Fail("expected height, shortest and farthest distance");
+    reach.rows.push_back(
+        {row[std::size_t{0}].Number(), row[std::size_t{1}].Number(), row[std::size_t{2}].Number()});
+    if (i > 0 && reach.rows[i].height <= reach.rows[i - 1].height)
+      row[std::size_t{0}].Fail("must ascend");
+  }
+  if (reach.rows.empty()) return;
+  reach_ = std::move(reach);
+  reach_is_derived_ = true;
+}
+
+}  // namespace possibility::actions

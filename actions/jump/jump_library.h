@@ -1,0 +1,88 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "actions/jump/jump_solver.h"
+
+namespace possibility::actions {
+
+/// Which distances a robot can jump, by height of the landing: derived by solving.
+struct JumpReach {
+  struct Row {
+    double height = 0;  ///< m
+    double shortest = 0;
+    double farthest = 0;  ///< m; below `shortest`: none
+  };
+  std::vector<Row> rows;  ///< ascending in height; between two, whatever either of them can
+
+  /// Whether the table lets a jump seem possible: errs towards yes between its rows, and knows
+  /// nothing (no) beyond its first and last.
+  bool Allows(const JumpTask& task) const;
+  /// The least and the greatest distance at a height; none if nothing can be jumped there.
+  std::optional<std::pair<double, double>> Distances(double height) const;
+};
+
+/// Solved jumps, on a grid of distances and of heights: those of this run, and those of a folder
+/// that earlier runs and `possibility library` filled. Each robot has a part of the folder of its
+/// own, and a new one when anything changes that its jumps depend on. Safe to share between
+/// threads.
+class JumpLibrary {
+ public:
+  static constexpr double kDistanceStep = 0.05;  ///< m
+  static constexpr double kHeightStep = 0.001;   ///< m: grounds are where they are
+
+  enum class Use {
+    kAll,
+    kReachAlone,  ///< the folder's jumps are not read: each is solved once in a run
+  };
+
+  /// `solver` must outlive it. `folder`: empty for none; need not exist.
+  JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
+              const std::filesystem::path& folder, Use use = Use::kAll);
+
+  /// The nearest task on the grid.
+  static JumpTask OnGrid(const JumpTask& task);
+
+  /// What is known of a task on the grid without solving; none if nothing is.
+  std::optional<JumpAnswer> Find(const JumpTask& task);
+  /// The same, or solves; keeps the answer unless it was cancelled. Two threads that ask for the
+  /// same jump may both solve it.
+  JumpAnswer FindOrSolve(const JumpTask& task, collocation::SolveControl* control = nullptr);
+
+  const JumpSolver& solver() const { return solver_; }
+
+  /// The table of the folder; if it has none, an optimistic bound from joint speeds and limb
+  /// lengths alone.
+  const JumpReach& reach() const { return reach_; }
+  /// Where this robot's jumps are; empty if nowhere.
+  const std::filesystem::path& folder() const { return folder_; }
+  bool reach_is_derived() const { return reach_is_derived_; }
+
+  /// Writes an answer and the table into the folder. @throws InputError if that fails.
+  void Save(const JumpAnswer& answer, const JumpTask& task) const;
+  void SaveReach(const JumpReach& reach) const;
+
+ private:
+  using Key = std::pair<int, int>;
+  static Key KeyOf(const JumpTask& task);
+  std::filesystem::path FileOf(const JumpTask& task) const;
+  void ReadReach();
+
+  const JumpSolver& solver_;
+  std::string identity_;  ///< of robot and settings
+  std::filesystem::path folder_;
+  Use use_;
+  JumpReach reach_;
+  bool reach_is_derived_ = false;
+  std::mutex mutex_;
+  std::map<Key, JumpAnswer> answers_;
+};
+
+}  // namespace possibility::actions

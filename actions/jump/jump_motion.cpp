@@ -1,0 +1,181 @@
+#include "actions/jump/jump_motion.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "actions/motion/free_flight.h"
+#include "actions/motion/phase_sequence.h"
+#include "actions/motion/toe_roll.h"
+#include "dynamics/contact/contact_feasibility.h"
+#include "dynamics/forward/forward_dynamics.h"
+
+namespace possibility::actions {
+namespace {
+
+using collocation::PhaseTrajectory;
+using Eigen::VectorXd;
+
+// Where nothing but dynamics holds the robot, between the knots as well, s.
+constexpr double kRollSpacing = 0.0025;
+constexpr double kFlightSpacing = 0.005;
+
+/// Rise and descent meet in position and speed only; a quintic leads from so long before to so long
+/// after, s. No interpolation between knots could follow a leap of the acceleration.
+constexpr double kApexBlend = 0.02;
+
+int Intervals(double duration, double spacing) {
+  return std::max(4, static_cast<int>(std::ceil(duration / spacing - 1e-9)));
+}
+
+/// x at which change(x) = 0 (Broyden 1965, his first method), from a guess at which moving by
+/// `change` is a fair step. @throws MotionError if there is none near.
+VectorXd FixedPoint(const std::function<VectorXd(const VectorXd&)>& change, VectorXd x) {
+  constexpr double kTolerance = 1e-10;
+  constexpr int kMostRounds = 40;
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(x.size(), x.size());
+  VectorXd value = change(x);
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (value.lpNorm<Eigen::Infinity>() < kTolerance) return x;
+    const VectorXd step = inverse * value;
+    x += step;
+    const VectorXd next = change(x);
+    // With J the negative Jacobian of `change`: J step = value - next.
+    const VectorXd mapped = inverse * (value - next);
+    const double scale = step.dot(mapped);
+    if (scale == 0) break;
+    inverse += (step - mapped) * (step.transpose() * inverse) / scale;
+    value = next;
+  }
+  throw MotionError("the landing cannot be corrected in flight");
+}
+
+}  // namespace
+
+JumpMotion::JumpMotion(const models::RobotModel& robot, const SagittalModel& model,
+                       const NominalStance& launch, const NominalStance& landing)
+    : stance_(robot, model, launch, landing), spatial_(dynamics::MultibodyModel::Spatial(robot)) {}
+
+std::vector<Phase> JumpMotion::Realise(const JumpProblem& problem,
+                                       const collocation::Trajectory& trajectory,
+                                       JumpMotionReport* report) {
+  JumpMotionReport unused;
+  if (!report) report = &unused;
+  const auto& plans = trajectory.phases;
+  const JumpTask& task = problem.task();
+  const Support feet = stance_.LandingFeet(task.distance, task.height);
+  const Support all = stance_.LandingAll(task.distance, task.height);
+  std::vector<Phase> motion;
+  const auto last = [&motion]() -> const Knot& { return motion.back().knots.back(); };
+  Append(stance_.Prepare(), &motion);
+  const PhaseTrajectory& crouch = plans[JumpProblem::kCrouch];
+  Append(stance_.Follow(crouch, stance_.PlannedKnot(crouch, 0), stance_.LaunchFeet()), &motion);
+  Append(RollOverToes(plans[JumpProblem::kToes], last()), &motion);
+  Append(Fly(plans[JumpProblem::kRise], plans[JumpProblem::kDescent], last(), feet, report),
+         &motion);
+  RequireLimits(motion.back(), problem.settings().limits.max_base_speed);
+  Eigen::Matrix3Xd impulses;
+  const Knot after = AfterImpact(last(), feet, &impulses, report);
+  Append(stance_.FollowUntilPlaced(plans[JumpProblem::kSettle], after, feet, all), &motion);
+  motion.back().impulses = impulses;
+  Append(stance_.Follow(plans[JumpProblem::kLanding], last(), all), &motion);
+  return motion;
+}
+
+Phase JumpMotion::RollOverToes(const PhaseTrajectory& plan, const Knot& from) const {
+  const int n = stance_.robot().num_joints();
+  const double duration = plan.duration;
+  const Signal<VectorXd> planned = stance_.Joints(plan, 0);
+  // Inverse kinematics has placed the legs; the plan's own joints are a mesh error away.
+  const VectorXd offset = from.q.tail(n) - planned.value;
+  const VectorXd drift = from.v.tail(n) - planned.rate;
+  const JointMotion joints = [&](double t) {
+    return stance_.Joints(plan, t) + DyingOut(offset, drift, t, duration);
+  };
+  const Support toes = stance_.Toes();
+  Phase phase;
+  phase.contacts = toes.names;
+  phase.knots = ToeRoll(spatial_, toes.points, stance_.settings())
+                    .Roll(from.q, from.v, joints, duration, Intervals(duration, kRollSpacing));
+  return phase;
+}
+
+Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descent, const Knot& from,
+                      const Support& feet, JumpMotionReport* report) {
+  const int n = stance_.robot().num_joints();
+  const double duration = rise.duration + descent.duration;
+  const int intervals = Intervals(duration, kFlightSpacing);
+  VectorXd correction = VectorXd::Zero(n);
+  const double blend = std::min({kApexBlend, rise.duration / 2, descent.duration / 2});
+  const Signal<VectorXd> before = stance_.Joints(rise, rise.duration - blend);
+  const Signal<VectorXd> after = stance_.Joints(descent, blend);
+  const auto plan = [&](double t) {
+    const double past_apex = t - rise.duration;
+    if (past_apex < -blend) return stance_.Joints(rise, t);
+    if (past_apex > blend) return stance_.Joints(descent, past_apex);
+    return Quintic(before, after, past_apex + blend, 2 * blend);
+  };
+  const JointMotion joints = [&](double t) {
+    const Signal<VectorXd> planned = plan(t);
+    const VectorXd none = VectorXd::Zero(n);
+    return planned + BlendVector<VectorXd>(none, correction, RestToRest(t, duration));
+  };
+  FreeFlight flight(spatial_);
+  flight.TakeOff(from.q, from.v);
+  const auto change = [&](const VectorXd& tried) -> VectorXd {
+    correction = tried;
+    const Knot landing = flight.Land(joints, duration, intervals);
+    return (stance_.StateAt(landing, feet).q - landing.q).tail(n);
+  };
+  correction = FixedPoint(change, correction);
+  report->landing_correction = correction.lpNorm<Eigen::Infinity>();
+  Phase phase;
+  phase.knots = flight.Fly(joints, duration, intervals);
+  return phase;
+}
+
+void JumpMotion::RequireLimits(const Phase& flight, double max_base_speed) const {
+  const models::RobotModel& robot = stance_.robot();
+  const MotionSettings& settings = stance_.settings();
+  for (const Knot& knot : flight.knots) {
+    RequireJointLimits(robot, knot.q, knot.v, settings.speed_margin, knot.t);
+    const double base_speed = knot.v.segment<3>(3).norm();
+    if (base_speed > settings.speed_margin * max_base_speed) {
+      throw MotionError(
+          fmt::format("the root flies at {:.1f} m/s at {:.2f} s of the flight, faster "
+                      "than {:.1f}",
+                      base_speed, knot.t, settings.speed_margin * max_base_speed));
+    }
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      if (std::abs(knot.tau[j]) > settings.torque_margin * robot.joints[j].effort) {
+        throw MotionError(fmt::format("{} needs {:.1f} at {:.2f} s of the flight, more than {:.1f}",
+                                      robot.joints[j].name, knot.tau[j], knot.t,
+                                      settings.torque_margin * robot.joints[j].effort));
+      }
+    }
+  }
+}
+
+Knot JumpMotion::AfterImpact(const Knot& touchdown, const Support& support,
+                             Eigen::Matrix3Xd* impulses, JumpMotionReport* report) const {
+  dynamics::ForwardDynamics dynamics(spatial_);
+  dynamics.SetState(touchdown.q, touchdown.v);
+  const dynamics::Impact impact = dynamics.Hit(support.points);
+  const dynamics::ImpulseFeasibility feasibility =
+      dynamics::CheckImpact(&dynamics, impact, support.points, stance_.robot().friction);
+  report->impact_friction = std::max(report->impact_friction, feasibility.friction_fraction);
+  report->energy_lost += impact.energy_lost;
+  if (!feasibility.feasible) {
+    throw MotionError(fmt::format("the impact of {} needs {:.2f} of the friction there is",
+                                  fmt::join(support.names, ", "), feasibility.friction_fraction));
+  }
+  *impulses = feasibility.impulses;
+  Knot after = touchdown;
+  after.v = impact.velocity;
+  return after;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "actions/jump/jump_problem.h"
+#include "actions/plan/plan.h"
+#include "actions/sagittal/stance_motion.h"
+#include "collocation/transcription/transcription.h"
+
+namespace possibility::actions {
+
+/// How well a jump of the whole robot keeps what the sagittal one promised.
+struct JumpMotionReport {
+  double landing_correction = 0;  ///< rad: greatest change of a joint that brings feet and hands to
+                                  ///< their places in spite of the robot's asymmetry
+  double impact_friction = 0;  ///< greatest fraction of the friction coefficient that impacts need
+  double energy_lost = 0;      ///< J, in all impacts
+};
+
+/// A sagittal jump turned into motion of the whole robot, whose halves are never quite mirror
+/// images: soles and pegs held exactly where they stand, flight with the momentum of the whole
+/// robot, impact by its own mass matrix. Everything is relative to the launch stance's frame.
+class JumpMotion {
+ public:
+  /// All must outlive it.
+  JumpMotion(const models::RobotModel& robot, const SagittalModel& model,
+             const NominalStance& launch, const NominalStance& landing);
+
+  /// From rest in the launch stance to rest in the landing stance; times start at 0.
+  /// @throws MotionError naming what the whole robot cannot do.
+  std::vector<Phase> Realise(const JumpProblem& problem, const collocation::Trajectory& trajectory,
+                             JumpMotionReport* report = nullptr);
+
+ private:
+  Phase RollOverToes(const collocation::PhaseTrajectory& plan, const Knot& from) const;
+  Phase Fly(const collocation::PhaseTrajectory& rise, const collocation::PhaseTrajectory& descent,
+            const Knot& from, const Support& feet, JumpMotionReport* report);
+  void RequireLimits(const Phase& flight, double max_base_speed) const;
+  /// The impact of `support` at a touchdown: velocities after it and impulses in the cones.
+  Knot AfterImpact(const Knot& touchdown, const Support& support, Eigen::Matrix3Xd* impulses,
+                   JumpMotionReport* report) const;
+
+  StanceMotion stance_;
+  std::shared_ptr<const dynamics::MultibodyModel> spatial_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,156 @@
+#include "actions/jump/jump_problem.h"
+
+#include <fmt/format.h>
+
+#include "actions/sagittal/motion_identity.h"
+#include "collocation/problem/function.h"
+#include "collocation/robot/balance_functions.h"
+#include "collocation/robot/multibody_functions.h"
+#include "collocation/robot/point_functions.h"
+
+namespace possibility::actions {
+namespace {
+
+using collocation::At;
+using collocation::Bounds;
+using collocation::Differentiated;
+using collocation::EndVariable;
+using collocation::kInfinity;
+using collocation::PointVelocities;
+using collocation::Variable;
+
+constexpr Bounds kZero = {0, 0};
+constexpr double kImpulse = 10;  // N s, typical
+
+}  // namespace
+
+std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings) {
+  return MotionIdentity(robot, settings,
+                        {settings.min_stance_pitch, settings.max_stance_pitch,
+                         settings.max_contact_speed, settings.leg_reach});
+}
+
+JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
+                         const JumpSettings& settings)
+    : SagittalProblem(fmt::format("jump of {:.3f} m by {:.3f} m", task.distance, task.height),
+                      model, task.distance, task.height, settings) {
+  AddPhases();
+  Push(settings);
+  Fly(settings);
+  Land(settings);
+  for (int phase = 0; phase < kNumPhases; ++phase) {
+    const At at = phase == kCrouch ? At::kAfterStart : At::kEverywhere;
+    KeepBodyAbove(phase, at);
+    StayWithinRanges(phase, at);
+  }
+  AddCosts();
+  GuessMotion();
+}
+
+void JumpProblem::AddPhases() {
+  AddPhase("crouch", Feet(), {0.3, 1.0});
+  AddPhase("toes", {model_.toe()}, {0.03, 0.25});
+  AddPhase("rise", {}, {0.03, kLongestHalfFlight});
+  AddPhase("descent", {}, {0.03, kLongestHalfFlight});
+  AddPhase("settle", Feet(), {0.03, 1.2});
+  AddPhase("landing", FeetAndHands(), {0.3, 1.5});
+  for (int phase = 1; phase < kNumPhases; ++phase) {
+    collocation::ContinueSagittally(&problem_, phases_[phase - 1], phases_[phase],
+                                    phase != kSettle);
+  }
+}
+
+void JumpProblem::Push(const JumpSettings& settings) {
+  StartAtRest(kCrouch);
+  HoldSoles(kCrouch, At::kAfterStart);
+  HoldPoints(kToes, {kZero, kZero}, At::kAfterStart);
+  StartHeld(kToes, {kZero, kZero});
+  KeepAbove(kToes, "heels", {model_.heel()}, 0, At::kAfterStart);
+  for (const int phase : {kCrouch, kToes}) {
+    phases_[phase].phase->Bound(phases_[phase].q[0],
+                                {settings.min_stance_pitch, settings.max_stance_pitch});
+    KeepAbove(phase, "hands", model_.hands(), settings.hand_clearance,
+              phase == kCrouch ? At::kAfterStart : At::kEverywhere);
+  }
+}
+
+void JumpProblem::Fly(const JumpSettings& settings) {
+  problem_.Link("halves of the flight",
+                Differentiated<2, 1>([](const auto& t, auto* y) { (*y)[0] = t[0] - t[1]; }),
+                {{phases_[kRise].phase->duration(), At::kStart},
+                 {phases_[kDescent].phase->duration(), At::kStart}},
+                {kZero});
+  KeepAbove(kRise, "feet", Feet(), 0, At::kAfterStart);
+  KeepAbove(kRise, "hands", model_.hands(), settings.hand_clearance, At::kEverywhere);
+  KeepAbove(kDescent, "feet", Feet(), 0, At::kInside);
+  KeepHandsAbove(kDescent, settings.hand_approach, At::kInside);
+}
+
+void JumpProblem::Land(const JumpSettings& settings) {
+  const collocation::SagittalPhase& descent = phases_[kDescent];
+  const double speed = settings.max_contact_speed;
+  descent.phase->Constrain("touchdown speed", PointVelocities(model_.planar(), Feet()),
+                           descent.State(), {{-speed, speed}}, At::kEnd);
+  StartPlaced(kSettle, 0);
+  AddImpact();
+  KeepBent(kSettle, "leg", model_.leg(), settings.leg_reach, At::kStart);
+  StartHeld(kSettle, HeldSoles());
+  HoldSoles(kSettle, At::kEverywhere);
+  KeepHandsAbove(kSettle, settings.hand_approach, At::kBeforeEnd);
+  // The feet are where they are; the hands are set down at no speed.
+  StartPlaced(kLanding, 2);
+  StartHeld(kLanding, HeldSolesAnd(model_.hands().size()));
+  HoldFeetAndHands(kLanding, At::kBeforeEnd);
+  EndAtRest(kLanding);
+}
+
+void JumpProblem::AddImpact() {
+  const collocation::SagittalPhase& before = phases_[kDescent];
+  const collocation::SagittalPhase& after = phases_[kSettle];
+  const double friction = settings_.limits.friction * settings_.limits.friction_fraction;
+  std::vector<EndVariable> impact;
+  for (const Variable& q : after.q) impact.push_back({q, At::kStart});
+  for (const Variable& v : before.v) impact.push_back({v, At::kEnd});
+  for (const Variable& v : after.v) impact.push_back({v, At::kStart});
+  for (std::size_t i = 0; i < after.points.size(); ++i) {
+    const std::string name = fmt::format("impulse {}", i);
+    const Variable x = problem_.AddParameter(name + " x", {-200, 200}, kImpulse);
+    const Variable z = problem_.AddParameter(name + " z", {0, 300}, kImpulse, kImpulse);
+    problem_.Link(name + " cone", Differentiated<2, 2>([friction](const auto& f, auto* g) {
+                    (*g)[0] = (friction * f[1] + f[0]) / kImpulse;
+                    (*g)[1] = (friction * f[1] - f[0]) / kImpulse;
+                  }),
+                  {{x, At::kStart}, {z, At::kStart}}, {{0, kInfinity}});
+    // Impulses along one sole can be shared out in many ways; the least are as good as any.
+    problem_.AddCost(name, Differentiated<2, 1>([](const auto& f, auto* y) {
+                       (*y)[0] = (f[0] * f[0] + f[1] * f[1]) / (100 * kImpulse * kImpulse);
+                     }),
+                     {{x, At::kStart}, {z, At::kStart}});
+    for (const Variable& impulse : {x, z}) {
+      impulses_.push_back(impulse);
+      impact.push_back({impulse, At::kStart});
+    }
+  }
+  problem_.Link("impact", collocation::ImpactMap(model_.planar(), after.points), impact, {kZero});
+}
+
+void JumpProblem::GuessMotion() {
+  // Straight lines from stance to stance, most of the way in the air.
+  GuessLine(kCrouch, 0.8, 0, 0);
+  GuessLine(kToes, 0.12, 0, 0.1);
+  GuessLine(kRise, 0.17, 0.1, 0.5);
+  GuessLine(kDescent, 0.17, 0.5, 0.8);
+  GuessLine(kSettle, 0.2, 0.8, 1);
+  GuessLine(kLanding, 0.6, 1, 1);
+}
+
+Eigen::Matrix2Xd JumpProblem::Impulses(const collocation::Trajectory& trajectory) const {
+  Eigen::Matrix2Xd impulses(2, phases_[kSettle].points.size());
+  for (std::size_t i = 0; i < impulses_.size(); ++i) {
+    impulses(static_cast<int>(i % 2), static_cast<int>(i / 2)) =
+        trajectory.parameters[impulses_[i].index];
+  }
+  return impulses;
+}
+
+}  // namespace possibility::actions

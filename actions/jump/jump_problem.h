@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "actions/sagittal/sagittal_problem.h"
+#include "collocation/transcription/transcription.h"
+
+namespace possibility::actions {
+
+/// A jump in the plane: how far the stance frame moves, from launch to landing.
+struct JumpTask {
+  double distance = 0;  ///< m, forward
+  double height = 0;    ///< m, of the landing ground above the launch ground
+};
+
+struct JumpSettings : SagittalSettings {
+  double min_stance_pitch = -0.5;  ///< rad: lean backward at most, while the feet push
+  double max_stance_pitch = 1.1;   ///< rad: lean forward at most
+  /// m/s, along x and z, of what is about to touch down: a landing that is soft before the impact.
+  double max_contact_speed = 1.5;
+  /// Of a stretched leg's length, when the feet touch down: nearly straight legs take no impact.
+  double leg_reach = 0.93;
+};
+
+/// Hash of what solved jumps depend on (motion_identity.h).
+std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings);
+
+/// The sagittal jump as one optimal-control problem: crouch and push on the soles, push on the
+/// toes, rise, descend (equal times), inelastic impact of the feet, settling back on them until the
+/// hands are set down at no speed, and on until the robot rests in the landing stance.
+class JumpProblem : public SagittalProblem {
+ public:
+  enum PhaseIndex { kCrouch, kToes, kRise, kDescent, kSettle, kLanding, kNumPhases };
+  static constexpr double kLongestHalfFlight = 0.5;  ///< s, rise and descent each
+
+  /// `model` must outlive the problem.
+  JumpProblem(const SagittalModel& model, const JumpTask& task, const JumpSettings& settings);
+
+  JumpTask task() const { return {distance_, height_}; }
+  const SagittalSettings& settings() const { return settings_; }
+
+  /// Impulses of the feet's impact at heel and toe, x and z, N s.
+  Eigen::Matrix2Xd Impulses(const collocation::Trajectory& trajectory) const;
+
+ private:
+  void AddPhases();
+  void Push(const JumpSettings& settings);
+  void Fly(const JumpSettings& settings);
+  void Land(const JumpSettings& settings);
+  void AddImpact();
+  void GuessMotion();
+
+  std::vector<collocation::Variable> impulses_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,150 @@
+#include "actions/jump/jump_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "actions/sagittal/bare_ground.h"
+#include "collocation/study/optimal_control.h"
+
+namespace possibility::actions {
+namespace {
+
+/// Intervals per phase, times `fineness`.
+std::vector<int> Intervals(double fineness) {
+  constexpr std::array<int, JumpProblem::kNumPhases> kIntervals = {10, 4, 4, 4, 8, 8};
+  std::vector<int> intervals;
+  for (const int count : kIntervals) {
+    intervals.push_back(static_cast<int>(std::lround(fineness * count)));
+  }
+  return intervals;
+}
+
+/// A feasible jump needs 30 to 80 iterations; one that is not found in these is none worth having,
+/// on any mesh.
+constexpr int kMostIterations = 100;
+/// A coarse mesh first: where the whole robot does not follow it, the mesh may be to blame.
+constexpr std::array<double, 3> kFineness = {1, 1.5, 1.25};
+
+/// Between grounds of different heights, m.
+constexpr double kLeastGap = 0.01;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void Add(const collocation::SolverTimes& times, collocation::SolverTimes* sum) {
+  sum->total += times.total;
+  sum->functions += times.functions;
+  sum->derivatives += times.derivatives;
+  sum->factorisation += times.factorisation;
+  sum->back_solves += times.back_solves;
+  sum->rest += times.rest;
+}
+
+}  // namespace
+
+JumpSolver::JumpSolver(const models::RobotModel& robot, const NominalStance& launch,
+                       const NominalStance& landing, const JumpSettings& settings)
+    : robot_(robot),
+      launch_(launch),
+      landing_(landing),
+      settings_(settings),
+      model_(robot, launch, landing) {
+  settings_.limits.friction = robot.friction;
+}
+
+JumpAnswer JumpSolver::Solve(const JumpTask& task, collocation::SolveControl* control) const {
+  const Stopwatch stopwatch;
+  JumpAnswer answer;
+  const collocation::Bounds gap = GapBetween(model_, task.distance);
+  if (task.height != 0 && gap.upper - gap.lower < kLeastGap) {
+    answer.reason = fmt::format(
+        "a jump of {:.3f} m by {:.3f} m would land before the edge of the ground it leaves",
+        task.distance, task.height);
+    return answer;
+  }
+  for (const double fineness : kFineness) {
+    if (Attempt(task, fineness, control, &answer)) break;
+  }
+  answer.effort.total = stopwatch.seconds();
+  return answer;
+}
+
+bool JumpSolver::Attempt(const JumpTask& task, double fineness, collocation::SolveControl* control,
+                         JumpAnswer* answer) const {
+  const JumpProblem problem(model_, task, settings_);
+  collocation::OptimalControlOptions options;
+  options.intervals = Intervals(fineness);
+  options.solver.max_iterations = kMostIterations;
+  options.solver.tolerance = 1e-5;
+  options.solver.constraint_tolerance = 1e-7;
+  const collocation::OptimalControlResult result =
+      collocation::SolveOptimalControl(problem.problem(), options, std::nullopt, control);
+  ++answer->effort.attempts;
+  answer->effort.iterations += result.iterations;
+  Add(result.times, &answer->effort.solver);
+  if (result.status == collocation::SolverStatus::kCancelled) {
+    answer->cancelled = true;
+    return true;
+  }
+  if (!result.succeeded()) {
+    answer->reason = fmt::format("no jump of {:.3f} m by {:.3f} m: {}", task.distance, task.height,
+                                 result.message);
+    return true;
+  }
+  RealiseInSpace(problem, result.trajectory, true, answer);
+  if (answer->jump) answer->solution = collocation::Store(problem.problem(), result);
+  return answer->jump != nullptr;
+}
+
+JumpAnswer JumpSolver::Realise(const JumpTask& task,
+                               const collocation::StoredSolution& solution) const {
+  const Stopwatch stopwatch;
+  const JumpProblem problem(model_, task, settings_);
+  collocation::CheckSameQuantities(problem.problem(), solution);
+  JumpAnswer answer;
+  RealiseInSpace(problem, solution.trajectory, false, &answer);
+  if (answer.jump) answer.solution = solution;
+  answer.effort.total = stopwatch.seconds();
+  return answer;
+}
+
+std::string JumpSolver::FaultInSimulation(const SolvedJump& jump) const {
+  return FaultOnBareGround(robot_, model_, launch_, landing_, jump.task.distance, jump.task.height,
+                           jump.phases, true);
+}
+
+void JumpSolver::RealiseInSpace(const JumpProblem& problem,
+                                const collocation::Trajectory& trajectory, bool is_new,
+                                JumpAnswer* answer) const {
+  const Stopwatch stopwatch;
+  auto jump = std::make_shared<SolvedJump>();
+  jump->task = problem.task();
+  try {
+    JumpMotion motion(robot_, model_, launch_, landing_);
+    jump->phases = motion.Realise(problem, trajectory, &jump->report);
+    if (is_new) {
+      const std::string fault = FaultOnBareGround(
+          robot_, model_, launch_, landing_, jump->task.distance, jump->task.height, jump->phases);
+      if (!fault.empty()) throw MotionError(fault);
+    }
+    answer->jump = std::move(jump);
+    answer->reason.clear();
+  } catch (const MotionError& error) {
+    answer->reason = fmt::format("the whole robot cannot follow a jump of {:.3f} m by {:.3f} m: {}",
+                                 problem.task().distance, problem.task().height, error.what());
+  }
+  answer->effort.realisation += stopwatch.seconds();
+}
+
+}  // namespace possibility::actions

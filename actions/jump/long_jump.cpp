@@ -1,0 +1,379 @@
+#include "actions/jump/long_jump.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "actions/conditions/exploration_pose.h"
+#include "actions/jump/jump_reach.h"
+#include "actions/jump/shared_jump_solve.h"
+#include "actions/motion/phase_sequence.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+
+/// Heights and positions of points in E agree when closer than this, m.
+constexpr double kSamePlace = 1e-6;
+/// Headings, rad.
+constexpr double kSameHeading = 1e-6;
+
+/// Apexes and points of parabolas that C_N looks at, m.
+constexpr double kRiseSpacing = 0.05;
+constexpr double kArcSpacing = 0.05;
+
+/// Ground this far to all sides is wide enough for every stance, m: what is narrower is looked at
+/// closely.
+constexpr double kWideGround = 0.4;
+
+bool SameTask(const JumpTask& a, const JumpTask& b) {
+  return std::abs(a.distance - b.distance) < kSamePlace &&
+         std::abs(a.height - b.height) < kSamePlace;
+}
+
+/// From any of the levels to any other, on the library's grid, ascending.
+std::vector<double> RisesOf(const std::vector<double>& levels) {
+  std::vector<double> rises;
+  for (const double from : levels) {
+    for (const double to : levels) rises.push_back(JumpLibrary::OnGrid({0, to - from}).height);
+  }
+  std::sort(rises.begin(), rises.end());
+  rises.erase(std::unique(rises.begin(), rises.end()), rises.end());
+  return rises;
+}
+
+}  // namespace
+
+LongJump::~LongJump() = default;
+
+/// Solves the jump unless it is known, then looks for collisions where it is to happen.
+class LongJump::Job : public graph::ConfirmationJob {
+ public:
+  Job(const LongJump& action, graph::PointPair edge, const Leap& leap)
+      : action_(action), edge_(std::move(edge)), leap_(leap) {}
+
+  graph::JobVerdict Run(graph::JobControl* control) override {
+    const std::optional<JumpAnswer> answer = action_.SolveOf(leap_.task)->Await(control);
+    if (!answer || answer->cancelled) return graph::JobVerdict::kUndecided;
+    if (answer->jump) return Place(answer->jump, control);
+    action_.RecordImpossible(leap_.task);
+    return Decide(false, answer->reason);
+  }
+
+  std::string reason() const override { return reason_; }
+
+ private:
+  graph::JobVerdict Place(std::shared_ptr<const SolvedJump> jump, graph::JobControl* control) {
+    const Solved solved = action_.Examined(std::move(jump));
+    if (!solved.hit.empty()) {
+      action_.RecordImpossible(leap_.task);
+      return Decide(false, solved.hit);
+    }
+    const std::string hit = FirstHit(
+        *action_.model().robot, *action_.world().environment, *action_.checker(), *solved.poses,
+        leap_.launch.pose.At(leap_.launch.z), [&] { return control->Checkpoint(); });
+    if (!control->Checkpoint()) return graph::JobVerdict::kUndecided;
+    return Decide(hit.empty(), hit);
+  }
+
+  graph::JobVerdict Decide(bool possible, const std::string& reason) {
+    reason_ = reason;
+    action_.Record(edge_, possible, reason);
+    return possible ? graph::JobVerdict::kConfirmed : graph::JobVerdict::kRefuted;
+  }
+
+  const LongJump& action_;
+  graph::PointPair edge_;
+  Leap leap_;
+  std::string reason_;
+};
+
+LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
+    : Manoeuvre(context, jump.name, context.model->GaitIndex(jump.from),
+                context.model->GaitIndex(jump.to)),
+      solver_(std::make_unique<JumpSolver>(*model().robot, model().gaits[from()]->stance,
+                                           model().gaits[to()]->stance)),
+      library_(std::make_unique<JumpLibrary>(
+          *model().robot, *solver_, context.library,
+          context.solved_motions ? JumpLibrary::Use::kAll : JumpLibrary::Use::kReachAlone)),
+      reach_(library_->reach_is_derived()
+                 ? library_->reach()
+                 : GuessReach(*solver_, RisesOf(world().ground->levels()))),
+      skip_growth_(context.settings.skip_jumps),
+      highest_rise_(BoundFlight(solver_->settings()).rise),
+      pelvis_checker_(*world().environment),
+      pelvis_(*model().robot, pelvis_checker_) {
+  for (const LocomotionModel::TransitionEntry& transition : model().transitions) {
+    if (transition.from == from() && transition.to == to()) transition_ = &transition;
+  }
+  const auto add = [this](const std::vector<Eigen::AlignedBox3d>& boxes, double x) {
+    for (const Eigen::AlignedBox3d& box : boxes) {
+      room_.extend(box.translated(Eigen::Vector3d(x, 0, 0)));
+    }
+  };
+  add(model().gaits[from()]->volumes.sweep(StrideClass::kStraight), 0);
+  add(model().gaits[to()]->volumes.sweep(StrideClass::kStraight), 0);
+  if (transition_ != nullptr) add(transition_->sweep, -transition_->motion->displacement().x);
+}
+
+bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double end) const {
+  const Vector2d middle = launch.pose * Vector2d((begin + end) / 2, 0);
+  const std::optional<int> level = world().ground->LevelAt(middle, launch.z, kSamePlace);
+  if (!level) return false;
+  const double half = (end - begin) / 2;
+  const double clearance = world().ground->Clearance(*level, middle);
+  if (clearance >= half + kWideGround) return true;
+  // Along a boundary that is just so far away, halves would go on being undecided.
+  if (clearance < kWideGround || half < kSamePlace) return false;
+  return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
+}
+
+bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
+  const double begin = -kWideGround;
+  const double end = distance + kWideGround;
+  const std::optional<int> level =
+      world().ground->LevelAt(launch.pose.position(), launch.z, kSamePlace);
+  if (!level) return false;
+  const bool one_face_holds = world().ground->OneFaceHolds(
+      *level, launch.pose * Vector2d(begin, 0), launch.pose * Vector2d(end, 0), kWideGround);
+  if (!one_face_holds && !GroundIsWide(launch, begin, end)) return false;
+  Eigen::AlignedBox3d box = room_;
+  box.extend(room_.translated(Eigen::Vector3d(distance, 0, 0)));
+  Isometry3d X_SB = Isometry3d::Identity();
+  X_SB.translation() = box.center();
+  return pelvis_checker_.IsFree(models::Shape::Box(box.sizes()), launch.pose.At(launch.z) * X_SB,
+                                0);
+}
+
+bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const {
+  if (transition_ == nullptr || std::abs(launch.z - landing.z) > kSamePlace) return false;
+  const double distance = (landing.pose.position() - launch.pose.position()).norm();
+  if (WayIsOpen(launch, distance)) return true;
+  const PlanarPose& displacement = transition_->motion->displacement();
+  GroundedStance standing = launch;
+  standing.pose = landing.pose * displacement.Inverse();
+  GroundedStance sitting = landing;
+  sitting.pose = launch.pose * displacement;
+  const graph::Point a = PointOf(launch);
+  const graph::Point b = PointOf(landing);
+  const auto way = [&](const QuasiStaticAction& first, const graph::Point& via,
+                       const QuasiStaticAction& second) {
+    return first.CS(graph::PointPair{a, via}) && second.CS(graph::PointPair{via, b});
+  };
+  return way(launch_gait(), PointOf(standing), landing_gait()) ||
+         way(landing_gait(), PointOf(sitting), landing_gait());
+}
+
+std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
+                                                 bool forward) const {
+  std::optional<GroundedStance> best;
+  double longest = 0;
+  for (const double level : world().ground->levels()) {
+    const double height = forward ? level - stance.z : stance.z - level;
+    const auto reach = reach_.Distances(JumpLibrary::OnGrid({0, height}).height);
+    if (!reach) continue;
+    const double limit = std::min(distance, reach->second) + kSamePlace;
+    for (int i = static_cast<int>(limit / JumpLibrary::kDistanceStep);; --i) {
+      const double d = i * JumpLibrary::kDistanceStep;
+      if (d < reach->first - kSamePlace || d <= longest) break;
+      const GroundedStance end{forward ? to() : from(),
+                               stance.pose * PlanarPose{forward ? d : -d, 0, 0}, level};
+      if (!(forward ? landing_gait() : launch_gait()).GroundHolds(end, 0) ||
+          IsImpossible(JumpLibrary::OnGrid({d, height}))) {
+        continue;
+      }
+      best = end;
+      longest = d;
+      break;
+    }
+  }
+  return best;
+}
+
+graph::Point LongJump::ExtendTowards(const graph::Point& v0, const graph::Point& v1) const {
+  const std::optional<GroundedStance> launch = LaunchStance(v0);
+  if (!launch) return v0;
+  const Vector2d ahead = launch->pose.Inverse() * Vector2d(v1.head<2>());
+  const std::optional<GroundedStance> landing = OtherEnd(*launch, ahead.x(), true);
+  return landing ? PointOf(*landing) : v0;
+}
+
+graph::Point LongJump::ReverseExtend(const graph::Point& v0, const graph::Point& v1) const {
+  const std::optional<GroundedStance> landing = LandingStance(v0);
+  if (!landing) return v0;
+  const Vector2d ahead = landing->pose.Inverse() * Vector2d(v1.head<2>());
+  const std::optional<GroundedStance> launch = OtherEnd(*landing, -ahead.x(), false);
+  return launch ? PointOf(*launch) : v0;
+}
+
+std::optional<graph::Point> LongJump::FindLaunchPoint(const graph::Point& v,
+                                                      const graph::Point& v1) const {
+  return LinedUp(v, (v1 - v).head<2>(), true);
+}
+
+std::optional<graph::Point> LongJump::FindLandingPoint(const graph::Point& v,
+                                                       const graph::Point& v1) const {
+  return LinedUp(v, (v - v1).head<2>(), false);
+}
+
+std::optional<graph::Point> LongJump::LinedUp(const graph::Point& v, const Vector2d& way,
+                                              bool launches) const {
+  std::optional<GroundedStance> stance = launches ? LaunchStance(v) : LandingStance(v);
+  if (!stance || way.norm() < JumpLibrary::kDistanceStep) return std::nullopt;
+  const double heading = std::atan2(way.y(), way.x());
+  const bool is_lined_up = std::abs(WrapAngle(heading - stance->pose.yaw)) < kSameHeading;
+  if (!is_lined_up) stance->pose.yaw = heading;
+  // Algorithm 4 asks for every vertex: the cheapest reason to say no comes first.
+  const std::optional<GroundedStance> other = OtherEnd(*stance, way.norm(), launches);
+  if (!other) return std::nullopt;
+  if (launches ? IsNeedless(*stance, *other) : IsNeedless(*other, *stance)) return std::nullopt;
+  return is_lined_up ? v : PointOf(*stance);
+}
+
+std::optional<LongJump::Leap> LongJump::AsLeap(const graph::PointPair& edge) const {
+  const std::optional<GroundedStance> launch = LaunchStance(edge.from);
+  const std::optional<GroundedStance> landing = LandingStance(edge.to);
+  if (!launch || !landing) return std::nullopt;
+  const PlanarPose ahead = launch->pose.Inverse() * landing->pose;
+  const JumpTask exact{ahead.x, landing->z - launch->z};
+  const JumpTask task = JumpLibrary::OnGrid(exact);
+  if (!SameTask(task, exact) || std::abs(ahead.y) > kSamePlace ||
+      std::abs(WrapAngle(ahead.yaw)) > kSameHeading) {
+    return std::nullopt;
+  }
+  return Leap{*launch, *landing, task};
+}
+
+bool LongJump::CN(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  return leap && reach_.Allows(leap->task) && landing_gait().CS(edge.to) &&
+         launch_gait().CS(edge.from) && SomeParabolaIsFree(edge);
+}
+
+bool LongJump::SomeParabolaIsFree(const graph::PointPair& edge) const {
+  const int steps = static_cast<int>(highest_rise_ / kRiseSpacing);
+  for (int i = 0; i <= steps; ++i) {
+    if (ParabolaIsFree(edge, i * kRiseSpacing)) return true;
+  }
+  return false;
+}
+
+bool LongJump::ParabolaIsFree(const graph::PointPair& edge, double rise) const {
+  const Isometry3d from = ToPose(edge.from);
+  const Isometry3d to = ToPose(edge.to);
+  const double length = (to.translation() - from.translation()).norm() + 2 * rise;
+  const int samples = 1 + static_cast<int>(length / kArcSpacing);
+  for (int i = 1; i < samples; ++i) {
+    const double s = static_cast<double>(i) / samples;
+    Isometry3d X_WR = Interpolate(from, to, s);
+    X_WR.translation().z() += 4 * rise * s * (1 - s);
+    if (!pelvis_.IsFree(X_WR)) return false;
+  }
+  return true;
+}
+
+bool LongJump::Explorable(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap || IsImpossible(leap->task) || IsNeedless(leap->launch, leap->landing)) return false;
+  return Manoeuvre::Explorable(edge);
+}
+
+bool LongJump::CS(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  return leap && !IsImpossible(leap->task) && Manoeuvre::CS(edge);
+}
+
+double LongJump::ExpectedDuration(const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  const std::lock_guard lock(mutex_);
+  for (const Solved& solved : solved_) {
+    if (leap && SameTask(solved.jump->task, leap->task)) return solved.jump->duration();
+  }
+  return kNominalDuration;
+}
+
+std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
+    const graph::PointPair& edge) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap || !CN(edge)) return nullptr;
+  return std::make_unique<Job>(*this, edge, *leap);
+}
+
+std::vector<Phase> LongJump::Motion(const graph::PointPair& edge,
+                                    const std::function<bool()>&) const {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap) throw MotionError("not a jump between nominal stances");
+  const std::optional<JumpAnswer> answer = library_->Find(leap->task);
+  if (!answer || !answer->jump) throw MotionError("the jump is not in the library");
+  return Placed(answer->jump->phases, leap->launch.pose, leap->launch.z);
+}
+
+ManoeuvreBounds LongJump::Bounds() const {
+  ManoeuvreBounds bounds;
+  bounds.landings = [reach = reach_](double rise) -> std::optional<LandingRange> {
+    const auto distances = reach.Distances(JumpLibrary::OnGrid({0, rise}).height);
+    if (!distances) return std::nullopt;
+    // How near does not matter: nearer ones only join what walking joins.
+    return LandingRange{{Vector2d::Zero(), Vector2d(distances->second, 0)}};
+  };
+  bounds.flight = BoundFlight(solver_->settings());
+  return bounds;
+}
+
+bool LongJump::ReplaceGuesses(const std::function<bool()>& keep_going) {
+  if (library_->reach_is_derived()) return false;
+  reach_ = DeriveFarthest(reach_, library_.get(), keep_going);
+  return true;
+}
+
+void LongJump::Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) {
+  const std::optional<Leap> leap = AsLeap(edge);
+  if (!leap) return;
+  Record(edge, false, reason);
+  if (anywhere) RecordImpossible(leap->task);
+}
+
+void LongJump::RecordImpossible(const JumpTask& task) const {
+  const std::lock_guard lock(mutex_);
+  impossible_.push_back(task);
+}
+
+bool LongJump::IsImpossible(const JumpTask& task) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(impossible_.begin(), impossible_.end(),
+                     [&](const JumpTask& other) { return SameTask(task, other); });
+}
+
+std::shared_ptr<SharedJumpSolve> LongJump::SolveOf(const JumpTask& task) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& solve : solves_) {
+    if (SameTask(solve->task(), task)) return solve;
+  }
+  return solves_.emplace_back(std::make_shared<SharedJumpSolve>(library_.get(), task));
+}
+
+LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) const {
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Solved& solved : solved_) {
+      if (solved.jump == jump) return solved;
+    }
+  }
+  const auto poses = std::make_shared<const MotionPoses>(*model().robot, jump->phases);
+  const std::string hit = FirstHitOnBareGround(*model().robot, solver_->model(), *jump, *poses);
+  const std::lock_guard lock(mutex_);
+  return solved_.emplace_back(Solved{std::move(jump), poses, hit});
+}
+
+std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot) {
+  std::vector<ManoeuvreFactory> factories;
+  for (const models::Jump& jump : robot.jumps) {
+    factories.push_back({jump.name, [jump](const PlanningContext& context) {
+                           return std::make_shared<LongJump>(context, jump);
+                         }});
+  }
+  return factories;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/conditions/manoeuvre.h"
+#include "actions/conditions/pelvis_clearance.h"
+#include "actions/jump/jump_library.h"
+#include "actions/jump/placed_jump.h"
+#include "models/world/collision.h"
+
+namespace possibility::actions {
+
+class SharedJumpSolve;
+
+/// The standing long jump (paper, section "Standing Long Jump"): nonholonomic, from a stance of
+/// one gait straight ahead into a stance of another, by distances on the jump library's grid. Its
+/// necessary conditions are those of the paper; what they leave open costs a confirmation job. One
+/// exploring thread per instance, beside any number of its jobs.
+class LongJump : public Manoeuvre {
+ public:
+  /// Of a jump that is not solved yet, s.
+  static constexpr double kNominalDuration = 4.5;
+
+  /// Jumps worth examining: the table of the context's library if it has one, otherwise a guess
+  /// for the heights of the context's ground.
+  /// @throws InputError if the context lacks one of the jump's gaits, or the robot cannot be
+  /// brought into its sagittal plane.
+  LongJump(const PlanningContext& context, const models::Jump& jump);
+  ~LongJump() override;
+
+  graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
+  graph::Point ReverseExtend(const graph::Point& v0, const graph::Point& v1) const override;
+  std::optional<graph::Point> FindLaunchPoint(const graph::Point& v,
+                                              const graph::Point& v1) const override;
+  std::optional<graph::Point> FindLandingPoint(const graph::Point& v,
+                                               const graph::Point& v1) const override;
+
+  using Manoeuvre::CN;
+  using Manoeuvre::CS;
+  using Manoeuvre::Explorable;
+  bool CN(const graph::PointPair& edge) const override;
+  /// Whether a job has confirmed it.
+  bool CS(const graph::PointPair& edge) const override;
+  /// C_N, unless a job has refuted it, or the gaits have a way of their own straight on.
+  bool Explorable(const graph::PointPair& edge) const override;
+
+  double ExpectedDuration(const graph::PointPair& edge) const override;
+  std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
+      const graph::PointPair& edge) const override;
+  std::vector<Phase> Motion(const graph::PointPair& edge,
+                            const std::function<bool()>& keep_going) const override;
+
+  ManoeuvreBounds Bounds() const override;
+  /// Measures a reach that was guessed. Not while FindPath explores in another thread.
+  bool ReplaceGuesses(const std::function<bool()>& keep_going) override;
+  double skip_growth() const override { return skip_growth_; }
+
+  /// `anywhere`: so is every jump of its distance and height.
+  void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) override;
+
+  const JumpReach& reach() const { return reach_; }
+  const JumpSolver& solver() const { return *solver_; }
+
+ private:
+  class Job;
+
+  /// An edge, understood.
+  struct Leap {
+    GroundedStance launch;
+    GroundedStance landing;
+    JumpTask task;  ///< on the grid
+  };
+  std::optional<Leap> AsLeap(const graph::PointPair& edge) const;
+  /// The longest jump from `stance`, of at most `distance`, with ground to bear on at the other
+  /// end: forward from a launch, or backward from a landing.
+  std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
+                                         bool forward) const;
+  /// The stance at v (a launch or a landing) turned along `way` (m), if a jump of at most that
+  /// length leads there and is not needless.
+  std::optional<graph::Point> LinedUp(const graph::Point& v, const Eigen::Vector2d& way,
+                                      bool launches) const;
+  /// Whether C_S lets the robot walk straight on from the launch and change gait into the landing,
+  /// or the other way round: such a jump leads nowhere new, and Algorithm 4 would make one from
+  /// every new landing.
+  bool IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const;
+  bool GroundIsWide(const GroundedStance& launch, double begin, double end) const;
+  /// Whether nothing at all is near the straight way on from `launch`, `distance` (m) long.
+  bool WayIsOpen(const GroundedStance& launch, double distance) const;
+  bool SomeParabolaIsFree(const graph::PointPair& edge) const;
+  bool ParabolaIsFree(const graph::PointPair& edge, double rise) const;
+
+  void RecordImpossible(const JumpTask& task) const;
+  bool IsImpossible(const JumpTask& task) const;
+  /// With what it hits wherever it happens, if anything.
+  struct Solved {
+    std::shared_ptr<const SolvedJump> jump;
+    std::shared_ptr<const MotionPoses> poses;
+    std::string hit;
+  };
+  std::shared_ptr<SharedJumpSolve> SolveOf(const JumpTask& task) const;
+  Solved Examined(std::shared_ptr<const SolvedJump> jump) const;
+
+  std::unique_ptr<JumpSolver> solver_;
+  std::unique_ptr<JumpLibrary> library_;
+  JumpReach reach_;
+  double skip_growth_;
+  const LocomotionModel::TransitionEntry* transition_ = nullptr;  ///< from launch to landing gait
+  Eigen::AlignedBox3d room_;  ///< that the gaits and the transition take, in the launch stance
+  double highest_rise_ = 0;   ///< m, of a flight above its launch
+  models::CollisionChecker pelvis_checker_;
+  PelvisClearance pelvis_;
+
+  /// What jobs found out; everything below under mutex_.
+  mutable std::mutex mutex_;
+  mutable std::vector<JumpTask> impossible_;
+  mutable std::vector<Solved> solved_;
+  mutable std::vector<std::shared_ptr<SharedJumpSolve>> solves_;
+};
+
+/// How the planner comes by the jumps of a robot's file.
+std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot);
+
+}  // namespace possibility::actions

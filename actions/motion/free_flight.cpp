@@ -1,0 +1,121 @@
+#include "actions/motion/free_flight.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+VectorXd Configuration(const Quaterniond& R, const Vector3d& position, const VectorXd& joints) {
+  VectorXd q(7 + joints.size());
+  q << R.w(), R.vec(), position, joints;
+  return q;
+}
+
+/// Time derivative of a unit quaternion's coefficients at an angular velocity in world axes.
+Quaterniond Rate(const Vector3d& angular_velocity, const Quaterniond& R) {
+  Quaterniond rate =
+      Quaterniond(0, angular_velocity.x(), angular_velocity.y(), angular_velocity.z()) * R;
+  rate.coeffs() *= 0.5;
+  return rate;
+}
+
+Quaterniond Moved(const Quaterniond& R, double step, const Quaterniond& rate) {
+  Quaterniond moved;
+  moved.coeffs() = R.coeffs() + step * rate.coeffs();
+  return moved.normalized();
+}
+
+}  // namespace
+
+FreeFlight::FreeFlight(std::shared_ptr<const dynamics::MultibodyModel> model)
+    : dynamics_(std::move(model)), mass_(dynamics_.model().tree().TotalMass()) {}
+
+void FreeFlight::TakeOff(const VectorXd& q, const VectorXd& v) {
+  dynamics_.SetState(q, v);
+  const dynamics::CentroidalQuantities& centroidal = dynamics_.Centroidal();
+  orientation_ = Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+  position_ = centroidal.position;
+  momentum_ = centroidal.momentum.head<3>();
+  velocity_ = centroidal.momentum.tail<3>() / mass_;
+}
+
+std::vector<Knot> FreeFlight::Fly(const JointMotion& joints, double duration, int intervals) {
+  const double step = duration / intervals;
+  Quaterniond R = orientation_;
+  std::vector<Knot> knots = {KnotAt(R, 0, joints)};
+  for (int i = 0; i < intervals; ++i) {
+    R = Advance(R, i * step, step, joints);
+    knots.push_back(KnotAt(R, i + 1 < intervals ? (i + 1) * step : duration, joints));
+  }
+  return knots;
+}
+
+Knot FreeFlight::Land(const JointMotion& joints, double duration, int intervals) {
+  const double step = duration / intervals;
+  Quaterniond R = orientation_;
+  for (int i = 0; i < intervals; ++i) R = Advance(R, i * step, step, joints);
+  return KnotAt(R, duration, joints);
+}
+
+Quaterniond FreeFlight::Advance(const Quaterniond& R, double t, double step,
+                                const JointMotion& joints) {
+  const Signal<VectorXd> begin = joints(t);
+  const Signal<VectorXd> middle = joints(t + step / 2);
+  const Signal<VectorXd> end = joints(t + step);
+  const Quaterniond k1 = Rate(AngularVelocity(R, begin), R);
+  const Quaterniond R2 = Moved(R, step / 2, k1);
+  const Quaterniond k2 = Rate(AngularVelocity(R2, middle), R2);
+  const Quaterniond R3 = Moved(R, step / 2, k2);
+  const Quaterniond k3 = Rate(AngularVelocity(R3, middle), R3);
+  const Quaterniond R4 = Moved(R, step, k3);
+  const Quaterniond k4 = Rate(AngularVelocity(R4, end), R4);
+  Quaterniond mean;
+  mean.coeffs() = (k1.coeffs() + 2 * k2.coeffs() + 2 * k3.coeffs() + k4.coeffs()) / 6;
+  return Moved(R, step, mean);
+}
+
+Vector3d FreeFlight::AngularVelocity(const Quaterniond& R, const Signal<VectorXd>& joints) {
+  VectorXd v = VectorXd::Zero(6 + joints.rate.size());
+  v.tail(joints.rate.size()) = joints.rate;
+  dynamics_.SetState(Configuration(R, Vector3d::Zero(), joints.value), v);
+  const dynamics::CentroidalQuantities& centroidal = dynamics_.Centroidal();
+  const Matrix3d inertia = centroidal.momentum_dv.topLeftCorner<3, 3>();
+  return inertia.inverse() * (momentum_ - centroidal.momentum.head<3>());
+}
+
+Knot FreeFlight::KnotAt(const Quaterniond& R, double t, const JointMotion& joints) {
+  const Signal<VectorXd> motion = joints(t);
+  const Eigen::Index n = motion.value.size();
+  Knot knot;
+  knot.t = t;
+  knot.v.setZero(6 + n);
+  knot.v.tail(n) = motion.rate;
+  knot.v.head<3>() = AngularVelocity(R, motion);
+  knot.q = Configuration(R, Vector3d::Zero(), motion.value);
+  dynamics_.SetState(knot.q, knot.v);
+  const dynamics::CentroidalQuantities& centroidal = dynamics_.Centroidal();
+  const Vector3d gravity(0, 0, -dynamics::kGravity);
+  knot.q.segment<3>(4) = position_ + t * velocity_ + t * t / 2 * gravity - centroidal.position;
+  knot.v.segment<3>(3) = velocity_ + t * gravity - centroidal.momentum.tail<3>() / mass_;
+
+  knot.a.setZero(6 + n);
+  knot.a.tail(n) = motion.acceleration;
+  dynamics_.SetState(knot.q, knot.v, knot.a);
+  const Eigen::Matrix<double, 6, 6> inertia = dynamics_.MassMatrix().topLeftCorner<6, 6>();
+  const Eigen::Matrix<double, 6, 1> unbalanced = dynamics_.InverseDynamics().head<6>();
+  knot.a.head<6>() = -inertia.llt().solve(unbalanced);
+  dynamics_.SetAcceleration(knot.a);
+  knot.tau = dynamics_.InverseDynamics().tail(n);
+  knot.forces.resize(3, 0);
+  return knot;
+}
+
+}  // namespace possibility::actions

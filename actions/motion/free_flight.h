@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "actions/motion/signal.h"
+#include "actions/plan/plan.h"
+#include "dynamics/tree/multibody_dynamics.h"
+
+namespace possibility::actions {
+
+/// All joints over time, num_joints each.
+using JointMotion = std::function<Signal<Eigen::VectorXd>(double t)>;
+
+/// A robot in the air: its joints move as told, and its root as momentum then demands. The centre
+/// of mass follows its parabola exactly and the angular momentum about it is constant; only the
+/// root's orientation is integrated (Runge-Kutta, fourth order). One workspace per thread.
+class FreeFlight {
+ public:
+  explicit FreeFlight(std::shared_ptr<const dynamics::MultibodyModel> model);
+
+  /// Take-off at time 0. `q`, `v`: state of the robot, whose joints are those of the motion.
+  void TakeOff(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+  /// Knots at `intervals` equal steps from 0 to `duration`; the first is the take-off. tau is what
+  /// inverse dynamics asks of the motors.
+  std::vector<Knot> Fly(const JointMotion& joints, double duration, int intervals);
+  /// The last of these alone.
+  Knot Land(const JointMotion& joints, double duration, int intervals);
+
+ private:
+  Eigen::Quaterniond Advance(const Eigen::Quaterniond& R, double t, double step,
+                             const JointMotion& joints);
+  Eigen::Vector3d AngularVelocity(const Eigen::Quaterniond& R,
+                                  const Signal<Eigen::VectorXd>& joints);
+  Knot KnotAt(const Eigen::Quaterniond& R, double t, const JointMotion& joints);
+
+  dynamics::MultibodyDynamics dynamics_;
+  Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();  ///< at take-off
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();               ///< com at take-off, m
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();               ///< of the com, m/s
+  Eigen::Vector3d momentum_ = Eigen::Vector3d::Zero();               ///< angular, kg m^2/s
+  double mass_ = 0;
+};
+
+}  // namespace possibility::actions

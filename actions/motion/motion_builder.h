@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "actions/motion/whole_body_task.h"
+#include "actions/plan/plan.h"
+#include "dynamics/contact/contact_forces.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// A stretch of motion with one set of contacts, as tasks over time.
+struct MotionPhase {
+  double duration = 0;                          ///< s
+  std::vector<int> contacts;                    ///< patches that bear
+  std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
+};
+
+/// Thrown when a caller's `keep_going` said no.
+class Abandoned : public std::runtime_error {
+ public:
+  Abandoned() : std::runtime_error("abandoned") {}
+};
+
+struct MotionSettings {
+  double knot_spacing = 0.1;  ///< s, at most
+  /// Of every phase, at least: between knots forces are interpolated linearly while the motion's
+  /// accelerations are not, and the difference eats into the margins below.
+  int minimum_intervals = 12;
+  double speed_margin = 0.95;     ///< fraction of each joint's speed limit that may be used
+  double friction_margin = 0.85;  ///< fraction of the friction coefficient
+  double normal_reserve = 0.01;   ///< of the weight, kept at every bearing point
+  double torque_margin = 0.95;    ///< fraction of each joint's effort limit
+};
+
+/// @throws MotionError naming the joint that leaves its position limits, or is faster than
+/// `speed_margin` of its speed limit, at time `t` of a phase.
+void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
+                        const Eigen::VectorXd& v, double speed_margin, double t);
+
+/// Turns task-level motion into knots with joint motion, torques and contact forces that satisfy
+/// inverse dynamics, limits and friction cones. One per thread.
+class MotionBuilder {
+ public:
+  explicit MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings = {});
+
+  /// `guess`: q near the start (nq). Times start at 0.
+  /// `keep_going`: asked before every phase; false abandons the rest. May be empty.
+  /// @throws MotionError naming the limit that the motion would break and when; Abandoned.
+  std::vector<Phase> Build(const std::vector<MotionPhase>& phases, const Eigen::VectorXd& guess,
+                           const std::function<bool()>& keep_going = {});
+
+ private:
+  Phase BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess);
+  Knot MakeKnot(const MotionPhase& phase, const std::vector<dynamics::ContactPoint>& points,
+                double t, Eigen::VectorXd* guess);
+  void CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const;
+
+  const models::RobotModel* robot_;
+  MotionSettings settings_;
+  WholeBodySolver solver_;
+};
+
+/// The same motion backwards in time: quasi-static or not, the same torques and forces realise it.
+std::vector<Phase> Reversed(const std::vector<Phase>& phases);
+
+}  // namespace possibility::actions

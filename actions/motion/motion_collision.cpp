@@ -1,0 +1,89 @@
+#include "actions/motion/motion_collision.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+/// The motion goes on between samples; what it comes closer to than this is taken for hit, m.
+constexpr double kClearance = 0.01;
+/// The verifier's: links that bear against ground, and all others against anything, m.
+constexpr double kGroundTolerance = 1e-3;
+constexpr double kTolerance = 1e-4;
+
+/// So many take a millisecond or less; whether to go on is not asked more often.
+constexpr size_t kSamplesPerQuestion = 16;
+
+bool GoOn(size_t sample, const std::function<bool()>& keep_going) {
+  return sample % kSamplesPerQuestion != 0 || !keep_going || keep_going();
+}
+
+std::vector<bool> LinksThatBear(const models::RobotModel& robot) {
+  std::vector<bool> bear(robot.links.size(), false);
+  for (const models::ContactPatch& patch : robot.contacts) bear[patch.link] = true;
+  return bear;
+}
+
+}  // namespace
+
+MotionPoses::MotionPoses(const models::RobotModel& robot, const std::vector<Phase>& motion) {
+  dynamics::TreeKinematics kinematics(robot);
+  const auto add = [&](const Knot& knot) {
+    kinematics.SetPosition(knot.q);
+    samples_.push_back({knot.t, kinematics.X_WL()});
+  };
+  for (const Phase& phase : motion) {
+    if (phase.knots.empty()) continue;
+    for (size_t i = 0; i + 1 < phase.knots.size(); ++i) {
+      const Knot& from = phase.knots[i];
+      const Knot& to = phase.knots[i + 1];
+      const int parts = std::max(1, static_cast<int>(std::ceil((to.t - from.t) / kInterval)));
+      for (int part = 0; part < parts; ++part) {
+        add(Interpolate(from, to, from.t + (to.t - from.t) * part / parts));
+      }
+    }
+    add(phase.knots.back());
+  }
+}
+
+std::string FirstHit(const models::RobotModel& robot, const models::Environment& environment,
+                     const models::CollisionChecker& checker, const MotionPoses& poses,
+                     const Eigen::Isometry3d& X_WS, const std::function<bool()>& keep_going) {
+  const std::vector<bool> bears = LinksThatBear(robot);
+  std::vector<Eigen::Isometry3d> X_WL(robot.links.size());
+  for (size_t i = 0; i < poses.samples().size(); ++i) {
+    const MotionPoses::Sample& sample = poses.samples()[i];
+    if (!GoOn(i, keep_going)) return {};
+    for (size_t link = 0; link < X_WL.size(); ++link) X_WL[link] = X_WS * sample.X_SL[link];
+    for (const models::Proximity& pair : checker.EnvironmentProximities(X_WL, kClearance)) {
+      const models::Obstacle& obstacle = environment.obstacles[pair.other];
+      const double allowed = !obstacle.is_ground ? kClearance
+                             : bears[pair.link]  ? -kGroundTolerance
+                                                 : -kTolerance;
+      if (pair.distance >= allowed) continue;
+      return fmt::format("hits '{}' with {} at {:.2f} s", obstacle.name,
+                         robot.links[pair.link].name, sample.t);
+    }
+  }
+  return {};
+}
+
+std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
+                         const MotionPoses& poses, const std::function<bool()>& keep_going) {
+  for (size_t i = 0; i < poses.samples().size(); ++i) {
+    const MotionPoses::Sample& sample = poses.samples()[i];
+    if (!GoOn(i, keep_going)) return {};
+    const std::vector<models::Proximity> close = checker.SelfProximities(sample.X_SL, 0);
+    if (close.empty()) continue;
+    return fmt::format("hits {} with {} at {:.2f} s", robot.links[close.front().other].name,
+                       robot.links[close.front().link].name, sample.t);
+  }
+  return {};
+}
+
+}  // namespace possibility::actions

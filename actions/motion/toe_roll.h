@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "actions/motion/free_flight.h"
+#include "actions/motion/motion_builder.h"
+#include "dynamics/contact/contact_forces.h"
+#include "dynamics/tree/multibody_dynamics.h"
+
+namespace possibility::actions {
+
+/// A robot that rolls over its toes in the plane y = 0, heels lifted: its joints move as told, and
+/// the ground, which can give no moment about the line of the toes, decides how the whole turns
+/// about it (Runge-Kutta, fourth order). One workspace per thread.
+class ToeRoll {
+ public:
+  /// `toes`: points that bear, all on one line parallel to y.
+  ToeRoll(std::shared_ptr<const dynamics::MultibodyModel> model,
+          std::vector<dynamics::ContactPoint> toes, const MotionSettings& settings);
+
+  /// From state (q, v), at which the toes rest on the ground. Knots at `intervals` equal steps.
+  /// @throws MotionError if no forces in the cones and torques within the limits realise it.
+  std::vector<Knot> Roll(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                         const JointMotion& joints, double duration, int intervals);
+
+ private:
+  struct Turn {
+    double pitch = 0;
+    double rate = 0;
+  };
+  double Acceleration(const Turn& turn, const Signal<Eigen::VectorXd>& joints);
+  Turn Advance(const Turn& turn, double t, double step, const JointMotion& joints);
+  /// Sets the state at which the toes are where they were, and accelerates the root at `pitch`
+  /// (rad/s^2) so that they stay; the moment about their line that the ground would have to give.
+  double Place(const Turn& turn, const Signal<Eigen::VectorXd>& joints, double pitch);
+  Knot KnotAt(const Turn& turn, double t, const JointMotion& joints);
+
+  dynamics::MultibodyDynamics dynamics_;
+  std::vector<dynamics::ContactPoint> toes_;
+  MotionSettings settings_;
+  Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();
+  Eigen::VectorXd q_, v_, a_;
+};
+
+}  // namespace possibility::actions

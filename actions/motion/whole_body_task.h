@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "actions/motion/signal.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// Thrown when a motion cannot be generated: out of reach, beyond a limit, no contact forces.
+class MotionError : public std::runtime_error {
+ public:
+  explicit MotionError(const std::string& message) : std::runtime_error(message) {}
+};
+
+/// Where one limb's contact patch has to be.
+struct LimbTask {
+  const models::GaitLimb* limb = nullptr;
+  /// Of the patch centre, world, m.
+  Signal<Eigen::Vector3d> position = ConstantVector<Eigen::Vector3d>(Eigen::Vector3d::Zero());
+  ScalarSignal yaw;                                           ///< turns `orientation` about +z
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< of the link at yaw 0
+};
+
+/// How the root is turned, in world axes.
+struct RootTurn {
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
+};
+
+/// Rz(yaw) Ry(pitch) over time.
+RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch);
+
+/// What the whole body has to do at one instant. The unknowns are the joints of the limbs and,
+/// if the centre of mass is tasked, x and y of the root: as many as there are rows, so the motion
+/// is a smooth function of the task, without memory of how it got there.
+struct WholeBodyTask {
+  ScalarSignal root_yaw;
+  ScalarSignal root_pitch;
+  std::optional<RootTurn> root_turn;  ///< in place of yaw and pitch
+  ScalarSignal root_height;
+  /// Used if there is no task for the centre of mass.
+  Signal<Eigen::Vector2d> root_position = ConstantVector<Eigen::Vector2d>(Eigen::Vector2d::Zero());
+  std::optional<Signal<Eigen::Vector2d>> centre_of_mass;  ///< x and y, world, m
+  std::vector<LimbTask> limbs;
+  Signal<Eigen::VectorXd> joints;  ///< all; limb joints are overruled
+};
+
+struct WholeBodyState {
+  Eigen::VectorXd q;
+  Eigen::VectorXd v;
+  Eigen::VectorXd a;
+};
+
+/// Solves tasks by Newton's method and differentiates the solution exactly in time.
+/// One per thread.
+class WholeBodySolver {
+ public:
+  explicit WholeBodySolver(const models::RobotModel& robot);
+
+  /// `guess`: q to start from (nq). Leaves the kinematics at the solution.
+  /// @throws MotionError if Newton's method does not converge.
+  WholeBodyState Solve(const WholeBodyTask& task, const Eigen::VectorXd& guess);
+
+  dynamics::TreeKinematics& kinematics() { return kinematics_; }
+
+ private:
+  void SetKnownCoordinates(const WholeBodyTask& task, Eigen::VectorXd* q) const;
+  void SelectUnknowns(const WholeBodyTask& task);
+  void Residual(const WholeBodyTask& task);
+  void Jacobian(const WholeBodyTask& task);
+  static RootTurn Turn(const WholeBodyTask& task);
+  void KnownRates(const WholeBodyTask& task, WholeBodyState* state) const;
+  void SolveRates(const WholeBodyTask& task, WholeBodyState* state);
+
+  dynamics::TreeKinematics kinematics_;
+  std::vector<int> unknowns_;  ///< indices into v
+  Eigen::VectorXd residual_;
+  Eigen::MatrixXd jacobian_;  ///< rows x nv
+  Eigen::MatrixXd reduced_;   ///< rows x unknowns
+  Eigen::MatrixXd frame_;     ///< scratch, 6 x nv
+};
+
+}  // namespace possibility::actions

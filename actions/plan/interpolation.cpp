@@ -1,0 +1,184 @@
+#include "actions/plan/interpolation.h"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+Matrix3d Skew(const Vector3d& x) {
+  Matrix3d X;
+  X << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
+  return X;
+}
+
+/// The scalars of the left Jacobian I + a [phi] + b [phi]^2 and of its derivative, as functions of
+/// the angle: a = (1 - cos) / angle^2, b = (angle - sin) / angle^3, and a' / angle, b' / angle.
+struct JacobianScalars {
+  double a = 0;
+  double b = 0;
+  double da = 0;
+  double db = 0;
+};
+
+/// Power series in angle^2: exact to rounding below one radian, where the closed forms cancel.
+JacobianScalars SeriesScalars(double angle_squared) {
+  JacobianScalars s;
+  double factorial = 2;  // (2k + 2)!
+  double power = 1;      // (-1)^k angle^(2k)
+  double previous = 0;   // (-1)^k angle^(2k - 2)
+  for (int k = 0; k < 10; ++k) {
+    s.a += power / factorial;
+    s.b += power / (factorial * (2 * k + 3));
+    s.da += 2 * k * previous / factorial;
+    s.db += 2 * k * previous / (factorial * (2 * k + 3));
+    previous = -power;
+    power *= -angle_squared;
+    factorial *= (2 * k + 3) * (2 * k + 4);
+  }
+  return s;
+}
+
+JacobianScalars ScalarsOf(double angle_squared) {
+  if (angle_squared < 1) return SeriesScalars(angle_squared);
+  const double angle = std::sqrt(angle_squared);
+  JacobianScalars s;
+  s.a = (1 - std::cos(angle)) / angle_squared;
+  s.b = (angle - std::sin(angle)) / (angle_squared * angle);
+  s.da = (std::sin(angle) / angle - 2 * s.a) / angle_squared;
+  s.db = (s.a - 3 * s.b) / angle_squared;
+  return s;
+}
+
+Quaterniond RootOrientation(const VectorXd& q) {
+  return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+}
+
+Vector3d RotationVector(Quaterniond rotation) {
+  if (rotation.w() < 0) rotation.coeffs() = -rotation.coeffs();
+  const double sine = rotation.vec().norm();
+  if (sine < 1e-12) return 2 * rotation.vec();
+  return 2 * std::atan2(sine, rotation.w()) / sine * rotation.vec();
+}
+
+Quaterniond Exponential(const Vector3d& phi) {
+  const double half = phi.norm() / 2;
+  Quaterniond rotation;
+  rotation.w() = std::cos(half);
+  rotation.vec() = (half < 1e-8 ? 0.5 : std::sin(half) / (2 * half)) * phi;
+  return rotation;
+}
+
+void CheckAgreement(const Knot& k0, const Knot& k1) {
+  if (k0.q.size() < 7 || k0.v.size() != k0.q.size() - 1 || k0.a.size() != k0.v.size() ||
+      k1.q.size() != k0.q.size() || k1.v.size() != k0.v.size() || k1.a.size() != k0.a.size() ||
+      k1.tau.size() != k0.tau.size() || k1.forces.cols() != k0.forces.cols()) {
+    throw std::invalid_argument("knots of different sizes cannot be interpolated");
+  }
+  if (!(k1.t > k0.t)) throw std::invalid_argument("knots must be increasing in time");
+}
+
+/// Powers of s in the first three columns from the start, the others from the end conditions.
+template <typename Rows>
+void SetQuintic(const VectorXd& change, const VectorXd& v0, const VectorXd& v1, const VectorXd& a0,
+                const VectorXd& a1, Rows c) {
+  c.col(1) = v0;
+  c.col(2) = a0 / 2;
+  c.col(3) = 10 * change - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1;
+  c.col(4) = -15 * change + 8 * v0 + 7 * v1 + 1.5 * a0 - a1;
+  c.col(5) = 6 * change - 3 * v0 - 3 * v1 - 0.5 * a0 + 0.5 * a1;
+}
+
+}  // namespace
+
+Matrix3d LeftJacobian(const Vector3d& phi) {
+  const JacobianScalars s = ScalarsOf(phi.squaredNorm());
+  const Matrix3d X = Skew(phi);
+  return Matrix3d::Identity() + s.a * X + s.b * X * X;
+}
+
+Matrix3d LeftJacobianRate(const Vector3d& phi, const Vector3d& phi_rate) {
+  const JacobianScalars s = ScalarsOf(phi.squaredNorm());
+  const Matrix3d X = Skew(phi);
+  const Matrix3d dX = Skew(phi_rate);
+  const double angle_times_rate = phi.dot(phi_rate);
+  return angle_times_rate * (s.da * X + s.db * X * X) + s.a * dX + s.b * (dX * X + X * dX);
+}
+
+KnotInterpolant::KnotInterpolant(const Knot& k0, const Knot& k1)
+    : k0_(&k0), k1_(&k1), h_(k1.t - k0.t) {
+  CheckAgreement(k0, k1);
+  R0_ = RootOrientation(k0.q);
+  const Vector3d phi1 = RotationVector(RootOrientation(k1.q) * R0_.conjugate());
+  const Matrix3d inverse = LeftJacobian(phi1).inverse();
+  const Vector3d phi1_rate = inverse * k1.v.head<3>();
+  const Vector3d phi1_acceleration =
+      inverse * (k1.a.head<3>() - LeftJacobianRate(phi1, phi1_rate) * phi1_rate);
+
+  const Eigen::Index n = k0.v.size();
+  c_.resize(n, 6);
+  c_.col(0) << Vector3d::Zero(), k0.q.tail(n - 3);
+  // At phi = 0 the Jacobian is the identity and its rate along omega maps omega to zero.
+  SetQuintic(phi1, h_ * k0.v.head<3>(), h_ * phi1_rate, h_ * h_ * k0.a.head<3>(),
+             h_ * h_ * phi1_acceleration, c_.topRows<3>());
+  SetQuintic(k1.q.tail(n - 3) - k0.q.tail(n - 3), h_ * k0.v.tail(n - 3), h_ * k1.v.tail(n - 3),
+             h_ * h_ * k0.a.tail(n - 3), h_ * h_ * k1.a.tail(n - 3), c_.bottomRows(n - 3));
+}
+
+Knot KnotInterpolant::At(double t) const {
+  if (t <= k0_->t) return *k0_;
+  if (t >= k1_->t) return *k1_;
+  const double s = (t - k0_->t) / h_;
+  using Powers = Eigen::Matrix<double, 6, 1>;
+  Powers value;
+  Powers rate;
+  Powers acceleration;
+  value << 1, s, s * s, s * s * s, s * s * s * s, s * s * s * s * s;
+  rate << 0, 1, 2 * s, 3 * s * s, 4 * s * s * s, 5 * s * s * s * s;
+  acceleration << 0, 0, 2, 6 * s, 12 * s * s, 20 * s * s * s;
+
+  const Eigen::Index n = c_.rows();
+  const VectorXd x = c_ * value;
+  const Vector3d phi = x.head<3>();
+  Knot knot;
+  knot.t = t;
+  knot.v = c_ * (rate / h_);
+  knot.a = c_ * (acceleration / (h_ * h_));
+  const Matrix3d jacobian = LeftJacobian(phi);
+  const Vector3d phi_rate = knot.v.head<3>();
+  knot.v.head<3>() = jacobian * phi_rate;
+  knot.a.head<3>() =
+      (jacobian * knot.a.head<3>() + LeftJacobianRate(phi, phi_rate) * phi_rate).eval();
+  const Quaterniond R = Exponential(phi) * R0_;
+  knot.q.resize(n + 1);
+  knot.q << R.w(), R.vec(), x.tail(n - 3);
+  knot.tau = (1 - s) * k0_->tau + s * k1_->tau;
+  knot.forces = (1 - s) * k0_->forces + s * k1_->forces;
+  return knot;
+}
+
+KnotInterpolant::Coefficients KnotInterpolant::ControlPoints() const {
+  // s^i is the sum over j of binomial(j, i) / binomial(5, i) times the j-th Bernstein polynomial.
+  static const Eigen::Matrix<double, 6, 6> kBernsteinOfPowers = [] {
+    Eigen::Matrix<double, 6, 6> matrix;
+    for (int i = 0; i < 6; ++i) {
+      double entry = 1;  // binomial(j, i) / binomial(5, i), from j = 5 downwards
+      for (int j = 5; j >= 0; --j) {
+        matrix(i, j) = entry;
+        if (j > 0) entry *= static_cast<double>(j - i) / j;
+      }
+    }
+    return matrix;
+  }();
+  return c_ * kBernsteinOfPowers;
+}
+
+Knot Interpolate(const Knot& k0, const Knot& k1, double t) { return KnotInterpolant(k0, k1).At(t); }
+
+}  // namespace possibility::actions

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "actions/plan/plan.h"
+
+namespace possibility::actions {
+
+/// Left Jacobian of SO(3): the angular velocity (world axes) of R(t) = exp([phi(t)]) R0 is
+/// LeftJacobian(phi) * phi-dot (Chirikjian 2012, Stochastic Models, eq. 10.86).
+Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& phi);
+
+/// Time derivative of LeftJacobian along phi-dot.
+Eigen::Matrix3d LeftJacobianRate(const Eigen::Vector3d& phi, const Eigen::Vector3d& phi_rate);
+
+/// The motion between two knots of a phase as Interpolate defines it, coefficients computed once.
+/// The knots must outlive it and agree in their sizes.
+class KnotInterpolant {
+ public:
+  /// @throws std::invalid_argument if sizes disagree or k1.t <= k0.t.
+  KnotInterpolant(const Knot& k0, const Knot& k1);
+
+  using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+
+  /// `t` is clamped to [k0.t, k1.t]; at both ends the knots themselves are returned.
+  Knot At(double t) const;
+
+  double start() const { return k0_->t; }  ///< s
+  double duration() const { return h_; }   ///< s
+
+  /// Bernstein coefficients over [k0.t, k1.t] of what the knots are interpolated by: rotation
+  /// vector (3 rows), root position (3), joints. No value is outside of its row's coefficients.
+  Coefficients ControlPoints() const;
+
+ private:
+  const Knot* k0_;
+  const Knot* k1_;
+  double h_;
+  Eigen::Quaterniond R0_;
+  /// Powers of s = (t - k0.t) / h of: rotation vector (3 rows), root position (3), joints.
+  Coefficients c_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,44 @@
+#include "actions/plan/plan.h"
+
+namespace possibility::actions {
+namespace {
+
+const Knot* FirstKnot(const Plan& plan) {
+  for (const Segment& segment : plan.segments) {
+    for (const Phase& phase : segment.phases) {
+      if (!phase.knots.empty()) return &phase.knots.front();
+    }
+  }
+  return nullptr;
+}
+
+const Knot* LastKnot(const Plan& plan) {
+  const Knot* last = nullptr;
+  for (const Segment& segment : plan.segments) {
+    for (const Phase& phase : segment.phases) {
+      if (!phase.knots.empty()) last = &phase.knots.back();
+    }
+  }
+  return last;
+}
+
+}  // namespace
+
+double Plan::duration() const {
+  const Knot* first = FirstKnot(*this);
+  return first == nullptr ? 0 : LastKnot(*this)->t - first->t;
+}
+
+std::string ToString(PassageDimension dimension) {
+  switch (dimension) {
+    case PassageDimension::kWidth:
+      return "width";
+    case PassageDimension::kHeight:
+      return "height";
+    case PassageDimension::kGap:
+      return "gap";
+  }
+  return "unknown";
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,60 @@
+#include "actions/plan/plan_digits.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+
+namespace possibility::actions {
+namespace {
+
+constexpr int kSignificant = 12;
+/// Far from the origin, positions keep their decimals: the quintics between knots a few
+/// milliseconds apart would make accelerations of what is left out.
+constexpr int kSignificantOfPosition = 15;
+constexpr double kLargestFixed = 1e15;
+
+void RequireFinite(double x) {
+  if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
+}
+
+/// Of x != 0 once it is rounded to so many digits.
+int DecimalExponent(double x, int significant) {
+  char text[32];
+  const auto end =
+      std::to_chars(text, text + sizeof text, x, std::chars_format::scientific, significant - 1)
+          .ptr;
+  *end = '\0';
+  return std::atoi(std::find(text, end, 'e') + 1);
+}
+
+}  // namespace
+
+void AppendRounded(double x, int decimals, std::string* text) {
+  RequireFinite(x);
+  if (std::abs(x) >= kLargestFixed) return AppendExact(x, text);
+  // More digits than a number is sure to have would not read back to the same text.
+  const int significant = decimals == PlanDigits::kPosition ? kSignificantOfPosition : kSignificant;
+  if (x != 0) {
+    decimals = std::clamp(significant - 1 - DecimalExponent(x, significant), 0, decimals);
+  }
+  char digits[40];
+  const char* end =
+      std::to_chars(digits, digits + sizeof digits, x, std::chars_format::fixed, decimals).ptr;
+  std::string_view number(digits, end - digits);
+  if (decimals > 0) {
+    number = number.substr(0, number.find_last_not_of('0') + 1);
+    if (number.ends_with('.')) number.remove_suffix(1);
+  }
+  *text += number == "-0" ? "0" : number;
+}
+
+void AppendExact(double x, std::string* text) {
+  RequireFinite(x);
+  char digits[32];
+  text->append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr);
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,448 @@
+#include "actions/planner/planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "actions/conditions/exploration_pose.h"
+#include "actions/conditions/guarded_manoeuvre.h"
+#include "actions/conditions/locomotion_model.h"
+#include "actions/conditions/quasi_static_action.h"
+#include "actions/flood/flood_oracle.h"
+#include "actions/jump/long_jump.h"
+#include "actions/planner/passage_explanation.h"
+#include "actions/planner/plan_explanation.h"
+#include "actions/planner/request_checks.h"
+#include "actions/planner/route_refusals.h"
+#include "actions/route/lattice_explorer.h"
+#include "actions/route/route.h"
+#include "actions/route/route_motion.h"
+#include "actions/route/shortcut_explorer.h"
+#include "graph/random_explorer.h"
+#include "models/input/input_error.h"
+#include "models/world/ground_map.h"
+
+namespace possibility::actions {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// For motion and verification after the time limit, s.
+constexpr double kLeastToFinish = 10;
+
+/// Whether the same motion may be free of such a violation elsewhere.
+bool DependsOnPlace(ViolationKind kind) {
+  return kind == ViolationKind::kPenetration || kind == ViolationKind::kContactGround ||
+         kind == ViolationKind::kStart || kind == ViolationKind::kGoal ||
+         kind == ViolationKind::kBounds;
+}
+
+void FillHeader(const models::RobotModel& robot, const models::Scenario& scenario,
+                const PlanRequest& request, Plan* plan) {
+  plan->robot_file = robot.file;
+  plan->robot_hash = robot.content_hash;
+  plan->scenario_file = scenario.file;
+  plan->scenario_hash = scenario.content_hash;
+  plan->seed = request.seed;
+  for (const models::Joint& joint : robot.joints) plan->joints.push_back(joint.name);
+}
+
+void SayNo(PlanStatus status, const std::string& explanation, PlanResult* result) {
+  result->status = status;
+  result->explanation = explanation;
+  result->plan.no = NoPlan{ToString(status), explanation, {}};
+}
+
+PlannerSwitches SwitchesOf(const PlanRequest& request) {
+  const PlannerSwitches switches = SwitchesOf(request.preset);
+  return request.explorers.empty() ? switches
+                                   : WithExplorers(switches, request.explorers, "explorers");
+}
+
+/// To a micrometre: the explored graph is for people to look at, and large.
+ExploredGraph::Vertex ExploredVertex(const graph::Point& point) {
+  const auto rounded = [](double x) { return std::round(1e6 * x) / 1e6; };
+  return {point.head<3>().unaryExpr(rounded), rounded(Heading(ToPose(point).linear()))};
+}
+
+/// One request, from the checked scenario to a verified plan.
+class TraversalPlanner {
+ public:
+  TraversalPlanner(const models::RobotModel& robot, const models::Scenario& scenario,
+                   const PlanRequest& request)
+      : robot_(robot),
+        scenario_(scenario),
+        request_(request),
+        switches_(SwitchesOf(request)),
+        ground_(scenario.environment),
+        world_{&scenario_.environment, &ground_},
+        factories_(AllFactories()),
+        model_(BuildLocomotionModel(
+            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary())),
+        floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
+                [this] { return Remaining() > 0; }) {
+    if (ground_.levels().empty()) {
+      throw InputError(
+          fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
+    }
+    space_ = std::make_shared<PelvisPoseSpace>(scenario_.environment.bounds, ground_.levels(),
+                                               scenario_.planner.rotation_weight);
+    for (size_t gait = 0; gait < model_.gaits.size(); ++gait) {
+      actions_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
+                                                             space_, scenario_.planner.step));
+    }
+    PrepareManoeuvres();
+    const auto checked = [this](const models::Stance& stance, const std::string& key) {
+      return CheckedStance(stance, key, scenario_, model_, actions_, ActionNames());
+    };
+    start_ = checked(scenario_.start, "start");
+    for (size_t i = 0; i < scenario_.goals.size(); ++i) {
+      goals_.push_back(checked(scenario_.goals[i], fmt::format("goals[{}]", i)));
+    }
+    preparation_s_ = clock_.seconds();
+  }
+
+  PlanResult Plan() {
+    PlanResult result;
+    FillHeader(robot_, scenario_, request_, &result.plan);
+    result.plan.timings.preparation_s = preparation_s_;
+    for (std::uint64_t attempt = 0;; ++attempt) {
+      const graph::PathResult path = Explore(attempt);
+      const bool found = path.status == graph::PathStatus::kFound;
+      const double first_s = found ? path.first_path_seconds : path.seconds;
+      result.plan.timings.graph_s += first_s;
+      result.plan.timings.motion_s += path.seconds - first_s;
+      for (const graph::ConfirmationReport& job : path.confirmations) {
+        result.plan.timings.confirmation_s += job.seconds;
+        if (job.outcome != graph::JobOutcome::kFailed) continue;
+        failures_[AllActions()[static_cast<size_t>(job.action)]->name()].push_back(
+            {job.points, job.reason});
+      }
+      Record(path, &result);
+      if (path.status != graph::PathStatus::kFound) return result;
+      try {
+        if (Realise(path, &result)) return result;
+      } catch (const Abandoned&) {
+        result.plan.segments.clear();
+        SayNo(PlanStatus::kTimeLimit,
+              fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
+                          "verified.",
+                          result.plan.timings.graph_s) +
+                  refusals_.Explain() + ExplainManoeuvres(manoeuvres_, failures_),
+              &result);
+        return result;
+      }
+    }
+  }
+
+ private:
+  /// Those of the robot's file come first.
+  std::vector<ManoeuvreFactory> AllFactories() const {
+    std::vector<ManoeuvreFactory> factories = JumpFactories(robot_);
+    factories.insert(factories.end(), request_.manoeuvres.begin(), request_.manoeuvres.end());
+    return factories;
+  }
+
+  const std::vector<std::string>& ActionNames() const {
+    return request_.actions.empty() ? scenario_.actions : request_.actions;
+  }
+
+  std::vector<std::string> GaitNames() const {
+    models::CheckActionsOfRobot(ActionNames(), robot_, scenario_.file.string() + ": actions",
+                                NamesOf(request_.manoeuvres));
+    std::vector<std::string> names;
+    for (const std::string& name : ActionNames()) {
+      const bool is_gait =
+          std::none_of(factories_.begin(), factories_.end(),
+                       [&](const ManoeuvreFactory& factory) { return factory.name == name; });
+      if (is_gait) names.push_back(name);
+    }
+    return names;
+  }
+
+  void PrepareManoeuvres() {
+    PlanningContext context;
+    context.model = &model_;
+    context.world = world_;
+    context.gaits.assign(actions_.begin(), actions_.end());
+    context.space = space_;
+    context.settings = scenario_.planner;
+    context.settings.skip_jumps = switches_.skip_jumps.value_or(scenario_.planner.skip_jumps);
+    context.library = request_.library;
+    context.solved_motions = switches_.solved_motions;
+    context.keep_going = [this] { return Remaining() > 0; };
+    const std::string where = scenario_.file.string() + ": actions";
+    manoeuvres_ = MakeManoeuvres(factories_, ActionNames(), context, where);
+    for (const auto& manoeuvre : manoeuvres_) {
+      guarded_.push_back(Guarded(context, manoeuvre, where));
+    }
+  }
+
+  std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
+    std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
+    all.insert(all.end(), guarded_.begin(), guarded_.end());
+    return all;
+  }
+
+  /// Empty: none.
+  std::filesystem::path TransitionLibrary() const {
+    return switches_.solved_motions ? request_.library : std::filesystem::path();
+  }
+
+  double Remaining() const { return request_.time_limit - clock_.seconds(); }
+
+  graph::Point PointOf(const GroundedStance& stance) const {
+    return ToPoint(model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
+  }
+
+  graph::PathResult Explore(std::uint64_t attempt) {
+    graph::FindPathSettings settings;
+    settings.time_limit = std::max(Remaining(), 0.0);
+    settings.seed = request_.seed + attempt * 0x9E3779B97F4A7C15u;
+    settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
+    settings.confirmation_threads = std::max(0, request_.threads - 1);
+    settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
+    settings.straight_first = switches_.straight;
+    settings.explorers = Explorers();
+    if (switches_.improvement) settings.improvement_share = scenario_.planner.improvement_share;
+    if (switches_.floods) settings.oracle = [this] { return floods_.Ask(start_, goals_); };
+    if (request_.progress) {
+      settings.progress = [this](const graph::FindPathProgress& progress) {
+        request_.progress({"exploring", progress, 0});
+      };
+    }
+    std::vector<graph::Point> goals;
+    for (const GroundedStance& goal : goals_) goals.push_back(PointOf(goal));
+    for (const auto& manoeuvre : manoeuvres_) {
+      settings.skip_growth[manoeuvre->name()] = manoeuvre->skip_growth();
+    }
+    return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
+  }
+
+  /// Whoever is quick to say something comes first.
+  std::vector<graph::ExplorerFactory> Explorers() const {
+    const RouteSpace space{&model_, &actions_, &guarded_};
+    std::vector<graph::ExplorerFactory> explorers;
+    if (switches_.shortcuts) explorers.push_back(ShortcutExploration(space, goals_));
+    if (switches_.lattice) explorers.push_back(LatticeExploration(space, start_, goals_));
+    if (switches_.random) explorers.push_back(graph::RandomExploration());
+    // None at all would be the paper's; shortcuts take no part in the search for a first route.
+    if (explorers.empty()) explorers.push_back(ShortcutExploration(space, goals_));
+    return explorers;
+  }
+
+  void Record(const graph::PathResult& path, PlanResult* result) const {
+    for (const auto& [name, count] : path.counters) result->plan.statistics[name] += count;
+    result->plan.statistics["cycles"] = path.statistics.cycles;
+    result->plan.statistics["vertices"] = path.statistics.vertices;
+    result->plan.statistics["edges"] = path.statistics.edges;
+    result->plan.goal = std::max(path.goal, 0);
+    ExploredGraph& explored = result->plan.explored;
+    explored = {};
+    for (const graph::Point& point : path.graph.vertices) {
+      explored.vertices.push_back(ExploredVertex(point));
+    }
+    const std::vector<std::shared_ptr<const graph::Action>> all = AllActions();
+    for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {
+      explored.edges.push_back({edge.from, edge.to, all[edge.action]->name()});
+    }
+    result->status = StatusOf(path.status);
+    if (path.status == graph::PathStatus::kFound) {
+      result->plan.search =
+          SearchReport{path.found_by, path.first_duration, path.duration, path.lower_bound};
+      return;
+    }
+    SayNo(result->status, Explain(*result), result);
+    result->plan.no->passage = floods_.passage();
+    if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
+  }
+
+  static PlanStatus StatusOf(graph::PathStatus status) {
+    switch (status) {
+      case graph::PathStatus::kFound:
+        return PlanStatus::kFound;
+      case graph::PathStatus::kProvenInfeasible:
+        return PlanStatus::kProvenInfeasible;
+      case graph::PathStatus::kExhausted:
+        return PlanStatus::kExhausted;
+      case graph::PathStatus::kTimeLimit:
+        break;
+    }
+    return PlanStatus::kTimeLimit;
+  }
+
+  std::string Explain(const PlanResult& result) const {
+    const std::string why =
+        result.status == PlanStatus::kTimeLimit
+            ? fmt::format("no route that can be executed was found within {:.1f} s.",
+                          request_.time_limit) +
+                  ExplainClosest(result.plan.explored, scenario_.goals)
+            : ExplainBarrier(result.status, floods_.barrier());
+    return why + ExplainPassage(result.status, floods_.passage()) + refusals_.Explain() +
+           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
+  }
+
+  /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.
+  /// @throws Abandoned at the time limit.
+  bool Realise(const graph::PathResult& path, PlanResult* result) {
+    const Stopwatch motion_clock;
+    Route route = RouteAlong(model_, manoeuvres_, path.path);
+    if (route.empty()) route = {Pause(start_)};
+    const bool moved = Generate(route, &result->plan);
+    result->plan.timings.motion_s += motion_clock.seconds();
+    if (moved) NameVertices(path, &result->plan);
+    return moved && IsVerified(route, result);
+  }
+
+  /// A pause is no edge of the graph.
+  static void NameVertices(const graph::PathResult& path, actions::Plan* plan) {
+    for (size_t i = 0; i < path.path.size(); ++i) {
+      plan->segments[i].vertices = {path.path[i].from, path.path[i].to};
+    }
+  }
+
+  bool Generate(const Route& route, actions::Plan* plan) {
+    try {
+      plan->segments = GenerateMotion(model_, route, request_.threads, [this](double fraction) {
+        return MayFinish("generating motion", fraction);
+      });
+      return true;
+    } catch (const LegError& error) {
+      const RouteLeg& leg = route[static_cast<size_t>(error.leg())];
+      refusals_.ByMotion(LegWords(model_, leg), error.what());
+      Forbid(leg, error.what());
+      plan->statistics["routes refuted by motion generation"]++;
+      return false;
+    }
+  }
+
+  bool IsVerified(const Route& route, PlanResult* result) {
+    VerifierSettings settings;
+    settings.threads = request_.threads;
+    settings.keep_going = [this](double fraction) { return MayFinish("verifying", fraction); };
+    result->verification = Verify(result->plan, robot_, scenario_, settings);
+    result->plan.timings.verification_s += result->verification.seconds;
+    if (!result->verification.accepted()) {
+      std::vector<std::string> legs;
+      for (const RouteLeg& leg : route) legs.push_back(LegWords(model_, leg));
+      refusals_.ByVerification(result->verification, legs);
+    }
+    if (result->verification.abandoned) throw Abandoned();
+    if (result->verification.accepted()) {
+      result->explanation = ExplainManoeuvres(manoeuvres_, failures_);
+      if (!result->explanation.empty()) result->explanation.erase(0, 1);
+      return true;
+    }
+    bool somebody_is_at_fault = false;
+    for (const Violation& violation : result->verification.violations) {
+      if (violation.segment < 0) continue;
+      somebody_is_at_fault = true;
+      Forbid(route[static_cast<size_t>(violation.segment)],
+             "its motion does not verify: " + Describe(violation), !DependsOnPlace(violation.kind));
+    }
+    if (!somebody_is_at_fault) {
+      for (const RouteLeg& leg : route) {
+        if (leg.manoeuvre != nullptr) {
+          Forbid(leg,
+                 "its motion does not verify: " + Describe(result->verification.violations.front()),
+                 false);
+        }
+      }
+    }
+    result->plan.statistics["routes refuted by verification"]++;
+    result->plan.segments.clear();
+    return false;
+  }
+
+  /// The route of a plan whose start is its goal.
+  static RouteLeg Pause(const GroundedStance& stance) {
+    RouteLeg leg;
+    leg.gait = stance.gait;
+    leg.from = leg.to = stance.pose;
+    leg.z = leg.z_to = stance.z;
+    return leg;
+  }
+
+  void Forbid(const RouteLeg& leg, const std::string& reason, bool anywhere = false) {
+    const graph::PointPair edge = LegEdge(model_, leg);
+    if (leg.manoeuvre != nullptr) return leg.manoeuvre->Forbid(edge, reason, anywhere);
+    for (const auto& action : actions_) action->Forbid(edge);
+  }
+
+  /// Reports progress, from any thread. A route that was found in time is not given up for what its
+  /// motion and verification take: false only when they have taken as long again.
+  bool MayFinish(const std::string& stage, double fraction) const {
+    if (request_.progress) {
+      const std::lock_guard lock(progress_mutex_);
+      request_.progress({stage, {}, fraction});
+    }
+    return Remaining() > -std::max(request_.time_limit, kLeastToFinish);
+  }
+
+  const models::RobotModel& robot_;
+  const models::Scenario& scenario_;
+  const PlanRequest& request_;
+  PlannerSwitches switches_;
+  Stopwatch clock_;
+  models::GroundMap ground_;
+  World world_;
+  std::vector<ManoeuvreFactory> factories_;
+  LocomotionModel model_;
+  std::shared_ptr<PelvisPoseSpace> space_;
+  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
+  std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
+  std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< these, for the search
+  FloodOracle floods_;
+  FailedJobs failures_;
+  RouteRefusals refusals_;
+  GroundedStance start_;
+  std::vector<GroundedStance> goals_;
+  double preparation_s_ = 0;
+  mutable std::mutex progress_mutex_;
+};
+
+}  // namespace
+
+std::string ToString(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kFound:
+      return "found";
+    case PlanStatus::kProvenInfeasible:
+      return "proven_infeasible";
+    case PlanStatus::kExhausted:
+      return "exhausted";
+    case PlanStatus::kTimeLimit:
+      return "time_limit";
+  }
+  return "unknown";
+}
+
+PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
+                         const PlanRequest& request) {
+  RequireNewNames(robot, scenario, request.manoeuvres);
+  models::Scenario asked = scenario;
+  if (!request.actions.empty()) asked.actions = request.actions;
+  models::CheckScenarioAgainstRobot(asked, robot, NamesOf(request.manoeuvres));
+  try {
+    return TraversalPlanner(robot, asked, request).Plan();
+  } catch (const Abandoned&) {
+    PlanResult result;
+    FillHeader(robot, scenario, request, &result.plan);
+    SayNo(PlanStatus::kTimeLimit, "time ran out while the robot's swept volumes were computed.",
+          &result);
+    return result;
+  }
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actions/conditions/manoeuvre.h"
+#include "actions/plan/plan.h"
+#include "actions/planner/planner_switches.h"
+#include "actions/verify/verifier.h"
+#include "graph/find_path.h"
+#include "models/robot/robot_model.h"
+#include "models/world/scenario.h"
+
+namespace possibility::actions {
+
+enum class PlanStatus { kFound, kProvenInfeasible, kExhausted, kTimeLimit };
+
+/// "found", "proven_infeasible", "exhausted", "time_limit": the words of the JSON contract.
+std::string ToString(PlanStatus status);
+
+struct PlanProgress {
+  std::string stage;  ///< "exploring", "generating motion", "verifying"
+  graph::FindPathProgress graph;
+  double fraction = 0;  ///< of the stage, 0 if unknown
+};
+
+struct PlanRequest {
+  std::uint64_t seed = 1;
+  int threads = 1;
+  /// s, for preparation and search. Motion and verification of a route that was found in time may
+  /// take as long again.
+  double time_limit = 60;
+  /// Empty: the scenario's. They replace the scenario's in the search and in verification; a plan
+  /// of others than the scenario's file lists is none for that file.
+  std::vector<std::string> actions;
+  /// Beside the actions of the robot's file: `actions` may name them, too.
+  std::vector<ManoeuvreFactory> manoeuvres;
+  std::filesystem::path library;  ///< folder of solved jumps; empty: none
+  PlannerPreset preset = PlannerPreset::kDefault;
+  std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers); empty: those
+  std::function<void(const PlanProgress&)> progress;
+};
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kTimeLimit;
+  Plan plan;  ///< segments if kFound, otherwise `no`; graph and statistics always
+  VerificationReport verification;  ///< accepted if kFound
+  /// One paragraph: which conditions rejected what, and where. If kFound: which manoeuvres were
+  /// refuted and which jobs failed on the way; empty if none.
+  std::string explanation;
+};
+
+/// Plans, generates the motion and verifies it. A plan that fails verification is never
+/// returned: its edge is marked impossible and the search goes on until the time limit.
+/// @throws InputError if start or goal is in collision, off the ground, an action is unknown, or a
+/// manoeuvre's name is taken, its factory makes none or one of its conditions throws (action,
+/// function and pose are named); whatever a factory throws.
+PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
+                         const PlanRequest& request);
+
+}  // namespace possibility::actions

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/conditions/manoeuvre.h"
+#include "actions/conditions/quasi_static_action.h"
+#include "models/robot/robot_model.h"
+#include "models/world/scenario.h"
+
+namespace possibility::actions {
+
+std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories);
+
+/// @throws InputError if one of `manoeuvres` has the name of another action.
+void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
+                     const std::vector<ManoeuvreFactory>& manoeuvres);
+
+/// Start or goal as a stance of one of `gaits` (in the order of LocomotionModel::gaits).
+/// `key`: of the scenario's file, `names`: of the actions planned with; both for messages.
+/// @throws InputError unless C_S holds at the stance.
+GroundedStance CheckedStance(const models::Stance& stance, const std::string& key,
+                             const models::Scenario& scenario, const LocomotionModel& model,
+                             const std::vector<std::shared_ptr<QuasiStaticAction>>& gaits,
+                             const std::vector<std::string>& names);
+
+}  // namespace possibility::actions

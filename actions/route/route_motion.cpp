@@ -1,0 +1,210 @@
+#include "actions/route/route_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <thread>
+
+#include "actions/motion/phase_sequence.h"
+
+namespace possibility::actions {
+namespace {
+
+/// Durations are stretched by these in turn until the motion keeps all limits.
+constexpr double kTimeScales[] = {1, 1.4, 2};
+
+/// A leg that goes nowhere is a pause, s.
+constexpr double kStandingTime = 0.2;
+
+/// Motions of neighbouring legs meet within this: m, rad, m/s, rad/s.
+constexpr double kContinuity = 1e-6;
+
+std::vector<MotionPhase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
+                                    double time_scale) {
+  const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
+  const std::vector<PlanarPose> strides =
+      PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);
+  if (strides.size() == 1) return {gait.motion->Standing(leg.from, leg.z, kStandingTime)};
+  return gait.motion->Phases(strides, leg.z, time_scale);
+}
+
+/// The leg as seen from its beginning, turned as it is. Motion is generated there and shifted, for
+/// what decides on it is done to tolerances that have nothing to do with the place: 10 km from the
+/// origin the steps between doubles are larger than the tolerance of inverse kinematics.
+RouteLeg SeenFromItsBeginning(RouteLeg leg) {
+  leg.to.x -= leg.from.x;
+  leg.to.y -= leg.from.y;
+  leg.from.x = leg.from.y = leg.z = leg.z_to = 0;
+  return leg;
+}
+
+std::vector<Phase> Shifted(std::vector<Phase> phases, const Eigen::Vector3d& by) {
+  for (Phase& phase : phases) {
+    for (Knot& knot : phase.knots) knot.q.segment<3>(4) += by;
+  }
+  return phases;
+}
+
+/// Configuration at the beginning of GaitPhases.
+Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) {
+  Eigen::VectorXd q = model.gaits[leg.gait]->stance.q;
+  q.segment<2>(4) = leg.from.position();
+  return q;
+}
+
+std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg& leg) {
+  const std::vector<Phase> phases = Placed(model.transitions[leg.transition].motion->phases(),
+                                           leg.backwards ? leg.to : leg.from, leg.z);
+  return leg.backwards ? Reversed(phases) : phases;
+}
+
+/// @throws MotionError unless the robot is at rest in the stance at this knot.
+void RequireStance(const LocomotionModel& model, int gait, const PlanarPose& pose, double z,
+                   const Knot& knot, const char* where) {
+  const NominalStance& stance = model.gaits[gait]->stance;
+  const Eigen::Isometry3d X_WR = stance.RootPose(pose, z);
+  const auto joints = model.robot->num_joints();
+  const Eigen::Quaterniond turn(knot.q[0], knot.q[1], knot.q[2], knot.q[3]);
+  const double off =
+      std::max({(knot.q.segment<3>(4) - X_WR.translation()).norm(),
+                turn.angularDistance(Eigen::Quaterniond(X_WR.linear())),
+                (knot.q.tail(joints) - stance.q.tail(joints)).lpNorm<Eigen::Infinity>()});
+  if (!(off < kContinuity)) {
+    throw MotionError(fmt::format("the motion {} {:.2g} (m or rad) off the stance of '{}'", where,
+                                  off, stance.gait->name));
+  }
+  if (!(knot.v.lpNorm<Eigen::Infinity>() < kContinuity)) {
+    throw MotionError(fmt::format("the motion {} in the stance of '{}' but not at rest", where,
+                                  stance.gait->name));
+  }
+}
+
+/// What the rest of the plan relies on; all else is for the verifier to find.
+void RequireFit(const LocomotionModel& model, const RouteLeg& leg,
+                const std::vector<Phase>& phases) {
+  if (phases.empty()) throw MotionError("the motion has no phases");
+  const int nq = model.robot->nq();
+  for (const Phase& phase : phases) {
+    if (phase.knots.size() < 2) throw MotionError("a phase of the motion has less than two knots");
+    for (const Knot& knot : phase.knots) {
+      if (knot.q.size() == nq && knot.v.size() == model.robot->nv()) continue;
+      throw MotionError("a knot of the motion is not of the robot's sizes");
+    }
+  }
+  if (!(std::abs(phases.front().knots.front().t) < 1e-9)) {
+    throw MotionError("the motion does not begin at time 0");
+  }
+  RequireStance(model, StartGait(model, leg), leg.from, leg.z, phases.front().knots.front(),
+                "begins");
+  RequireStance(model, EndGait(model, leg), leg.to, leg.z_to, phases.back().knots.back(), "ends");
+}
+
+std::vector<Phase> ManoeuvrePhases(const LocomotionModel& model, const RouteLeg& leg,
+                                   const std::function<bool()>& keep_going) {
+  try {
+    std::vector<Phase> phases = leg.manoeuvre->Motion(LegEdge(model, leg), keep_going);
+    RequireFit(model, leg, phases);
+    return phases;
+  } catch (const MotionError&) {
+    throw;
+  } catch (const Abandoned&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw MotionError(fmt::format("no motion: {}", error.what()));
+  }
+}
+
+/// Legs shared out to workers; the first failure in route order wins.
+class LegQueue {
+ public:
+  LegQueue(const LocomotionModel& model, const Route& route,
+           const std::function<bool(double)>& keep_going)
+      : model_(model),
+        route_(route),
+        keep_going_(keep_going),
+        motions_(route.size()),
+        errors_(route.size()) {}
+
+  void Work() {
+    for (size_t leg = next_++; leg < route_.size() && !abandoned_; leg = next_++) {
+      try {
+        motions_[leg] = GenerateLeg(model_, route_[leg], [this] { return KeepGoing(); });
+      } catch (const MotionError& error) {
+        errors_[leg] = error.what();
+      } catch (const Abandoned&) {
+        abandoned_ = true;
+      }
+      ++done_;
+    }
+  }
+
+  std::vector<std::vector<Phase>> TakeMotions() {
+    if (abandoned_) throw Abandoned();
+    for (size_t leg = 0; leg < errors_.size(); ++leg) {
+      if (errors_[leg]) throw LegError(static_cast<int>(leg), *errors_[leg]);
+    }
+    return std::move(motions_);
+  }
+
+ private:
+  bool KeepGoing() const {
+    const double fraction = static_cast<double>(done_) / static_cast<double>(route_.size());
+    return !abandoned_ && (!keep_going_ || keep_going_(fraction));
+  }
+
+  const LocomotionModel& model_;
+  const Route& route_;
+  const std::function<bool(double)>& keep_going_;
+  std::vector<std::vector<Phase>> motions_;
+  std::vector<std::optional<std::string>> errors_;
+  std::atomic<size_t> next_ = 0;
+  std::atomic<size_t> done_ = 0;
+  std::atomic<bool> abandoned_ = false;
+};
+
+}  // namespace
+
+std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
+                               const std::function<bool()>& keep_going) {
+  if (leg.manoeuvre != nullptr) return ManoeuvrePhases(model, leg, keep_going);
+  if (leg.transition >= 0) return TransitionPhases(model, leg);
+  MotionBuilder builder(*model.robot);
+  const RouteLeg local = SeenFromItsBeginning(leg);
+  for (const double scale : kTimeScales) {
+    try {
+      return Shifted(
+          builder.Build(GaitPhases(model, local, scale), InitialGuess(model, local), keep_going),
+          {leg.from.x, leg.from.y, leg.z});
+    } catch (const MotionError&) {
+      if (scale == std::end(kTimeScales)[-1]) throw;
+    }
+  }
+  return {};
+}
+
+std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
+                                    const std::function<bool(double)>& keep_going) {
+  LegQueue queue(model, route, keep_going);
+  {
+    std::vector<std::jthread> workers;
+    for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {
+      workers.emplace_back([&queue] { queue.Work(); });
+    }
+    queue.Work();
+  }
+  std::vector<std::vector<Phase>> motions = queue.TakeMotions();
+  std::vector<Segment> segments;
+  double time = 0;
+  for (size_t i = 0; i < route.size(); ++i) {
+    ShiftTime(time, &motions[i]);
+    time = motions[i].back().knots.back().t;
+    segments.push_back({LegName(model, route[i]), std::move(motions[i])});
+  }
+  return segments;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actions/motion/motion_builder.h"
+#include "actions/plan/plan.h"
+#include "actions/route/route.h"
+
+namespace possibility::actions {
+
+/// Thrown by GenerateMotion: `leg` of the route cannot be turned into motion.
+class LegError : public MotionError {
+ public:
+  LegError(int leg, const std::string& message) : MotionError(message), leg_(leg) {}
+  int leg() const { return leg_; }
+
+ private:
+  int leg_;
+};
+
+/// Motion of one leg, from rest to rest; times start at 0. A motion that is too fast for the
+/// limits is stretched. That of a manoeuvre is its own affair, but must have knots of the robot's
+/// sizes and begin and end at rest in the stances that the leg joins.
+/// @throws MotionError if no stretching helps, or for whatever a manoeuvre throws or does wrong;
+/// Abandoned if `keep_going` (may be empty) says no.
+std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
+                               const std::function<bool()>& keep_going = {});
+
+/// Motion of a whole route, legs spread over `threads`; the result does not depend on their
+/// number. `keep_going`: asked now and then, from any thread, with the fraction done; false
+/// abandons the rest. May be empty.
+/// @throws LegError for the first leg that fails; Abandoned.
+std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
+                                    const std::function<bool(double)>& keep_going);
+
+}  // namespace possibility::actions

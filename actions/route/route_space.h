@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/conditions/manoeuvre.h"
+#include "actions/conditions/quasi_static_action.h"
+
+namespace possibility::actions {
+
+/// What a search for routes may use. All of it outlives the search. Edges of routes number their
+/// actions as the planner does: gaits, then manoeuvres.
+struct RouteSpace {
+  const LocomotionModel* model = nullptr;
+  const std::vector<std::shared_ptr<QuasiStaticAction>>* gaits = nullptr;  ///< by gait
+  const std::vector<std::shared_ptr<Manoeuvre>>* manoeuvres = nullptr;
+};
+
+}  // namespace possibility::actions

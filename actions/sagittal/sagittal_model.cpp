@@ -1,0 +1,247 @@
+#include "actions/sagittal/sagittal_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "dynamics/tree/multibody_dynamics.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "models/input/input_error.h"
+
+namespace possibility::actions {
+namespace {
+
+using dynamics::ContactPoint;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+std::set<int> JointsOfLimbs(const models::Gait& gait) {
+  std::set<int> joints;
+  for (const models::GaitLimb& limb : gait.limbs)
+    joints.insert(limb.joints.begin(), limb.joints.end());
+  return joints;
+}
+
+/// `launch` with every joint that no limb of either gait moves as `landing` has it.
+VectorXd Ready(const NominalStance& launch, const NominalStance& landing) {
+  std::set<int> moved = JointsOfLimbs(*launch.gait);
+  moved.merge(JointsOfLimbs(*landing.gait));
+  VectorXd q = launch.q;
+  for (int joint = 0; joint < q.size() - 7; ++joint) {
+    if (!moved.contains(joint)) q[7 + joint] = landing.q[7 + joint];
+  }
+  return q;
+}
+
+bool Bears(const models::Gait& gait, const std::string& patch, const models::RobotModel& robot) {
+  return std::any_of(gait.limbs.begin(), gait.limbs.end(), [&](const models::GaitLimb& limb) {
+    return robot.contacts[limb.contact].name == patch;
+  });
+}
+
+Eigen::AlignedBox3d Bounds(const models::Link& link) {
+  Eigen::AlignedBox3d box;
+  for (const models::PosedShape& posed : link.shapes) box.extend(posed.shape.Bounds(posed.X_PS));
+  return box;
+}
+
+/// Of a link's shapes around its joint, at the end of the link that ends there.
+double HousingRadius(const Eigen::AlignedBox3d& box) {
+  if (box.isEmpty()) return 0;
+  const double x = std::max(std::abs(box.min().x()), std::abs(box.max().x()));
+  const double z = std::min(std::abs(box.min().z()), std::abs(box.max().z()));
+  return std::hypot(x, z);
+}
+
+}  // namespace
+
+SagittalModel::SagittalModel(const models::RobotModel& robot, const NominalStance& launch,
+                             const NominalStance& landing)
+    : reduction_(robot, VectorXd(landing.q.tail(robot.num_joints()))) {
+  // Stances are symmetric up to what their solver leaves.
+  constexpr double kSymmetry = 1e-6;
+  ready_ = reduction_.ReduceConfiguration(Ready(launch, landing), kSymmetry);
+  landed_ = reduction_.ReduceConfiguration(landing.q, kSymmetry);
+  FindContacts(robot, *launch.gait, *landing.gait);
+  leg_ = LimbTo({heel_.link, Vector3d::Zero()});
+  for (const ContactPoint& hand : hands_) {
+    arms_.push_back(LimbTo(hand));
+    peg_ends_.push_back(PegEnd(hand));
+  }
+  FindGuards();
+  FindSeparations();
+  FindFreeRanges(robot);
+}
+
+Vector2d SagittalModel::Position(const ContactPoint& point, const VectorXd& q) const {
+  dynamics::MultibodyDynamics dynamics(planar());
+  dynamics.SetState(q, VectorXd::Zero(planar()->nv()));
+  const Vector3d p = dynamics.Position(point);
+  return {p.x(), p.z()};
+}
+
+void SagittalModel::FindContacts(const models::RobotModel& robot, const models::Gait& launch,
+                                 const models::Gait& landing) {
+  std::vector<ContactPoint> feet;
+  for (const models::ContactPatch& patch : planar()->tree().contacts) {
+    const bool launches = Bears(launch, patch.name, robot);
+    if (launches && !Bears(landing, patch.name, robot)) {
+      throw InputError(fmt::format("{}: gaits: a jump from {} to {} must land on {}, too",
+                                   robot.file.string(), launch.name, landing.name, patch.name));
+    }
+    if (!launches && !Bears(landing, patch.name, robot)) continue;
+    for (const Vector3d& p_L : patch.points) {
+      (launches ? feet : hands_).push_back({patch.link, p_L});
+    }
+  }
+  if (feet.size() != 2) {
+    throw InputError(
+        fmt::format("{}: gaits: a jump from {} needs one pair of flat feet, which bear on a line "
+                    "from heel to toe in the sagittal plane",
+                    robot.file.string(), launch.name));
+  }
+  std::sort(feet.begin(), feet.end(), [this](const ContactPoint& a, const ContactPoint& b) {
+    return Position(a, ready_).x() < Position(b, ready_).x();
+  });
+  heel_ = feet[0];
+  toe_ = feet[1];
+}
+
+SagittalModel::Ball SagittalModel::PegEnd(const ContactPoint& hand) const {
+  constexpr double kSame = 1e-3;  // m
+  for (const models::PosedShape& posed : planar()->tree().links[hand.link].shapes) {
+    if (posed.shape.type != models::ShapeType::kCapsule) continue;
+    for (const double end : {-posed.shape.length / 2, posed.shape.length / 2}) {
+      const Vector3d centre = posed.X_PS * Vector3d(0, 0, end);
+      const Eigen::Vector2d reach(hand.p_L.x() - centre.x(), hand.p_L.z() - centre.z());
+      if (std::abs(reach.norm() - posed.shape.radius) < kSame) {
+        return {{hand.link, {centre.x(), 0, centre.z()}}, posed.shape.radius};
+      }
+    }
+  }
+  return {hand, 0};
+}
+
+SagittalModel::Limb SagittalModel::LimbTo(const ContactPoint& tip) const {
+  const models::RobotModel& tree = planar()->tree();
+  Limb limb;
+  limb.tip = tip;
+  limb.length = tip.p_L.norm();
+  for (int link = tip.link; link > 0; link = tree.joints[link - 1].parent) {
+    limb.root = {link, Vector3d::Zero()};
+    const models::Joint& joint = tree.joints[link - 1];
+    if (joint.parent > 0) limb.length += joint.X_PJ.translation().norm();
+  }
+  return limb;
+}
+
+void SagittalModel::FindSeparations() {
+  constexpr double kMargin = 0.015;  // m
+  const models::RobotModel& tree = planar()->tree();
+  const auto bounds = [&tree](int link) {
+    Eigen::AlignedBox3d box;
+    for (const models::PosedShape& posed : tree.links[link].shapes) {
+      box.extend(posed.shape.Bounds(posed.X_PS));
+    }
+    return box;
+  };
+  const Eigen::AlignedBox3d trunk = bounds(0);
+  const Eigen::AlignedBox3d foot = bounds(heel_.link);
+  if (trunk.isEmpty() || foot.isEmpty()) return;
+  // Balls as thick as the trunk fill it from the root up; one about the ankle holds the foot.
+  const double radius = trunk.sizes().x() / 2;
+  const double distance = radius + foot.sizes().x() / 2 + kMargin;
+  const double top = trunk.max().z() - radius;
+  const int count = 2 + static_cast<int>(std::max(top, 0.0) / radius);
+  for (int i = 0; i < count; ++i) {
+    const Vector3d centre(trunk.center().x(), 0, top * i / (count - 1));
+    separations_.push_back({{0, centre}, {heel_.link, Vector3d::Zero()}, distance});
+  }
+}
+
+void SagittalModel::FindFreeRanges(const models::RobotModel& robot) {
+  const models::CollisionChecker checker(robot, models::Environment());
+  lower_ = planar()->lower();
+  upper_ = planar()->upper();
+  for (int joint = 0; joint < planar()->num_joints(); ++joint) {
+    for (const VectorXd& stance : {ready_, landed_}) {
+      lower_[joint] =
+          std::max(lower_[joint], FreeLimit(checker, stance, joint, planar()->lower()[joint]));
+      upper_[joint] =
+          std::min(upper_[joint], FreeLimit(checker, stance, joint, planar()->upper()[joint]));
+    }
+  }
+}
+
+/// How far `joint` can go from where it is in `q` towards `limit`.
+double SagittalModel::FreeLimit(const models::CollisionChecker& checker, const VectorXd& q,
+                                int joint, double limit) const {
+  constexpr double kStep = 0.05;       // rad
+  constexpr double kClearance = 2e-3;  // m
+  const models::RobotModel& robot = reduction_.full();
+  dynamics::TreeKinematics kinematics(robot);
+  // The links that the joint's own limb consists of, the root with it.
+  std::set<int> limb = {0};
+  for (int link = reduction_.joints()[joint].left + 1; link > 0;
+       link = robot.joints[link - 1].parent) {
+    limb.insert(link);
+  }
+  const auto own = [&limb](const models::Proximity& pair) {
+    return limb.contains(pair.link) && limb.contains(pair.other);
+  };
+  const double begin = q[3 + joint];
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(limit - begin) / kStep)));
+  double reached = begin;
+  for (int i = 1; i <= steps; ++i) {
+    VectorXd moved = q;
+    moved[3 + joint] = begin + (limit - begin) * i / steps;
+    kinematics.SetPosition(reduction_.ExpandConfiguration(moved));
+    const std::vector<models::Proximity> touching =
+        checker.SelfProximities(kinematics.X_WL(), kClearance);
+    if (std::any_of(touching.begin(), touching.end(), own)) return reached;
+    reached = moved[3 + joint];
+  }
+  return reached;
+}
+
+void SagittalModel::FindGuards() {
+  const models::RobotModel& tree = planar()->tree();
+  const std::set<int> bearing = [this] {
+    std::set<int> links = {heel_.link};
+    for (const ContactPoint& hand : hands_) links.insert(hand.link);
+    return links;
+  }();
+  const Eigen::AlignedBox3d trunk = Bounds(tree.links[0]);
+  if (!trunk.isEmpty()) {
+    for (const double x : {trunk.min().x(), trunk.max().x()}) {
+      for (const double z : {trunk.min().z(), trunk.max().z()}) {
+        guards_.push_back({{0, {x, 0, z}}, 0});
+      }
+    }
+  }
+  for (int link = 1; link < tree.num_links(); ++link) {
+    if (bearing.contains(link)) continue;
+    guards_.push_back({{link, Vector3d::Zero()}, HousingRadius(Bounds(tree.links[link]))});
+  }
+  // A hand that bears on a peg sticks out on its other side, and the forearm ends at it.
+  for (const ContactPoint& hand : hands_) {
+    const Eigen::AlignedBox3d box = Bounds(tree.links[hand.link]);
+    guards_.push_back({{hand.link, Vector3d::Zero()}, 0});
+    if (box.isEmpty()) continue;
+    const double thickness = std::max(-box.min().x(), box.max().x());
+    guards_.back().radius = thickness;
+    const double far = hand.p_L.z() > 0 ? box.min().z() : box.max().z();
+    guards_.push_back({{hand.link, {box.center().x(), 0, far}}, thickness});
+    middle_guards_.push_back({{hand.link, {box.center().x(), 0, far / 2}}, thickness});
+    const models::Joint& wrist = tree.joints[hand.link - 1];
+    if (wrist.parent == 0) continue;
+    const Vector3d half = wrist.X_PJ.translation() / 2;
+    middle_guards_.push_back(
+        {{wrist.parent, half}, HousingRadius(Bounds(tree.links[wrist.parent]))});
+  }
+}
+
+}  // namespace possibility::actions

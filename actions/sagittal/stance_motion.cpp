@@ -1,0 +1,251 @@
+#include "actions/sagittal/stance_motion.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "actions/plan/interpolation.h"
+
+namespace possibility::actions {
+namespace {
+
+using collocation::PhaseTrajectory;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kPreparation = 1.0;   // s: folding what the plan does not use
+constexpr double kKnotSpacing = 0.01;  // s
+constexpr double kCorrection = 0.5;    // s, at most: until the motion is as planned
+
+Eigen::Quaterniond Orientation(const VectorXd& q) { return {q[0], q[1], q[2], q[3]}; }
+
+std::vector<int> ContactsOf(const models::Gait& gait) {
+  std::vector<int> contacts;
+  for (const models::GaitLimb& limb : gait.limbs) contacts.push_back(limb.contact);
+  return contacts;
+}
+
+Signal<VectorXd> Planar(const PhaseTrajectory& plan, double t) {
+  const double s = std::clamp(t / plan.duration, 0.0, 1.0);
+  return {plan.Coordinates(s, 0), plan.Coordinates(s, 1), plan.Coordinates(s, 2)};
+}
+
+Vector3d RotationVector(const Eigen::Matrix3d& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+Eigen::Matrix3d Exponential(const Vector3d& phi) {
+  const double angle = phi.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, phi / angle).toRotationMatrix();
+}
+
+/// exp(phi(t)) after `turn`.
+RootTurn TurnedOnBy(const Signal<Vector3d>& phi, const RootTurn& turn) {
+  const Eigen::Matrix3d R = Exponential(phi.value);
+  const Eigen::Matrix3d J = LeftJacobian(phi.value);
+  const Vector3d own = J * phi.rate;
+  const Vector3d carried = R * turn.angular_velocity;
+  RootTurn result;
+  result.orientation = R * turn.orientation;
+  result.angular_velocity = own + carried;
+  result.angular_acceleration = J * phi.acceleration +
+                                LeftJacobianRate(phi.value, phi.rate) * phi.rate +
+                                own.cross(carried) + R * turn.angular_acceleration;
+  return result;
+}
+
+/// A signal of the time that is left as one of time.
+Signal<VectorXd> Reversed(const Signal<VectorXd>& signal) {
+  return {signal.value, -signal.rate, signal.acceleration};
+}
+
+ScalarSignal Entry(const Signal<VectorXd>& signal, int i) {
+  return {signal.value[i], signal.rate[i], signal.acceleration[i]};
+}
+
+ScalarSignal Entry(const Signal<Vector3d>& signal, int i) {
+  return {signal.value[i], signal.rate[i], signal.acceleration[i]};
+}
+
+}  // namespace
+
+StanceMotion::StanceMotion(const models::RobotModel& robot, const SagittalModel& model,
+                           const NominalStance& launch, const NominalStance& landing)
+    : robot_(robot),
+      model_(model),
+      launch_(launch),
+      landing_(landing),
+      feet_(ContactsOf(*launch.gait)),
+      all_(ContactsOf(*landing.gait)),
+      solver_(robot) {
+  settings_.knot_spacing = kKnotSpacing;
+  // A heel unloads to nothing before it lifts.
+  settings_.normal_reserve = 0;
+  // What the plan in the plane has left over is for what only the whole robot sees.
+  settings_.friction_margin = 0.88;
+  settings_.torque_margin = 0.99;
+  settings_.speed_margin = 0.99;
+}
+
+Support StanceMotion::LaunchFeet() const { return SupportOf(launch_, feet_, 0, 0); }
+
+Support StanceMotion::LandingFeet(double distance, double height) const {
+  return SupportOf(landing_, feet_, distance, height);
+}
+
+Support StanceMotion::LandingAll(double distance, double height) const {
+  return SupportOf(landing_, all_, distance, height);
+}
+
+Support StanceMotion::SupportOf(const NominalStance& stance, const std::vector<int>& contacts,
+                                double x, double z) const {
+  Support support;
+  for (std::size_t i = 0; i < stance.gait->limbs.size(); ++i) {
+    const int contact = stance.gait->limbs[i].contact;
+    if (std::find(contacts.begin(), contacts.end(), contact) == contacts.end()) continue;
+    LimbTask limb;
+    limb.limb = &stance.gait->limbs[i];
+    limb.position = ConstantVector<Vector3d>(stance.patch_centres[i] + Vector3d(x, 0, z));
+    limb.yaw = Constant(0);
+    limb.orientation = stance.patch_orientations[i];
+    support.limbs.push_back(limb);
+    const models::ContactPatch& patch = robot_.contacts[contact];
+    support.contacts.push_back(contact);
+    support.names.push_back(patch.name);
+    for (const Vector3d& p_L : patch.points) support.points.push_back({patch.link, p_L});
+  }
+  return support;
+}
+
+Support StanceMotion::Toes() const {
+  constexpr double kSame = 1e-6;  // m
+  Support toes;
+  for (std::size_t limb = 0; limb < launch_.gait->limbs.size(); ++limb) {
+    const models::ContactPatch& patch = robot_.contacts[launch_.gait->limbs[limb].contact];
+    const std::vector<Vector2d>& points = launch_.bearing_points[limb];
+    double foremost = -std::numeric_limits<double>::infinity();
+    for (const Vector2d& p : points) foremost = std::max(foremost, p.x());
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].x() < foremost - kSame) continue;
+      chosen.push_back(static_cast<int>(i));
+      toes.points.push_back({patch.link, patch.points[i]});
+    }
+    toes.names.push_back(fmt::format("{}[{}]", patch.name, fmt::join(chosen, ",")));
+  }
+  return toes;
+}
+
+Phase StanceMotion::Prepare() const {
+  const int n = robot_.num_joints();
+  const VectorXd from = launch_.q.tail(n);
+  const VectorXd to = model_.reduction().ExpandConfiguration(model_.ready()).tail(n);
+  WholeBodyTask task;
+  task.root_yaw = Constant(0);
+  task.root_pitch = Constant(launch_.gait->posture.root_pitch);
+  task.root_height = Constant(launch_.q[6]);
+  task.root_position = ConstantVector<Vector2d>(launch_.q.segment<2>(4));
+  task.limbs = LaunchFeet().limbs;
+  MotionPhase phase;
+  phase.duration = kPreparation;
+  phase.contacts = feet_;
+  phase.task = [=](double t) mutable {
+    task.joints = BlendVector<VectorXd>(from, to, RestToRest(t, kPreparation));
+    return task;
+  };
+  return MotionBuilder(robot_, settings_).Build({phase}, launch_.q).front();
+}
+
+Signal<VectorXd> StanceMotion::Joints(const PhaseTrajectory& plan, double t) const {
+  const Signal<VectorXd> planar = Planar(plan, t);
+  const int n = robot_.num_joints();
+  const dynamics::SagittalReduction& reduction = model_.reduction();
+  return {reduction.ExpandConfiguration(planar.value).tail(n),
+          reduction.ExpandVelocity(planar.rate).tail(n),
+          reduction.ExpandVelocity(planar.acceleration).tail(n)};
+}
+
+Knot StanceMotion::PlannedKnot(const PhaseTrajectory& plan, double s) const {
+  Knot knot;
+  knot.q = model_.reduction().ExpandConfiguration(plan.Coordinates(s));
+  knot.v = model_.reduction().ExpandVelocity(plan.Coordinates(s, 1));
+  return knot;
+}
+
+WholeBodyState StanceMotion::StateAt(const Knot& knot, const Support& support) {
+  const int n = robot_.num_joints();
+  WholeBodyTask task;
+  RootTurn& turn = task.root_turn.emplace();
+  turn.orientation = Orientation(knot.q).toRotationMatrix();
+  turn.angular_velocity = knot.v.head<3>();
+  task.root_height = {knot.q[6], knot.v[5], 0};
+  task.root_position = {knot.q.segment<2>(4), knot.v.segment<2>(3), Vector2d::Zero()};
+  task.joints = {knot.q.tail(n), knot.v.tail(n), VectorXd::Zero(n)};
+  task.limbs = support.limbs;
+  return solver_.Solve(task, knot.q);
+}
+
+Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from,
+                           const Support& support) const {
+  const VectorXd none = VectorXd::Zero(robot_.num_joints());
+  return Follow(plan, from, support, none, none);
+}
+
+Phase StanceMotion::FollowUntilPlaced(const PhaseTrajectory& plan, const Knot& from,
+                                      const Support& support, const Support& arriving) {
+  const int n = robot_.num_joints();
+  const Knot planned = PlannedKnot(plan, 1);
+  const WholeBodyState placed = StateAt(planned, arriving);
+  return Follow(plan, from, support, placed.q.tail(n) - planned.q.tail(n),
+                placed.v.tail(n) - planned.v.tail(n));
+}
+
+Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const Support& support,
+                           const VectorXd& end_offset, const VectorXd& end_rate) const {
+  const int n = robot_.num_joints();
+  const Signal<VectorXd> planned = Planar(plan, 0);
+  const Signal<VectorXd> planned_joints = Joints(plan, 0);
+  const RootTurn planned_turn = YawAndPitch(Constant(0), Entry(planned, 0));
+  const Vector3d turned_off =
+      RotationVector(Orientation(from.q).toRotationMatrix() * planned_turn.orientation.transpose());
+  const Vector3d turning_off =
+      LeftJacobian(turned_off).inverse() *
+      (from.v.head<3>() - Exponential(turned_off) * planned_turn.angular_velocity);
+  const Vector3d place_off = from.q.segment<3>(4) - Vector3d(planned.value[1], 0, planned.value[2]);
+  const Vector3d velocity_off =
+      from.v.segment<3>(3) - Vector3d(planned.rate[1], 0, planned.rate[2]);
+  const VectorXd joints_off = from.q.tail(n) - planned_joints.value;
+  const VectorXd rates_off = from.v.tail(n) - planned_joints.rate;
+  const double duration = plan.duration;
+  const double settled = std::min(kCorrection, duration);
+
+  MotionPhase phase;
+  phase.duration = duration;
+  phase.contacts = support.contacts;
+  phase.task = [=, this, &plan, &support](double t) {
+    const Signal<VectorXd> planar = Planar(plan, t);
+    const Signal<Vector3d> turn = DyingOut<Vector3d>(turned_off, turning_off, t, settled);
+    const Signal<Vector3d> shift = DyingOut<Vector3d>(place_off, velocity_off, t, settled);
+    WholeBodyTask task;
+    task.root_turn = TurnedOnBy(turn, YawAndPitch(Constant(0), Entry(planar, 0)));
+    const ScalarSignal x = Entry(shift, 0) + Entry(planar, 1);
+    const ScalarSignal y = Entry(shift, 1);
+    task.root_position = {Vector2d(x.value, y.value), Vector2d(x.rate, y.rate),
+                          Vector2d(x.acceleration, y.acceleration)};
+    task.root_height = Entry(shift, 2) + Entry(planar, 2);
+    task.joints = Joints(plan, t) + DyingOut<VectorXd>(joints_off, rates_off, t, settled) +
+                  Reversed(DyingOut<VectorXd>(end_offset, -end_rate, duration - t, duration));
+    task.limbs = support.limbs;
+    return task;
+  };
+  return MotionBuilder(robot_, settings_).Build({phase}, from.q).front();
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,42 @@
+#include "actions/transition/sit_down_problem.h"
+
+#include "actions/sagittal/motion_identity.h"
+
+namespace possibility::actions {
+
+using collocation::At;
+
+double SitDownProblem::Displacement(const SagittalModel& model) {
+  return model.Position(model.heel(), model.ready()).x() -
+         model.Position(model.heel(), model.landed()).x();
+}
+
+std::string SitDownIdentity(const models::RobotModel& robot, const SitDownSettings& settings) {
+  return MotionIdentity(
+      robot, settings,
+      {settings.sit.lower, settings.sit.upper, settings.bear.lower, settings.bear.upper});
+}
+
+SitDownProblem::SitDownProblem(const SagittalModel& model, const SitDownSettings& settings)
+    : SagittalProblem("sit down", model, Displacement(model), 0, settings) {
+  AddPhase("sit", Feet(), settings.sit);
+  AddPhase("bear", FeetAndHands(), settings.bear);
+  collocation::ContinueSagittally(&problem_, phases_[kSit], phases_[kBear], true);
+  StartAtRest(kSit);
+  HoldSoles(kSit, At::kAfterStart);
+  KeepHandsAbove(kSit, settings.hand_approach, At::kInside);
+  StartPlaced(kBear, 2);
+  StartHeld(kBear, HeldSolesAnd(model.hands().size()));
+  HoldFeetAndHands(kBear, At::kBeforeEnd);
+  EndAtRest(kBear);
+  for (int phase = 0; phase < kNumPhases; ++phase) {
+    const At at = phase == kSit ? At::kAfterStart : At::kEverywhere;
+    KeepBodyAbove(phase, at);
+    StayWithinRanges(phase, at);
+  }
+  AddCosts();
+  GuessLine(kSit, 1.2, 0, 0.8);
+  GuessLine(kBear, 0.8, 0.8, 1);
+}
+
+}  // namespace possibility::actions

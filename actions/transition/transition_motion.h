@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "actions/motion/nominal_stance.h"
+#include "actions/motion/planar_pose.h"
+#include "actions/transition/transition_solver.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// The transition from one gait's nominal stance to another's. The patches that both gaits use
+/// stay where they are; the others touch down, at no speed, where the second gait wants them.
+class TransitionMotion {
+ public:
+  /// `library`: folder of solved motions; empty: none. What it does not hold is solved.
+  /// @throws InputError if the two stances do not agree about the shared patches, or the robot
+  ///   cannot do it; Abandoned if `keep_going` (may be empty) says no.
+  TransitionMotion(const models::RobotModel& robot, const NominalStance& from,
+                   const NominalStance& to, const std::filesystem::path& library,
+                   const std::function<bool()>& keep_going);
+
+  const NominalStance& from() const { return *from_; }
+  const NominalStance& to() const { return *to_; }
+
+  /// Stance frame of the second gait in the frame of the first.
+  const PlanarPose& displacement() const { return displacement_; }
+
+  /// In the first gait's stance frame, from rest to rest; the backward motion is its Reversed().
+  const std::vector<Phase>& phases() const { return solved_.phases; }
+  double ExpectedDuration() const { return phases().back().knots.back().t; }  ///< s
+
+  bool was_known() const { return was_known_; }  ///< from the library
+  /// Into the library. @throws InputError if that fails.
+  void Save() const;
+
+ private:
+  void AlignStances(const models::RobotModel& robot);
+  bool FindInLibrary(const TransitionSolver& solver);
+
+  const NominalStance* from_;
+  const NominalStance* to_;
+  PlanarPose displacement_;
+  std::filesystem::path file_;  ///< of the solution; empty: nowhere
+  SolvedTransition solved_;
+  bool was_known_ = false;
+};
+
+}  // namespace possibility::actions

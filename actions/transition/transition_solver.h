@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "actions/plan/plan.h"
+#include "actions/sagittal/sagittal_model.h"
+#include "actions/transition/sit_down_problem.h"
+#include "collocation/study/stored_solution.h"
+
+namespace possibility::actions {
+
+/// A transition of the whole robot that keeps every limit.
+struct SolvedTransition {
+  std::vector<Phase> phases;  ///< in the first stance's frame, rest to rest, times from 0
+  collocation::StoredSolution solution;  ///< of the plane
+};
+
+/// Finds the motion from the stance of one gait to that of another which bears on more patches:
+/// collocation in the sagittal plane, then the motion of the whole robot.
+class TransitionSolver {
+ public:
+  /// `robot`, `from` and `to` must outlive it. @throws what SagittalModel throws.
+  TransitionSolver(const models::RobotModel& robot, const NominalStance& from,
+                   const NominalStance& to, const SitDownSettings& settings = {});
+
+  const SagittalModel& model() const { return model_; }
+
+  /// From nothing; its motion has been verified on bare ground. `keep_going` (may be empty) is
+  /// asked from another thread, too.
+  /// @throws MotionError if there is none, Abandoned if `keep_going` says no.
+  SolvedTransition Solve(const std::function<bool()>& keep_going) const;
+  /// From a solution. @throws std::invalid_argument if it is of another problem, MotionError.
+  SolvedTransition Realise(const collocation::StoredSolution& solution) const;
+
+ private:
+  std::vector<Phase> InSpace(const collocation::Trajectory& trajectory) const;
+
+  const models::RobotModel& robot_;
+  const NominalStance& from_;
+  const NominalStance& to_;
+  SitDownSettings settings_;
+  SagittalModel model_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,244 @@
+#include "actions/verify/rollout_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "actions/plan/contact_name.h"
+#include "actions/plan/interpolation.h"
+#include "dynamics/rollout/robot_rollout.h"
+#include "dynamics/tree/multibody_model.h"
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kHeight = 1.1e-3;  // m: a plan's points bear within 1 mm of their ground
+constexpr double kEdge = 0.01;      // m: a rigid sole is borne by the edge that it overlaps
+constexpr double kRest = 1e-3;      // m/s and rad/s
+
+/// The knots of a segment as one function of time.
+class Track {
+ public:
+  explicit Track(const Segment& segment) {
+    for (const Phase& phase : segment.phases) {
+      for (std::size_t i = 0; i + 1 < phase.knots.size(); ++i) {
+        starts_.push_back(phase.knots[i].t);
+        intervals_.emplace_back(phase.knots[i], phase.knots[i + 1]);
+      }
+    }
+  }
+
+  /// `t` before the start or after the end: the knot there. Where phases meet: the later one's.
+  Knot At(double t) const {
+    const auto after = std::upper_bound(starts_.begin() + 1, starts_.end(), t);
+    return intervals_[after - starts_.begin() - 1].At(t);
+  }
+
+ private:
+  std::vector<double> starts_;
+  std::vector<KnotInterpolant> intervals_;
+};
+
+/// The levels of the ground on which something of the segment bears.
+std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot,
+                         const models::GroundMap& ground) {
+  std::set<int> levels;
+  dynamics::TreeKinematics kinematics(robot);
+  for (const Phase& phase : segment.phases) {
+    kinematics.SetPosition(phase.knots.front().q);
+    for (const BearingPatch& bearing : BearingPatches(robot, phase)) {
+      const models::ContactPatch& patch = robot.contacts[bearing.patch];
+      for (const int i : bearing.points) {
+        const Vector3d p = kinematics.Position(patch.link, patch.points[i]);
+        const auto level = ground.LevelAt(p.head<2>(), p.z(), kHeight);
+        if (level) levels.insert(*level);
+      }
+    }
+  }
+  return levels;
+}
+
+/// Every contact point of the robot over every level used, seen from `origin`. Only where there are
+/// several does it matter where each of them ends.
+std::vector<dynamics::RolloutContact> ContactsOver(const std::set<int>& levels,
+                                                   const dynamics::MultibodyModel& model,
+                                                   const models::GroundMap& ground,
+                                                   const Vector3d& origin) {
+  const models::RobotModel& robot = model.tree();
+  const auto kinematics = std::make_shared<dynamics::TreeKinematics>(robot);
+  std::vector<dynamics::RolloutContact> contacts;
+  for (const int level : levels) {
+    for (const models::ContactPatch& patch : robot.contacts) {
+      for (std::size_t i = 0; i < patch.points.size(); ++i) {
+        dynamics::RolloutContact contact;
+        contact.name = fmt::format("{} {}", patch.name, i);
+        contact.point = {patch.link, patch.points[i], Vector3d::UnitZ()};
+        contact.offset = ground.levels()[level] - origin.z();
+        contact.friction = robot.friction;
+        if (levels.size() > 1) {
+          contact.lands = [kinematics, &model, &ground, level, origin,
+                           point = contact.point](const VectorXd& q) {
+            kinematics->SetPosition(model.TreeConfiguration(q));
+            const Vector3d p = origin + kinematics->Position(point.link, point.p_L);
+            return ground.Clearance(level, p.head<2>()) > -kEdge;
+          };
+        }
+        contacts.push_back(std::move(contact));
+      }
+    }
+  }
+  return contacts;
+}
+
+/// Simulates where the segment begins: the farther from the origin, the less of an integrator's
+/// relative tolerance would be left to the motion.
+class Rollout {
+ public:
+  Rollout(const Segment& segment, const models::RobotModel& robot, const models::GroundMap& ground,
+          const RolloutCheckSettings& settings)
+      : segment_(segment),
+        settings_(settings),
+        origin_(segment.phases.front().knots.front().q.segment<3>(4)),
+        model_(dynamics::MultibodyModel::Spatial(robot)),
+        track_(segment),
+        simulator_(model_,
+                   ContactsOver(LevelsUsed(segment, robot, ground), *model_, ground, origin_),
+                   Control(), SimulatorSettings()) {}
+
+  void Run(RolloutDrift* drift) {
+    const Knot& first = segment_.phases.front().knots.front();
+    const Knot& last = segment_.phases.back().knots.back();
+    drift->ends_at_rest = last.v.lpNorm<Eigen::Infinity>() < kRest;
+    const double end = last.t + (drift->ends_at_rest ? settings_.settling_time : 0);
+    const dynamics::RobotRollout rollout =
+        simulator_.Run(Configuration(first), Velocity(first), first.t, end);
+    if (rollout.time < end) {
+      drift->failure = fmt::format("ends at {:.3f} s: {}", rollout.time, rollout.reason);
+      return;
+    }
+    Compare(rollout, drift);
+  }
+
+ private:
+  dynamics::JointControl Control() const {
+    dynamics::JointControl control;
+    control.stiffness = model_->effort() / settings_.full_effort_error;
+    // A joint without a limit has no use for an infinite gain.
+    for (double& k : control.stiffness) k = std::isfinite(k) ? k : 0;
+    control.damping = settings_.damping_time * control.stiffness;
+    control.command = [this](double t, dynamics::JointCommand* command) {
+      const Knot knot = track_.At(t);
+      const int n = model_->num_joints();
+      command->position = Configuration(knot).tail(n);
+      command->velocity = Velocity(knot).tail(n);
+      VectorXd forces = VectorXd::Zero(model_->tree().nv());
+      forces.tail(knot.tau.size()) = knot.tau;
+      command->torque = model_->IndependentForces(forces).tail(n);
+    };
+    return control;
+  }
+
+  dynamics::RobotRolloutSettings SimulatorSettings() const {
+    dynamics::RobotRolloutSettings settings;
+    settings.touching = kHeight;
+    settings.hybrid.integration.relative_tolerance = settings_.tolerance;
+    settings.hybrid.integration.absolute_tolerance = settings_.tolerance;
+    settings.hybrid.integration.stop = settings_.stop;
+    settings.hybrid.end_at_zeno = true;
+    return settings;
+  }
+
+  /// Of the independent joints, seen from the origin of the simulation.
+  VectorXd Configuration(const Knot& knot) const {
+    VectorXd q(model_->nq());
+    q.head<7>() = knot.q.head<7>();
+    q.segment<3>(4) -= origin_;
+    for (int j = 0; j < model_->num_joints(); ++j) q[7 + j] = knot.q[7 + model_->joints()[j]];
+    return q;
+  }
+
+  VectorXd Velocity(const Knot& knot) const {
+    VectorXd v(model_->nv());
+    v.head<6>() = knot.v.head<6>();
+    for (int j = 0; j < model_->num_joints(); ++j) v[6 + j] = knot.v[6 + model_->joints()[j]];
+    return v;
+  }
+
+  void Compare(const dynamics::RobotRollout& rollout, RolloutDrift* drift) const {
+    const auto samples =
+        static_cast<int>(std::ceil((drift->end - drift->start) / settings_.sample_time));
+    for (int i = 0; i <= samples; ++i) {
+      const double t = std::min(drift->end, drift->start + i * settings_.sample_time);
+      const VectorXd planned = Configuration(track_.At(t));
+      const VectorXd q = rollout.Configuration(t);
+      drift->worst_position = std::max(drift->worst_position, Apart(q, planned));
+      drift->worst_orientation = std::max(drift->worst_orientation, Turned(q, planned));
+      const double joint = (q - planned).tail(model_->num_joints()).lpNorm<Eigen::Infinity>();
+      drift->worst_joint = std::max(drift->worst_joint, joint);
+    }
+    const VectorXd planned = Configuration(segment_.phases.back().knots.back());
+    const VectorXd q = rollout.Configuration(rollout.time);
+    const VectorXd v = rollout.Velocity(rollout.time);
+    drift->end_position = Apart(q, planned);
+    drift->end_orientation = Turned(q, planned);
+    drift->end_speed = std::max(v.head<3>().norm(), v.segment<3>(3).norm());
+    for (const dynamics::RobotContactEvent& event : rollout.events) {
+      drift->impacts += event.energy_lost > 0 ? 1 : 0;
+    }
+  }
+
+  static double Apart(const VectorXd& q, const VectorXd& planned) {
+    return (q - planned).segment<3>(4).norm();
+  }
+
+  static double Turned(const VectorXd& q, const VectorXd& planned) {
+    return Quaterniond(q[0], q[1], q[2], q[3])
+        .angularDistance(Quaterniond(planned[0], planned[1], planned[2], planned[3]));
+  }
+
+  const Segment& segment_;
+  const RolloutCheckSettings& settings_;
+  Vector3d origin_;  ///< m
+  std::shared_ptr<const dynamics::MultibodyModel> model_;
+  Track track_;
+  dynamics::RobotSimulator simulator_;
+};
+
+}  // namespace
+
+bool RolloutDrift::follows() const {
+  return failure.empty() && end_position <= kRolloutPosition &&
+         end_orientation <= kRolloutOrientation && (!ends_at_rest || end_speed <= kRolloutSpeed);
+}
+
+bool IsDynamic(const Phase& phase) { return phase.contacts.empty() || phase.impulses.cols() > 0; }
+
+bool IsDynamic(const Segment& segment) {
+  return std::any_of(segment.phases.begin(), segment.phases.end(),
+                     [](const Phase& phase) { return IsDynamic(phase); });
+}
+
+RolloutDrift RollOutSegment(const Segment& segment, const models::RobotModel& robot,
+                            const models::GroundMap& ground, const RolloutCheckSettings& settings) {
+  RolloutDrift drift;
+  drift.start = segment.phases.front().knots.front().t;
+  drift.end = segment.phases.back().knots.back().t;
+  try {
+    Rollout(segment, robot, ground, settings).Run(&drift);
+  } catch (const std::exception& error) {
+    drift.failure = error.what();
+  }
+  return drift;
+}
+
+}  // namespace possibility::actions

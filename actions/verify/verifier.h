@@ -1,0 +1,98 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "actions/plan/plan.h"
+#include "actions/verify/rollout_check.h"
+#include "models/robot/robot_model.h"
+#include "models/world/scenario.h"
+
+namespace possibility::actions {
+
+/// What the verifier looks at; each kind has its own tolerance (docs/verification.md).
+enum class ViolationKind {
+  kFileMismatch,        ///< robot or scenario is not the one planned for
+  kStructure,           ///< no segments, unknown contact, times out of order or apart
+  kAction,              ///< an action that the scenario does not allow, or other than it is called
+  kStart,               ///< the first state is not the scenario's start at rest
+  kGoal,                ///< the last state is not a goal at rest
+  kBounds,              ///< the root leaves the scenario's bounds
+  kPositionContinuity,  ///< q jumps between phases or segments
+  kVelocityContinuity,  ///< v jumps between phases or segments, and no impact is declared
+  kImpact,              ///< impulses that do not make the jump of v, or that no ground gives
+  kJointPosition,
+  kJointSpeed,  ///< a joint, or the root, is too fast
+  kJointTorque,
+  kJointCoupling,  ///< a mimic joint does not follow its master
+  kContactMotion,  ///< a bearing point moves
+  kContactGround,  ///< a bearing point is not on ground
+  kPenetration,    ///< a link is inside the environment
+  kSelfCollision,
+  kDynamics,  ///< tau and forces do not realise the motion
+  kFriction,  ///< a contact force leaves its cone or pulls
+  kFlight,    ///< centre of mass off its parabola, or angular momentum not kept
+  kRollout,   ///< a simulation of the motion ends elsewhere
+};
+
+/// "file_mismatch", "structure", ...: the words of the report.
+std::string ToString(ViolationKind kind);
+
+/// The worst violation of one kind over the whole plan.
+struct Violation {
+  ViolationKind kind = ViolationKind::kStructure;
+  int segment = -1;      ///< index, or -1
+  double time = 0;       ///< s
+  std::string quantity;  ///< what, e.g. "LKP torque", "left_sole point 2 against floor"
+  double value = 0;
+  double limit = 0;  ///< what would have been let pass, tolerance included
+  std::string unit;  ///< empty if the violation has no measure
+};
+
+/// What became of a stretch of motion with flight or impacts in a simulation.
+struct StretchRollout {
+  int segment = 0;       ///< index of the first
+  int last_segment = 0;  ///< index
+  RolloutDrift drift;
+};
+
+struct VerificationReport {
+  std::filesystem::path robot_file;  ///< what the plan was verified with; empty if of no file
+  std::filesystem::path scenario_file;
+  std::vector<Violation> violations;  ///< at most one (the worst) of each kind; empty: accepted
+  /// By dynamic stretch, in order. Empty if something else is wrong with the plan.
+  std::vector<StretchRollout> rollouts;
+  std::int64_t samples = 0;
+  double resolution = 0;  ///< s, largest time between samples
+  /// Bounds on how far anything departs between two samples from the straight line between them:
+  /// bearing points (m), and joint torques and the wrench on the root (N; N m, over 1 m).
+  double position_resolution = 0;
+  double force_resolution = 0;
+  double seconds = 0;
+  bool abandoned = false;  ///< VerifierSettings::keep_going said so
+  bool accepted() const { return violations.empty() && !abandoned; }
+};
+
+struct VerifierSettings {
+  /// Asked now and then, from any thread, with the fraction done; false abandons the rest. May be
+  /// empty.
+  std::function<bool(double)> keep_going;
+  double resolution = 0.005;  ///< s, at most; wild motions are looked at more closely
+  /// Whether stretches with flight or impacts are simulated, too: seconds for each.
+  bool simulates = true;
+  int threads = 1;  ///< samples are independent; the report does not depend on it
+};
+
+/// Re-derives from the plan, the robot and the scenario alone that the plan can be executed.
+/// Never uses the planner's constraint functions: its own sampling, exact geometry, Simbody
+/// inverse dynamics. If the plan's structure is broken, or the robot or scenario do not fit its
+/// sizes, only kFileMismatch and kStructure are looked at. Stretches with flight or impacts are
+/// simulated if nothing else is wrong.
+/// @throws std::invalid_argument if the resolution or the number of threads is not positive;
+///   InputError if the scenario names an action for which the robot has no gait.
+VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,
+                          const models::Scenario& scenario, const VerifierSettings& settings = {});
+
+}  // namespace possibility::actions

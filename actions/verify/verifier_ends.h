@@ -1,0 +1,11 @@
+#pragma once
+
+#include "actions/verify/verifier_structure.h"
+
+namespace possibility::actions {
+
+/// Whether the plan begins at the scenario's start and ends at its goal, at rest.
+void CheckEnds(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
+               StateEvaluator* evaluator, ViolationLog* log);
+
+}  // namespace possibility::actions

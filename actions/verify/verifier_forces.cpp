@@ -1,0 +1,155 @@
+#include "actions/verify/verifier_forces.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "actions/verify/verifier_limits.h"
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kKnotTolerance = 1e-6;     // of the weight (N), or of weight x 1 m (N m)
+constexpr double kBetweenTolerance = 1e-3;  // likewise, rows that no contact force can reach
+constexpr double kConeTolerance = 1e-6;     // of the weight
+constexpr double kLeastLoad = 1e-3;         // of the weight per point, see ChangeWeights
+constexpr double kRankTolerance = 1e-13;    // relative, squared singular values
+
+/// The wrench (torque about the root's origin, force) of forces at points.
+Vector6d BaseWrench(const Matrix3Xd& arms, const Matrix3Xd& forces) {
+  Vector6d wrench = Vector6d::Zero();
+  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
+    const Vector3d arm = arms.col(i);
+    const Vector3d force = forces.col(i);
+    wrench.head<3>() += arm.cross(force);
+    wrench.tail<3>() += force;
+  }
+  return wrench;
+}
+
+/// How readily a point's force may be changed: the square of the load it bears. A foot that is
+/// about to lift off must not be asked to pull.
+VectorXd ChangeWeights(const Matrix3Xd& forces, double weight) {
+  VectorXd weights(forces.cols());
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
+    const double load = std::max(forces(2, i) / weight, 0.0) + kLeastLoad / forces.cols();
+    weights[i] = load * load;
+  }
+  return weights;
+}
+
+/// The change of forces, least in the norm sum_i |df_i|^2 / w_i, whose wrench is `wrench` as
+/// far as the points can supply it.
+Matrix3Xd LeastChange(const Matrix3Xd& arms, const VectorXd& weights, const Vector6d& wrench) {
+  Matrix6d gram = Matrix6d::Zero();
+  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
+    Eigen::Matrix<double, 6, 3> G;
+    const Vector3d arm = arms.col(i);
+    G.topRows<3>() << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+    G.bottomRows<3>().setIdentity();
+    gram += weights[i] * G * G.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(gram);
+  const double cutoff = kRankTolerance * eigen.eigenvalues().maxCoeff();
+  Vector6d coordinates = eigen.eigenvectors().transpose() * wrench;
+  for (int i = 0; i < 6; ++i) {
+    const double value = eigen.eigenvalues()[i];
+    coordinates[i] = value > cutoff ? coordinates[i] / value : 0;
+  }
+  const Vector6d multiplier = eigen.eigenvectors() * coordinates;
+  Matrix3Xd change(3, arms.cols());
+  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
+    const Vector3d arm = arms.col(i);
+    change.col(i) = weights[i] * (multiplier.tail<3>() + Vector3d(multiplier.head<3>()).cross(arm));
+  }
+  return change;
+}
+
+/// Subtracts J' f of the joint rows: each force acts on every joint between its link and the root.
+void SubtractJointTorques(const VerifierState& state, const std::vector<BearingPoint>& points,
+                          const Matrix3Xd& forces, const models::RobotModel& robot,
+                          VectorXd* torques) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3d p = state.Position(points[i]);
+    const Vector3d force = forces.col(i);
+    for (int link = points[i].link; link > 0; link = robot.joints[link - 1].parent) {
+      const models::Joint& joint = robot.joints[link - 1];
+      const Vector3d axis = state.X_WL[link].linear() * joint.axis;
+      const Vector3d arm = p - state.X_WL[link].translation();
+      (*torques)[link - 1] -= joint.type == models::JointType::kPrismatic
+                                  ? axis.dot(force)
+                                  : axis.dot(arm.cross(force));
+    }
+  }
+}
+
+void CheckCone(const Vector3d& force, const BearingPoint& point, const models::RobotModel& robot,
+               double weight, const Instant& at, ViolationLog* log) {
+  const double tolerance = kConeTolerance * weight;
+  log->RequireAtLeast(ViolationKind::kFriction, at, force.z(), 0, tolerance, "N",
+                      [&] { return NameOf(robot, point) + " pulls on the ground"; });
+  log->RequireAtMost(ViolationKind::kFriction, at, force.head<2>().norm(),
+                     robot.friction * std::max(force.z(), 0.0), tolerance, "N",
+                     [&] { return NameOf(robot, point) + " tangential force"; });
+}
+
+}  // namespace
+
+RealisedForces RealiseForces(const VerifierState& state, const std::vector<BearingPoint>& points,
+                             const models::RobotModel& robot,
+                             const dynamics::SimbodyDynamics& dynamics) {
+  const VectorXd generalised = dynamics.InverseDynamics(state.knot.a);
+  Matrix3Xd arms(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    arms.col(i) = state.Position(points[i]) - state.X_WL[0].translation();
+  }
+  const Vector6d missing = generalised.head<6>() - BaseWrench(arms, state.knot.forces);
+  RealisedForces realised;
+  realised.declared_residual = missing.cwiseAbs().maxCoeff();
+  realised.forces = state.knot.forces;
+  if (!points.empty()) {
+    const double weight = robot.TotalMass() * dynamics::kGravity;
+    realised.forces += LeastChange(arms, ChangeWeights(state.knot.forces, weight), missing);
+  }
+  realised.residual =
+      (generalised.head<6>() - BaseWrench(arms, realised.forces)).cwiseAbs().maxCoeff();
+  realised.torques = generalised.tail(robot.num_joints());
+  SubtractJointTorques(state, points, realised.forces, robot, &realised.torques);
+  return realised;
+}
+
+void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
+                 const models::RobotModel& robot, const dynamics::SimbodyDynamics& dynamics,
+                 bool at_knot, const Instant& at, ViolationLog* log) {
+  const RealisedForces realised = RealiseForces(state, contacts.points, robot, dynamics);
+  const double weight = robot.TotalMass() * dynamics::kGravity;
+  if (at_knot) {
+    log->RequireAtMost(ViolationKind::kDynamics, at, realised.declared_residual, 0,
+                       kKnotTolerance * weight, "N or N m", [] {
+                         return std::string("unactuated rows under the declared contact forces");
+                       });
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      log->RequireAtMost(
+          ViolationKind::kDynamics, at, std::abs(state.knot.tau[j] - realised.torques[j]), 0,
+          kKnotTolerance * weight, "N m",
+          [&] { return robot.joints[j].name + " declared torque off inverse dynamics"; });
+    }
+  }
+  log->RequireAtMost(
+      ViolationKind::kDynamics, at, realised.residual, 0, kBetweenTolerance * weight, "N or N m",
+      [] { return std::string("unactuated rows that no contact force can supply"); });
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    CheckCone(realised.forces.col(i), contacts.points[i], robot, weight, at, log);
+  }
+  CheckTorqueLimits(realised.torques, robot, at, log);
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "actions/verify/verifier.h"
+
+namespace possibility::actions {
+
+/// When something was looked at.
+struct Instant {
+  int segment = -1;
+  double time = 0;  ///< s
+};
+
+/// Keeps the worst violation of each kind: the one most tolerances beyond its limit, and the
+/// earliest of equals, so that the order in which violations are reported does not matter.
+class ViolationLog {
+ public:
+  /// Reports `value` > limit + tolerance, NaN included. `name()` spells the quantity out and is
+  /// only called then. `tolerance` > 0.
+  template <typename Name>
+  bool RequireAtMost(ViolationKind kind, const Instant& at, double value, double limit,
+                     double tolerance, const char* unit, Name&& name) {
+    if (value <= limit + tolerance) return true;
+    Add({kind, at.segment, at.time, name(), value, limit + tolerance, unit},
+        (value - limit) / tolerance);
+    return false;
+  }
+
+  /// Reports `value` < limit - tolerance, NaN included.
+  template <typename Name>
+  bool RequireAtLeast(ViolationKind kind, const Instant& at, double value, double limit,
+                      double tolerance, const char* unit, Name&& name) {
+    if (value >= limit - tolerance) return true;
+    Add({kind, at.segment, at.time, name(), value, limit - tolerance, unit},
+        (limit - value) / tolerance);
+    return false;
+  }
+
+  /// Something that has no measure; `quantity` says what.
+  void Report(ViolationKind kind, const Instant& at, const std::string& quantity);
+
+  void Merge(const ViolationLog& other);
+  bool Has(ViolationKind kind) const { return worst_.count(kind) > 0; }
+  std::vector<Violation> Worst() const;
+
+ private:
+  struct Entry {
+    Violation violation;
+    double severity = 0;
+  };
+
+  void Add(const Violation& violation, double severity);
+  static bool IsWorse(const Entry& a, const Entry& b);
+
+  std::map<ViolationKind, Entry> worst_;
+};
+
+}  // namespace possibility::actions

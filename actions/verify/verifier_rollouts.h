@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "actions/verify/verifier.h"
+#include "actions/verify/verifier_log.h"
+#include "actions/verify/verifier_motion.h"
+
+namespace possibility::actions {
+
+/// Part of a plan that is simulated as one: from rest on the ground to rest on the ground, with
+/// flight or impacts between. It does not depend on how its phases are shared out among segments.
+struct DynamicStretch {
+  int first_segment = 0;
+  int last_segment = 0;
+  Segment motion;  ///< all its phases
+};
+
+/// In the order of time. Where nothing rests before or after, the plan's beginning or end ends it.
+std::vector<DynamicStretch> DynamicStretches(const Plan& plan);
+
+/// Simulates the dynamic stretches, on settings.threads threads. Sets the rollouts and `abandoned`
+/// of the report.
+void VerifyRollouts(const VerifiedPlan& subject, const VerifierSettings& settings,
+                    ViolationLog* log, VerificationReport* report);
+
+}  // namespace possibility::actions

@@ -1,0 +1,207 @@
+#include "collocation/kkt/dense_front.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace possibility::collocation {
+namespace {
+
+using Column = Eigen::Map<Eigen::VectorXd>;
+using Panel = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+constexpr int kWindow = 32;              // columns that one block of pivots updates at once
+constexpr double kSafeThreshold = 0.01;  // tried before the caller's, laxer one
+constexpr double kZeroPivot = 1e-13;     // entries are of order one
+
+}  // namespace
+
+void DenseFront::Reset(int size) {
+  size_ = size;
+  num_pivots_ = num_negative_ = pending_ = 0;
+  has_zero_candidate_ = false;
+  index_.clear();
+  pivots_.clear();
+  inverse_diagonal_.clear();
+  inverse_subdiagonal_.clear();
+  const size_t entries = static_cast<size_t>(size) * size;
+  if (values_.size() < entries) values_.resize(entries);
+  for (int j = 0; j < size; ++j) std::fill(column(j) + j, column(j) + size, 0.0);
+}
+
+double DenseFront::LargestBeside(int k) const {
+  double largest = 0;
+  for (int j = num_pivots_; j < k; ++j) largest = std::max(largest, std::abs(column(j)[k]));
+  const int below = size_ - k - 1;
+  if (below == 0) return largest;
+  return std::max(
+      largest,
+      Eigen::Map<const Eigen::VectorXd>(column(k) + k + 1, below).lpNorm<Eigen::Infinity>());
+}
+
+bool DenseFront::IsZero(int k) const {
+  return std::abs(column(k)[k]) <= kZeroPivot && LargestBeside(k) <= kZeroPivot;
+}
+
+int DenseFront::LargestCandidateBeside(int k) const {
+  int found = -1;
+  double largest = 0;
+  auto look = [&](int i, double entry) {
+    if (std::abs(entry) > largest) {
+      largest = std::abs(entry);
+      found = i;
+    }
+  };
+  for (int j = num_pivots_; j < k; ++j) look(j, column(j)[k]);
+  for (int i = k + 1; i < candidates_; ++i) look(i, column(k)[i]);
+  return found;
+}
+
+void DenseFront::Swap(int p, int q) {
+  if (p == q) return;
+  if (p > q) std::swap(p, q);
+  for (int j = 0; j < p; ++j) std::swap(column(j)[p], column(j)[q]);
+  for (int j = p + 1; j < q; ++j) std::swap(column(p)[j], column(j)[q]);
+  std::swap(column(p)[p], column(q)[q]);
+  std::swap_ranges(column(p) + q + 1, column(p) + size_, column(q) + q + 1);
+  std::swap(index_[p], index_[q]);  // pending updates lie beyond the window, in no swapped row
+}
+
+int DenseFront::TryColumn(int k, int window, double threshold) {
+  const double a = column(k)[k];
+  const double largest = LargestBeside(k);
+  if (std::abs(a) > kZeroPivot && std::abs(a) >= threshold * largest) {
+    Swap(num_pivots_, k);
+    return 1;
+  }
+  int partner = LargestCandidateBeside(k);
+  if (partner < 0 || partner >= window) return 0;  // beyond the window it is not up to date
+  const double b = column(std::min(k, partner))[std::max(k, partner)];
+  const double c = column(partner)[partner];
+  const double largest_there = LargestBeside(partner);
+  // |D^-1| times the largest entries beside the pair bounds the multipliers (Duff & Reid 1983).
+  const double determinant = std::abs(a * c - b * b);
+  const double first = std::abs(c) * largest + std::abs(b) * largest_there;
+  const double second = std::abs(b) * largest + std::abs(a) * largest_there;
+  if (std::abs(b) <= kZeroPivot || determinant <= kZeroPivot * std::abs(b) ||
+      threshold * std::max(first, second) > determinant) {
+    return 0;
+  }
+  if (partner == num_pivots_) partner = k;  // where the first swap puts it
+  Swap(num_pivots_, k);
+  Swap(num_pivots_ + 1, partner);
+  return 2;
+}
+
+int DenseFront::FindPivot(int window, double threshold) {
+  for (int k = num_pivots_; k < window; ++k) {
+    const int found = TryColumn(k, window, threshold);
+    if (found > 0) return found;
+  }
+  return 0;
+}
+
+void DenseFront::EliminateSingle(int window) {
+  const int k = num_pivots_;
+  double* multipliers = column(k);
+  const double pivot = multipliers[k];
+  double* scaled = scaled_.data() + static_cast<size_t>(pending_) * size_;
+  std::copy(multipliers + k, multipliers + size_, scaled + k);
+  const double inverse = 1 / pivot;
+  Column(multipliers + k + 1, size_ - k - 1) *= inverse;
+  for (int j = k + 1; j < window; ++j) {
+    if (scaled[j] == 0) continue;
+    Column(column(j) + j, size_ - j) -= scaled[j] * Column(multipliers + j, size_ - j);
+  }
+  multipliers[k] = 1;
+  pivots_.push_back(kSingle);
+  inverse_diagonal_.push_back(inverse);
+  inverse_subdiagonal_.push_back(0);
+  num_negative_ += pivot < 0;
+  num_pivots_ += 1;
+  pending_ += 1;
+}
+
+void DenseFront::EliminatePair(int window) {
+  const int k = num_pivots_;
+  double* first = column(k);
+  double* second = column(k + 1);
+  const double a = first[k], b = first[k + 1], c = second[k + 1];
+  const double determinant = a * c - b * b;
+  const double ia = c / determinant, ib = -b / determinant, ic = a / determinant;
+  double* scaled_first = scaled_.data() + static_cast<size_t>(pending_) * size_;
+  double* scaled_second = scaled_first + size_;
+  for (int i = k + 2; i < size_; ++i) {
+    scaled_first[i] = first[i];
+    scaled_second[i] = second[i];
+    first[i] = ia * scaled_first[i] + ib * scaled_second[i];
+    second[i] = ib * scaled_first[i] + ic * scaled_second[i];
+  }
+  for (int j = k + 2; j < window; ++j) {
+    Column(column(j) + j, size_ - j) -= scaled_first[j] * Column(first + j, size_ - j) +
+                                        scaled_second[j] * Column(second + j, size_ - j);
+  }
+  first[k] = second[k + 1] = 1;
+  first[k + 1] = 0;
+  pivots_.push_back(kPairFirst);
+  pivots_.push_back(kPairSecond);
+  inverse_diagonal_.insert(inverse_diagonal_.end(), {ia, ic});
+  inverse_subdiagonal_.insert(inverse_subdiagonal_.end(), {ib, 0.0});
+  num_negative_ += determinant < 0 ? 1 : (a < 0 ? 2 : 0);
+  num_pivots_ += 2;
+  pending_ += 2;
+}
+
+void DenseFront::UpdateTrailing(int first_pivot, int from) {
+  const int rows = size_ - from;
+  const int count = pending_;
+  pending_ = 0;
+  if (rows == 0 || count == 0) return;
+  if (static_cast<double>(rows) * rows * count < 2000) {  // too small for a blocked product
+    for (int p = 0; p < count; ++p) {
+      const double* multipliers = column(first_pivot + p);
+      const double* scaled = scaled_.data() + static_cast<size_t>(p) * size_;
+      for (int j = from; j < size_; ++j) {
+        if (scaled[j] == 0) continue;
+        double* target = column(j);
+        for (int i = j; i < size_; ++i) target[i] -= scaled[j] * multipliers[i];
+      }
+    }
+    return;
+  }
+  const Eigen::OuterStride<> stride(size_);
+  const Panel multipliers(column(first_pivot) + from, rows, count, stride);
+  const Panel scaled(scaled_.data() + from, rows, count, stride);
+  Panel(column(from) + from, rows, rows, stride).triangularView<Eigen::Lower>() -=
+      multipliers * scaled.transpose();
+}
+
+void DenseFront::Eliminate(int candidates, double threshold, bool last,
+                           const std::function<void()>& interrupt) {
+  candidates_ = candidates;
+  const size_t buffer = static_cast<size_t>(size_) * std::max(candidates, 1);
+  if (scaled_.size() < buffer) scaled_.resize(buffer);
+  const double safe = std::max(threshold, kSafeThreshold);
+  int window = std::min(candidates, kWindow);
+  int first_pivot = 0;
+  while (num_pivots_ < candidates) {
+    int found = FindPivot(window, safe);
+    if (found == 0) found = FindPivot(window, threshold);
+    if (found == 0 && last && window == candidates) found = FindPivot(window, 0);
+    if (found == 1) EliminateSingle(window);
+    if (found == 2) EliminatePair(window);
+    if (found > 0 && num_pivots_ < window) continue;
+    // The window is used up, or needs more columns to choose from.
+    UpdateTrailing(first_pivot, window);
+    if (interrupt && size_ > 10 * kWindow) interrupt();
+    first_pivot = num_pivots_;
+    if (found == 0 && window == candidates) break;
+    window = std::min(candidates, window + kWindow);
+  }
+  for (int k = num_pivots_; k < candidates && !has_zero_candidate_; ++k) {
+    has_zero_candidate_ = IsZero(k);
+  }
+}
+
+}  // namespace possibility::collocation

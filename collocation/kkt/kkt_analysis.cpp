@@ -1,0 +1,314 @@
+#include "collocation/kkt/kkt_analysis.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace possibility::collocation {
+namespace {
+
+/// Neighbours of every row, compressed.
+struct Graph {
+  std::vector<int> begin;
+  std::vector<int> neighbour;
+};
+
+Graph MakeGraph(int size, const std::vector<KktEdge>& edges, const std::vector<int>& label) {
+  Graph graph;
+  graph.begin.assign(size + 1, 0);
+  for (const KktEdge& edge : edges) {
+    ++graph.begin[label[edge.row] + 1];
+    ++graph.begin[label[edge.column] + 1];
+  }
+  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
+  graph.neighbour.resize(2 * edges.size());
+  std::vector<int> next(graph.begin.begin(), graph.begin.end() - 1);
+  for (const KktEdge& edge : edges) {
+    graph.neighbour[next[label[edge.row]]++] = label[edge.column];
+    graph.neighbour[next[label[edge.column]]++] = label[edge.row];
+  }
+  return graph;
+}
+
+/// For each row the dual row it is paired with, or -1.
+std::vector<int> PairDualRows(int size, int num_dual, const std::vector<KktEdge>& edges) {
+  const int first_dual = size - num_dual;
+  std::vector<std::vector<std::pair<double, int>>> choices(num_dual);
+  for (const KktEdge& edge : edges) {
+    const int dual = std::max(edge.row, edge.column);
+    const int primal = std::min(edge.row, edge.column);
+    if (dual >= first_dual && primal < first_dual && edge.weight > 0) {
+      choices[dual - first_dual].emplace_back(edge.weight, primal);
+    }
+  }
+  // Rows with the fewest choices choose first.
+  std::vector<int> turn(num_dual);
+  std::iota(turn.begin(), turn.end(), 0);
+  std::stable_sort(turn.begin(), turn.end(),
+                   [&](int a, int b) { return choices[a].size() < choices[b].size(); });
+  std::vector<int> partner(size, -1);
+  for (const int dual : turn) {
+    std::pair<double, int> best(0, -1);
+    for (const auto& choice : choices[dual]) {
+      if (partner[choice.second] < 0 && choice.first > best.first) best = choice;
+    }
+    if (best.second >= 0) partner[best.second] = first_dual + dual;
+  }
+  return partner;
+}
+
+/// Position -> row: approximate minimum degree on the graph whose nodes are pairs and single rows.
+std::vector<int> OrderPairs(int size, const std::vector<KktEdge>& edges,
+                            const std::vector<int>& partner) {
+  std::vector<int> node(size, -1);
+  std::vector<int> head;
+  std::vector<bool> is_second(size, false);
+  for (const int second : partner) {
+    if (second >= 0) is_second[second] = true;
+  }
+  for (int row = 0; row < size; ++row) {
+    if (is_second[row]) continue;
+    node[row] = static_cast<int>(head.size());
+    if (partner[row] >= 0) node[partner[row]] = node[row];
+    head.push_back(row);
+  }
+  std::vector<Eigen::Triplet<double>> places;
+  places.reserve(edges.size());
+  for (const KktEdge& edge : edges) {
+    const auto [low, high] = std::minmax(node[edge.row], node[edge.column]);
+    if (low != high) places.emplace_back(high, low, 1.0);
+  }
+  const int num_nodes = static_cast<int>(head.size());
+  // Eigen's AMD takes a node without a diagonal entry for a dense one.
+  for (int k = 0; k < num_nodes; ++k) places.emplace_back(k, k, 1.0);
+  Eigen::SparseMatrix<double> graph(num_nodes, num_nodes);
+  graph.setFromTriplets(places.begin(), places.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(graph, order);
+
+  std::vector<int> variable_at;
+  variable_at.reserve(size);
+  for (int k = 0; k < num_nodes; ++k) {
+    const int row = head[order.indices()[k]];
+    variable_at.push_back(row);
+    if (partner[row] >= 0) variable_at.push_back(partner[row]);
+  }
+  return variable_at;
+}
+
+/// Parent of each position in the elimination tree, or -1 (Liu 1990, with path compression).
+std::vector<int> EliminationTree(const Graph& graph) {
+  const int size = static_cast<int>(graph.begin.size()) - 1;
+  std::vector<int> parent(size, -1), ancestor(size, -1);
+  for (int j = 0; j < size; ++j) {
+    for (int e = graph.begin[j]; e < graph.begin[j + 1]; ++e) {
+      for (int i = graph.neighbour[e]; i >= 0 && i < j;) {
+        const int next = ancestor[i];
+        ancestor[i] = j;
+        if (next < 0) parent[i] = j;
+        i = next;
+      }
+    }
+  }
+  return parent;
+}
+
+/// Nodes of a forest, children before parents and each subtree contiguous.
+std::vector<int> Postorder(const std::vector<int>& parent) {
+  const int size = static_cast<int>(parent.size());
+  std::vector<int> first_child(size, -1), sibling(size, -1), stack, order;
+  for (int j = size - 1; j >= 0; --j) {
+    if (parent[j] < 0) continue;
+    sibling[j] = first_child[parent[j]];
+    first_child[parent[j]] = j;
+  }
+  order.reserve(size);
+  for (int root = 0; root < size; ++root) {
+    if (parent[root] >= 0) continue;
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const int j = stack.back();
+      if (first_child[j] >= 0) {
+        stack.push_back(first_child[j]);
+        first_child[j] = sibling[first_child[j]];
+      } else {
+        stack.pop_back();
+        order.push_back(j);
+      }
+    }
+  }
+  return order;
+}
+
+/// Columns that are eliminated together while fronts are being merged.
+struct Group {
+  std::vector<int> columns;
+  std::vector<int> rows;
+  int parent = -1;
+  double zeros = 0;  // stored entries that the pattern does not have
+  bool merged = false;
+};
+
+/// Groups of consecutive columns with the same rows below them (positions in postorder).
+std::vector<Group> FundamentalGroups(const Graph& graph, const std::vector<int>& parent) {
+  const int size = static_cast<int>(parent.size());
+  std::vector<std::vector<int>> below(size), children(size);
+  std::vector<int> mark(size, -1);
+  std::vector<bool> continues(size, false);  // column j belongs to the group of j + 1
+  for (int j = 0; j < size; ++j) {
+    mark[j] = j;
+    auto add = [&](int i) {
+      if (i > j && mark[i] != j) {
+        mark[i] = j;
+        below[j].push_back(i);
+      }
+    };
+    for (int e = graph.begin[j]; e < graph.begin[j + 1]; ++e) add(graph.neighbour[e]);
+    for (const int child : children[j]) {
+      for (const int i : below[child]) add(i);
+    }
+    if (j > 0 && parent[j - 1] == j && below[j - 1].size() == below[j].size() + 1) {
+      continues[j - 1] = true;
+      below[j - 1] = {};
+    }
+    if (parent[j] >= 0) children[parent[j]].push_back(j);
+  }
+  std::vector<Group> groups;
+  std::vector<int> group_of(size);
+  for (int j = 0; j < size; ++j) {
+    if (j == 0 || !continues[j - 1]) groups.emplace_back();
+    group_of[j] = static_cast<int>(groups.size()) - 1;
+    groups.back().columns.push_back(j);
+    if (!continues[j]) groups.back().rows = std::move(below[j]);
+  }
+  for (Group& group : groups) {
+    const int up = parent[group.columns.back()];
+    group.parent = up < 0 ? -1 : group_of[up];
+  }
+  return groups;
+}
+
+/// Whether a front of so many columns may store so large a share of zeros: small fronts cost more
+/// in bookkeeping than in arithmetic.
+bool WorthMerging(double columns, double rows, double zeros) {
+  const double entries = columns * (columns + 1) / 2 + columns * rows;
+  const double share = zeros / entries;
+  return columns <= 4 || (columns <= 16 && share < 0.4) || (columns <= 48 && share < 0.1) ||
+         share < 0.05;
+}
+
+/// Merges groups into their parents where that stores few zeros.
+void MergeSmallGroups(std::vector<Group>* groups) {
+  std::vector<std::vector<int>> children(groups->size());
+  for (int g = 0; g < static_cast<int>(groups->size()); ++g) {
+    Group& group = (*groups)[g];
+    std::vector<int> kept;
+    for (size_t next = 0; next < children[g].size(); ++next) {
+      Group& child = (*groups)[children[g][next]];
+      const double all = static_cast<double>(group.columns.size() + group.rows.size());
+      const double zeros = group.zeros + child.zeros +
+                           static_cast<double>(child.columns.size()) *
+                               (all - static_cast<double>(child.rows.size()));
+      const auto columns = static_cast<double>(child.columns.size() + group.columns.size());
+      if (!WorthMerging(columns, static_cast<double>(group.rows.size()), zeros)) {
+        kept.push_back(children[g][next]);
+        continue;
+      }
+      group.columns.insert(group.columns.end(), child.columns.begin(), child.columns.end());
+      group.zeros = zeros;
+      child.merged = true;
+      const std::vector<int>& orphans = children[children[g][next]];
+      for (const int orphan : orphans) (*groups)[orphan].parent = g;
+      kept.insert(kept.end(), orphans.begin(), orphans.end());
+    }
+    children[g] = std::move(kept);
+    std::sort(group.columns.begin(), group.columns.end());
+    if (group.parent >= 0) children[group.parent].push_back(g);
+  }
+  // Children are merged before their parents' turn, so a parent is never a merged group.
+}
+
+/// Numbers the columns group by group and says where each front's rows lie in its parent.
+void LayOutFronts(const std::vector<Group>& groups, KktAnalysis* analysis,
+                  const std::vector<int>& old_variable_at) {
+  std::vector<int> index_of(groups.size(), -1), alive, parent;
+  for (int g = 0; g < static_cast<int>(groups.size()); ++g) {
+    if (groups[g].merged) continue;
+    index_of[g] = static_cast<int>(alive.size());
+    alive.push_back(g);
+  }
+  for (const int g : alive) {
+    parent.push_back(groups[g].parent < 0 ? -1 : index_of[groups[g].parent]);
+  }
+  const std::vector<int> order = Postorder(parent);
+  std::vector<int> rank(order.size()), new_position(old_variable_at.size());
+  analysis->fronts.resize(order.size());
+  analysis->variable_at.clear();
+  for (int f = 0; f < static_cast<int>(order.size()); ++f) {
+    rank[order[f]] = f;
+    KktFront& front = analysis->fronts[f];
+    const Group& group = groups[alive[order[f]]];
+    front.first_column = static_cast<int>(analysis->variable_at.size());
+    front.num_columns = static_cast<int>(group.columns.size());
+    for (const int column : group.columns) {
+      new_position[column] = static_cast<int>(analysis->variable_at.size());
+      analysis->variable_at.push_back(old_variable_at[column]);
+    }
+  }
+  for (int f = 0; f < static_cast<int>(order.size()); ++f) {
+    KktFront& front = analysis->fronts[f];
+    for (const int row : groups[alive[order[f]]].rows) front.rows.push_back(new_position[row]);
+    std::sort(front.rows.begin(), front.rows.end());
+    if (parent[order[f]] >= 0) {
+      front.parent = rank[parent[order[f]]];
+      ++analysis->fronts[front.parent].num_children;
+    }
+  }
+  for (KktFront& front : analysis->fronts) {
+    if (front.parent < 0) continue;
+    const KktFront& up = analysis->fronts[front.parent];
+    auto next = up.rows.begin();
+    for (const int row : front.rows) {
+      if (row < up.first_column + up.num_columns) {
+        front.rows_in_parent.push_back(row - up.first_column);
+      } else {
+        next = std::lower_bound(next, up.rows.end(), row);
+        front.rows_in_parent.push_back(up.num_columns + static_cast<int>(next - up.rows.begin()));
+      }
+    }
+  }
+}
+
+std::vector<int> Inverse(const std::vector<int>& permutation) {
+  std::vector<int> inverse(permutation.size());
+  for (int k = 0; k < static_cast<int>(permutation.size()); ++k) inverse[permutation[k]] = k;
+  return inverse;
+}
+
+}  // namespace
+
+KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
+                       const std::function<void()>& interrupt) {
+  auto step = [&interrupt](auto result) {
+    if (interrupt) interrupt();
+    return result;
+  };
+  const std::vector<int> partner = step(PairDualRows(size, num_dual, edges));
+  std::vector<int> variable_at = step(OrderPairs(size, edges, partner));
+  const std::vector<int> parent =
+      step(EliminationTree(MakeGraph(size, edges, Inverse(variable_at))));
+  std::vector<int> reordered;
+  reordered.reserve(size);
+  for (const int position : Postorder(parent)) reordered.push_back(variable_at[position]);
+  const Graph graph = step(MakeGraph(size, edges, Inverse(reordered)));
+  std::vector<Group> groups = step(FundamentalGroups(graph, EliminationTree(graph)));
+  MergeSmallGroups(&groups);
+  KktAnalysis analysis;
+  LayOutFronts(groups, &analysis, reordered);
+  analysis.position_of = Inverse(analysis.variable_at);
+  return step(std::move(analysis));
+}
+
+}  // namespace possibility::collocation

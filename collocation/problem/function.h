@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "collocation/problem/jet.h"
+
+namespace possibility::collocation {
+
+/// Which elements of a matrix may be other than zero.
+using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// y = F(z) with exact derivatives; z is what one instant of a motion has, so the blocks are
+/// small and dense. May keep a workspace: one solve at a time. What cannot be evaluated comes out
+/// as NaN or throws std::runtime_error.
+class Function {
+ public:
+  Function(int num_inputs, int num_outputs) : num_inputs_(num_inputs), num_outputs_(num_outputs) {}
+  virtual ~Function() = default;
+
+  int num_inputs() const { return num_inputs_; }
+  int num_outputs() const { return num_outputs_; }
+
+  /// `y`: num_outputs, of that size already, here and below.
+  virtual void Evaluate(const Eigen::VectorXd& z, Eigen::VectorXd* y) = 0;
+  /// `J`: outputs x inputs.
+  virtual void Jacobian(const Eigen::VectorXd& z, Eigen::MatrixXd* J) = 0;
+  /// `H`: inputs x inputs, of multipliers' F.
+  virtual void Hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers,
+                       Eigen::MatrixXd* H) = 0;
+  /// Elements outside the masks are zero for every z.
+  virtual Mask JacobianMask() const { return Mask::Constant(num_outputs_, num_inputs_, true); }
+  virtual Mask HessianMask() const { return Mask::Constant(num_inputs_, num_inputs_, true); }
+
+ private:
+  int num_inputs_;
+  int num_outputs_;
+};
+
+/// A function given as code for any scalar type T, differentiated by Jet:
+///   void operator()(const std::array<T, Inputs>& z, std::array<T, Outputs>* y) const.
+template <int Inputs, int Outputs, typename Code>
+class DifferentiatedFunction : public Function {
+ public:
+  explicit DifferentiatedFunction(Code code) : Function(Inputs, Outputs), code_(std::move(code)) {}
+
+  void Evaluate(const Eigen::VectorXd& z, Eigen::VectorXd* y) override {
+    std::array<double, Inputs> inputs;
+    for (int i = 0; i < Inputs; ++i) inputs[i] = z[i];
+    std::array<double, Outputs> outputs{};
+    code_(inputs, &outputs);
+    for (int i = 0; i < Outputs; ++i) (*y)[i] = outputs[i];
+  }
+
+  void Jacobian(const Eigen::VectorXd& z, Eigen::MatrixXd* J) override {
+    const auto outputs = Run<1>(z);
+    for (int i = 0; i < Outputs; ++i) J->row(i) = outputs[i].gradient.transpose();
+  }
+
+  void Hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers,
+               Eigen::MatrixXd* H) override {
+    const auto outputs = Run<2>(z);
+    H->setZero();
+    for (int i = 0; i < Outputs; ++i) *H += multipliers[i] * outputs[i].hessian;
+  }
+
+ private:
+  template <int Order>
+  std::array<Jet<Inputs, Order>, Outputs> Run(const Eigen::VectorXd& z) const {
+    std::array<Jet<Inputs, Order>, Inputs> inputs;
+    for (int i = 0; i < Inputs; ++i) inputs[i] = Jet<Inputs, Order>::Input(z[i], i);
+    std::array<Jet<Inputs, Order>, Outputs> outputs{};
+    code_(inputs, &outputs);
+    return outputs;
+  }
+
+  Code code_;
+};
+
+/// Differentiated<2, 1>([](const auto& z, auto* y) { (*y)[0] = z[0] * sin(z[1]); })
+template <int Inputs, int Outputs, typename Code>
+std::shared_ptr<Function> Differentiated(Code code) {
+  return std::make_shared<DifferentiatedFunction<Inputs, Outputs, Code>>(std::move(code));
+}
+
+}  // namespace possibility::collocation

@@ -1,0 +1,346 @@
+#include "collocation/problem/optimal_control_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::collocation {
+
+namespace {
+
+/// f(arguments) - y^(order): explicit dynamics as rows at 0. The rates are the last inputs.
+class DynamicsResidual : public Function {
+ public:
+  explicit DynamicsResidual(std::shared_ptr<Function> f)
+      : Function(f->num_inputs() + f->num_outputs(), f->num_outputs()), f_(std::move(f)) {}
+
+  void Evaluate(const Eigen::VectorXd& z, Eigen::VectorXd* y) override {
+    f_->Evaluate(z.head(f_->num_inputs()), y);
+    *y -= z.tail(num_outputs());
+  }
+  void Jacobian(const Eigen::VectorXd& z, Eigen::MatrixXd* J) override {
+    Eigen::MatrixXd of_f(num_outputs(), f_->num_inputs());
+    f_->Jacobian(z.head(f_->num_inputs()), &of_f);
+    J->leftCols(f_->num_inputs()) = of_f;
+    J->rightCols(num_outputs()) = -Eigen::MatrixXd::Identity(num_outputs(), num_outputs());
+  }
+  void Hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers,
+               Eigen::MatrixXd* H) override {
+    Eigen::MatrixXd of_f(f_->num_inputs(), f_->num_inputs());
+    f_->Hessian(z.head(f_->num_inputs()), multipliers, &of_f);
+    H->setZero();
+    H->topLeftCorner(f_->num_inputs(), f_->num_inputs()) = of_f;
+  }
+  Mask JacobianMask() const override {
+    Mask mask = Mask::Constant(num_outputs(), num_inputs(), false);
+    mask.leftCols(f_->num_inputs()) = f_->JacobianMask();
+    for (int i = 0; i < num_outputs(); ++i) mask(i, f_->num_inputs() + i) = true;
+    return mask;
+  }
+  Mask HessianMask() const override {
+    Mask mask = Mask::Constant(num_inputs(), num_inputs(), false);
+    mask.topLeftCorner(f_->num_inputs(), f_->num_inputs()) = f_->HessianMask();
+    return mask;
+  }
+
+ private:
+  std::shared_ptr<Function> f_;
+};
+
+bool Contradict(const Bounds& bounds) {
+  return std::isnan(bounds.lower) || std::isnan(bounds.upper) || bounds.lower > bounds.upper ||
+         bounds.lower == kInfinity || bounds.upper == -kInfinity;
+}
+
+std::string Describe(const Bounds& bounds) {
+  return fmt::format("[{}, {}]", bounds.lower, bounds.upper);
+}
+
+}  // namespace
+
+Phase::Phase(OptimalControlProblem* problem, int index, std::string name, int order)
+    : problem_(problem), index_(index), name_(std::move(name)), order_(order) {}
+
+void Phase::Fail(const std::string& what) const {
+  problem_->Fail(fmt::format("phase '{}': {}", name_, what));
+}
+
+PhaseNames Phase::Names() const {
+  PhaseNames names{name_, order_, {}, {}};
+  for (const auto& orders : coordinates_) names.coordinates.push_back(orders[0].name);
+  for (const Quantity& control : controls_) names.controls.push_back(control.name);
+  return names;
+}
+
+Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, double scale) {
+  std::vector<Quantity> orders(order_ + 1);
+  for (int order = 0; order <= order_; ++order) {
+    orders[order].name = name + std::string(order, '\'');
+  }
+  coordinates_.push_back(std::move(orders));
+  const Variable variable{VariableKind::kCoordinate, index_,
+                          static_cast<int>(coordinates_.size()) - 1, 0};
+  SetScale(variable, scale);
+  Bound(variable, bounds);
+  return variable;
+}
+
+Variable Phase::Rate(Variable coordinate, int times) const {
+  const Quantity& quantity = Find(coordinate);
+  if (coordinate.kind != VariableKind::kCoordinate || coordinate.order + times > order_ ||
+      times < 1) {
+    Fail(fmt::format("'{}' has no derivative of order {}", quantity.name, times));
+  }
+  coordinate.order += times;
+  return coordinate;
+}
+
+Variable Phase::AddControl(const std::string& name, Bounds bounds, double scale) {
+  controls_.push_back({});
+  controls_.back().name = name;
+  const Variable variable{VariableKind::kControl, index_, static_cast<int>(controls_.size()) - 1,
+                          0};
+  SetScale(variable, scale);
+  Bound(variable, bounds);
+  return variable;
+}
+
+const Phase::Quantity& Phase::Find(Variable variable) const {
+  const auto in = [](int index, std::size_t size) {
+    return index >= 0 && index < static_cast<int>(size);
+  };
+  if (variable.phase == index_) {
+    if (variable.kind == VariableKind::kControl && in(variable.index, controls_.size())) {
+      return controls_[variable.index];
+    }
+    if (variable.kind == VariableKind::kCoordinate && in(variable.index, coordinates_.size()) &&
+        in(variable.order, order_ + 1)) {
+      return coordinates_[variable.index][variable.order];
+    }
+  }
+  Fail("a variable is no coordinate or control of this phase");
+}
+
+Phase::Quantity& Phase::Find(Variable variable) {
+  return const_cast<Quantity&>(std::as_const(*this).Find(variable));
+}
+
+void Phase::SetScale(Variable variable, double scale) {
+  Quantity& quantity = Find(variable);
+  if (!(scale > 0 && std::isfinite(scale))) {
+    Fail(fmt::format("'{}': expected a scale above 0, got {}", quantity.name, scale));
+  }
+  quantity.scale = scale;
+}
+
+void Phase::SetDuration(Bounds bounds) {
+  if (!(bounds.lower > 0 && bounds.upper < kInfinity && bounds.lower <= bounds.upper)) {
+    Fail(fmt::format("expected a duration within finite bounds above 0, got {}", Describe(bounds)));
+  }
+  duration_ = bounds;
+}
+
+void Phase::Bound(Variable variable, Bounds bounds, At at) {
+  Quantity& quantity = Find(variable);
+  if (Contradict(bounds)) {
+    Fail(fmt::format("'{}': contradictory bounds {}", quantity.name, Describe(bounds)));
+  }
+  quantity.bounds.emplace_back(at, bounds);
+}
+
+void Phase::CheckArguments(const std::string& name, const Function* f,
+                           const std::vector<Variable>& arguments) const {
+  if (f == nullptr) Fail(fmt::format("'{}' has no function", name));
+  if (static_cast<int>(arguments.size()) != f->num_inputs()) {
+    Fail(fmt::format("'{}' takes {} arguments, got {}", name, f->num_inputs(), arguments.size()));
+  }
+  for (const Variable& argument : arguments) {
+    switch (argument.kind) {
+      case VariableKind::kCoordinate:
+      case VariableKind::kControl:
+        Find(argument);
+        break;
+      case VariableKind::kParameter:
+        if (argument.index >= static_cast<int>(problem_->parameters_.size())) {
+          Fail(fmt::format("'{}': no such parameter", name));
+        }
+        break;
+      case VariableKind::kDuration:
+      case VariableKind::kTime:
+        if (argument.phase != index_) Fail(fmt::format("'{}': another phase's time", name));
+    }
+  }
+}
+
+void Phase::SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> arguments) {
+  CheckArguments("dynamics", f.get(), arguments);
+  const int n = static_cast<int>(coordinates_.size());
+  if (f->num_outputs() != n) {
+    Fail(fmt::format("dynamics have {} outputs, expected one for each of {} coordinates",
+                     f->num_outputs(), n));
+  }
+  std::vector<double> scales;
+  for (int i = 0; i < n; ++i) {
+    arguments.push_back({VariableKind::kCoordinate, index_, i, order_});
+    scales.push_back(coordinates_[i][order_].scale);
+  }
+  Constrain("dynamics", std::make_shared<DynamicsResidual>(std::move(f)), std::move(arguments),
+            {{0, 0}}, At::kEverywhere, std::move(scales));
+}
+
+void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
+                      std::vector<Variable> arguments, std::vector<Bounds> bounds, At at,
+                      std::vector<double> scales) {
+  CheckArguments(name, f.get(), arguments);
+  for (const PathConstraint& other : constraints_) {
+    if (other.name == name) Fail(fmt::format("two constraints are named '{}'", name));
+  }
+  if (bounds.size() == 1) bounds.resize(f->num_outputs(), bounds.front());
+  if (static_cast<int>(bounds.size()) != f->num_outputs()) {
+    Fail(fmt::format("'{}' has {} outputs and {} bounds", name, f->num_outputs(), bounds.size()));
+  }
+  for (const Bounds& b : bounds) {
+    if (Contradict(b)) Fail(fmt::format("'{}': contradictory bounds {}", name, Describe(b)));
+  }
+  const std::size_t n = bounds.size();
+  if (scales.empty()) scales = {1};
+  if (scales.size() == 1) scales.resize(n, scales.front());
+  if (scales.size() != n) {
+    Fail(fmt::format("'{}' has {} outputs and {} scales", name, n, scales.size()));
+  }
+  for (const double scale : scales) {
+    if (!(scale > 0 && std::isfinite(scale))) {
+      Fail(fmt::format("'{}': expected scales above 0, got {}", name, scale));
+    }
+  }
+  constraints_.push_back({name, std::move(f), std::move(arguments), std::move(bounds), at,
+                          Eigen::Map<Eigen::VectorXd>(scales.data(), static_cast<int>(n))});
+}
+
+void Phase::ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
+                           std::vector<Variable> arguments, std::vector<Bounds> bounds, At at,
+                           std::vector<double> scales) {
+  Constrain(name, std::move(f), std::move(arguments), std::move(bounds), at, std::move(scales));
+  constraints_.back().only_at_knots = true;
+}
+
+void Phase::AddIntegralCost(const std::string& name, std::shared_ptr<Function> f,
+                            std::vector<Variable> arguments, double weight) {
+  CheckArguments(name, f.get(), arguments);
+  if (f->num_outputs() != 1) Fail(fmt::format("cost '{}' has {} outputs", name, f->num_outputs()));
+  if (!std::isfinite(weight)) Fail(fmt::format("cost '{}' has the weight {}", name, weight));
+  costs_.push_back({name, std::move(f), std::move(arguments), weight});
+}
+
+void Phase::Guess(Variable variable, std::function<double(double)> value) {
+  if (variable == duration()) {
+    duration_guess_ = std::move(value);
+  } else {
+    Find(variable).guess = std::move(value);
+  }
+}
+
+void Phase::Guess(Variable variable, double value) {
+  Guess(variable, [value](double) { return value; });
+}
+
+void OptimalControlProblem::Fail(const std::string& what) const {
+  throw std::invalid_argument(fmt::format("{}: {}", name_, what));
+}
+
+Phase& OptimalControlProblem::AddPhase(const std::string& name, int order) {
+  for (const Phase& phase : phases_) {
+    if (phase.name() == name) Fail(fmt::format("two phases are named '{}'", name));
+  }
+  if (order != 1 && order != 2) {
+    Fail(fmt::format("phase '{}': expected order 1 or 2, got {}", name, order));
+  }
+  phases_.push_back(Phase(this, num_phases(), name, order));
+  return phases_.back();
+}
+
+Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bounds, double scale,
+                                             double guess) {
+  if (Contradict(bounds)) {
+    Fail(fmt::format("parameter '{}': contradictory bounds {}", name, Describe(bounds)));
+  }
+  if (!(scale > 0 && std::isfinite(scale))) {
+    Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, scale));
+  }
+  parameters_.push_back({name, bounds, scale, guess});
+  return {VariableKind::kParameter, -1, static_cast<int>(parameters_.size()) - 1, 0};
+}
+
+std::vector<std::string> OptimalControlProblem::ParameterNames() const {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
+  return names;
+}
+
+void OptimalControlProblem::CheckEnds(const std::string& name, const Function* f,
+                                      const std::vector<EndVariable>& arguments) const {
+  if (f == nullptr) Fail(fmt::format("'{}' has no function", name));
+  if (static_cast<int>(arguments.size()) != f->num_inputs()) {
+    Fail(fmt::format("'{}' takes {} arguments, got {}", name, f->num_inputs(), arguments.size()));
+  }
+  for (const EndVariable& argument : arguments) NameOf(argument.variable);
+}
+
+void OptimalControlProblem::Continue(EndVariable from, EndVariable to) {
+  const std::string name = NameOf(from.variable) + " and " + NameOf(to.variable);
+  const auto is_state = [this](const EndVariable& end) {
+    return end.variable.kind == VariableKind::kCoordinate &&
+           end.variable.order < phases_[end.variable.phase].order();
+  };
+  if (!is_state(from) || !is_state(to)) {
+    Fail(fmt::format("{} do not continue: only coordinates below the highest order do", name));
+  }
+  if (from.at != At::kEnd || to.at != At::kStart || from.variable.phase >= to.variable.phase) {
+    Fail(fmt::format("{} continue from the end of a phase to the start of a later one", name));
+  }
+  continued_.emplace_back(from, to);
+}
+
+void OptimalControlProblem::Link(const std::string& name, std::shared_ptr<Function> f,
+                                 std::vector<EndVariable> arguments, std::vector<Bounds> bounds) {
+  CheckEnds(name, f.get(), arguments);
+  if (bounds.size() == 1) bounds.resize(f->num_outputs(), bounds.front());
+  if (static_cast<int>(bounds.size()) != f->num_outputs()) {
+    Fail(fmt::format("'{}' has {} outputs and {} bounds", name, f->num_outputs(), bounds.size()));
+  }
+  for (const Bounds& b : bounds) {
+    if (Contradict(b)) Fail(fmt::format("'{}': contradictory bounds {}", name, Describe(b)));
+  }
+  links_.push_back({name, std::move(f), std::move(arguments), std::move(bounds)});
+}
+
+void OptimalControlProblem::AddCost(const std::string& name, std::shared_ptr<Function> f,
+                                    std::vector<EndVariable> arguments, double weight) {
+  CheckEnds(name, f.get(), arguments);
+  if (f->num_outputs() != 1) Fail(fmt::format("cost '{}' has {} outputs", name, f->num_outputs()));
+  if (!std::isfinite(weight)) Fail(fmt::format("cost '{}' has the weight {}", name, weight));
+  costs_.push_back({name, std::move(f), std::move(arguments), weight});
+}
+
+void OptimalControlProblem::AddCost(EndVariable quantity, double weight) {
+  AddCost(NameOf(quantity.variable),
+          Differentiated<1, 1>([](const auto& z, auto* y) { (*y)[0] = z[0]; }), {quantity}, weight);
+}
+
+std::string OptimalControlProblem::NameOf(Variable variable) const {
+  if (variable.kind == VariableKind::kParameter) {
+    if (variable.index >= 0 && variable.index < static_cast<int>(parameters_.size())) {
+      return parameters_[variable.index].name;
+    }
+    Fail("no such parameter");
+  }
+  if (variable.phase < 0 || variable.phase >= num_phases()) Fail("no such phase");
+  const Phase& phase = phases_[variable.phase];
+  if (variable.kind == VariableKind::kDuration) return phase.name() + ": duration";
+  if (variable.kind == VariableKind::kTime) return phase.name() + ": time";
+  return phase.name() + ": " + phase.Find(variable).name;
+}
+
+}  // namespace possibility::collocation

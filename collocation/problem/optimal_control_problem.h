@@ -1,0 +1,221 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collocation/problem/function.h"
+
+namespace possibility::collocation {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime };
+
+/// Names one quantity of a problem: what functions take as arguments and bounds apply to.
+struct Variable {
+  VariableKind kind = VariableKind::kCoordinate;
+  int phase = -1;  ///< -1: a parameter of the problem
+  int index = 0;   ///< among its kind in the phase
+  int order = 0;   ///< of a coordinate: how often it is differentiated
+
+  bool operator==(const Variable&) const = default;
+};
+
+/// The points of a phase's mesh at which something holds.
+enum class At {
+  kEverywhere,
+  kStart,       ///< the first knot
+  kEnd,         ///< the last knot
+  kAfterStart,  ///< everywhere but the first knot
+  kBeforeEnd,   ///< everywhere but the last knot
+  kInside       ///< everywhere but both
+};
+
+/// One quantity at one end of its phase (At::kStart or kEnd), for what ties phases together.
+struct EndVariable {
+  Variable variable;
+  At at = At::kStart;
+};
+
+struct Bounds {
+  double lower = -kInfinity;
+  double upper = kInfinity;
+};
+
+/// What a phase consists of, for whoever shows or stores its motions.
+struct PhaseNames {
+  std::string phase;
+  int order = 1;
+  std::vector<std::string> coordinates, controls;
+
+  bool operator==(const PhaseNames&) const = default;
+};
+
+class OptimalControlProblem;
+
+/// A stretch of time with one system. Its coordinates y come with their derivatives up to the
+/// phase's order: order 1 for x' = f(x, u), x' a variable beside x; order 2 for mechanical systems
+/// in q, v and a. The derivatives belong together by transcription; dynamics are one more
+/// constraint.
+class Phase {
+ public:
+  const std::string& name() const { return name_; }
+  int order() const { return order_; }
+  PhaseNames Names() const;
+
+  /// A coordinate; `scale`: its typical size, above 0.
+  Variable AddCoordinate(const std::string& name, Bounds bounds = {}, double scale = 1);
+  /// The time derivative of a coordinate or of its derivative; bounds and scale are its own.
+  Variable Rate(Variable coordinate, int times = 1) const;
+  Variable AddControl(const std::string& name, Bounds bounds = {}, double scale = 1);
+  Variable duration() const { return {VariableKind::kDuration, index_, 0, 0}; }
+  /// Time since the beginning of the problem.
+  Variable time() const { return {VariableKind::kTime, index_, 0, 0}; }
+
+  /// s; equal bounds fix it. @throws std::invalid_argument unless 0 < lower <= upper < infinity.
+  void SetDuration(Bounds bounds);
+  void SetDuration(double fixed) { SetDuration({fixed, fixed}); }
+  void SetScale(Variable variable, double scale);
+
+  /// Intersects the bounds of a coordinate, its derivative or a control.
+  void Bound(Variable variable, Bounds bounds, At at = At::kEverywhere);
+  void Fix(Variable variable, double value, At at) { Bound(variable, {value, value}, at); }
+
+  /// y^(order) = f(arguments), one output per coordinate.
+  void SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> arguments);
+  /// lower <= f(arguments) <= upper, a Bounds for each output or one for all. Rows of dynamics in
+  /// implicit form are constraints at 0. `scales`: typical sizes of the outputs, one for each, one
+  /// for all, or none for 1; rows are divided by them, and so are the errors between the knots.
+  void Constrain(const std::string& name, std::shared_ptr<Function> f,
+                 std::vector<Variable> arguments, std::vector<Bounds> bounds,
+                 At at = At::kEverywhere, std::vector<double> scales = {});
+  /// The same at the knots of the mesh alone, not at the nodes between them.
+  void ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
+                      std::vector<Variable> arguments, std::vector<Bounds> bounds,
+                      At at = At::kEverywhere, std::vector<double> scales = {});
+  /// Adds weight * the time integral of f(arguments), f of one output.
+  void AddIntegralCost(const std::string& name, std::shared_ptr<Function> f,
+                       std::vector<Variable> arguments, double weight = 1);
+
+  /// Where the solver starts: value at s in [0, 1], the share of the phase's duration. Without a
+  /// guess: the line between the values fixed at the ends, or a value within the bounds.
+  void Guess(Variable variable, std::function<double(double)> value);
+  void Guess(Variable variable, double value);
+
+ private:
+  friend class OptimalControlProblem;
+  friend class Transcription;
+  friend class MeshErrorEstimate;
+  struct Quantity {
+    std::string name;
+    double scale = 1;
+    std::vector<std::pair<At, Bounds>> bounds;
+    std::function<double(double)> guess;
+  };
+  struct PathConstraint {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<Variable> arguments;
+    std::vector<Bounds> bounds;
+    At at;
+    Eigen::VectorXd scales;
+    bool only_at_knots = false;
+  };
+  struct IntegralCost {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<Variable> arguments;
+    double weight;
+  };
+
+  Phase(OptimalControlProblem* problem, int index, std::string name, int order);
+  Quantity& Find(Variable variable);
+  const Quantity& Find(Variable variable) const;
+  [[noreturn]] void Fail(const std::string& what) const;
+  void CheckArguments(const std::string& name, const Function* f,
+                      const std::vector<Variable>& arguments) const;
+
+  OptimalControlProblem* problem_;
+  int index_;
+  std::string name_;
+  int order_;
+  Bounds duration_;
+  std::function<double(double)> duration_guess_;
+  std::vector<std::vector<Quantity>> coordinates_;  // by coordinate, by order
+  std::vector<Quantity> controls_;
+  std::vector<PathConstraint> constraints_;
+  std::vector<IntegralCost> costs_;
+};
+
+/// An optimal-control problem of one or more phases, as one writes it down; Transcription makes a
+/// nonlinear program of it. Names are for people and must be unique within a phase.
+/// @throws std::invalid_argument that names phase and quantity for whatever contradicts itself.
+class OptimalControlProblem {
+ public:
+  explicit OptimalControlProblem(std::string name) : name_(std::move(name)) {}
+  OptimalControlProblem(const OptimalControlProblem&) = delete;
+  OptimalControlProblem& operator=(const OptimalControlProblem&) = delete;
+
+  const std::string& name() const { return name_; }
+  /// `order`: 1 or 2. The reference stays valid.
+  Phase& AddPhase(const std::string& name, int order = 1);
+  int num_phases() const { return static_cast<int>(phases_.size()); }
+  const Phase& phase(int index) const { return phases_.at(index); }
+
+  Variable AddParameter(const std::string& name, Bounds bounds = {}, double scale = 1,
+                        double guess = 0);
+  std::vector<std::string> ParameterNames() const;
+
+  /// The quantity at the end of a phase and that at the start of the next are one and the same
+  /// variable. Bounds intersect.
+  void Continue(EndVariable from, EndVariable to);
+  /// lower <= f(arguments) <= upper, arguments from the ends of any phases; also durations and
+  /// parameters.
+  void Link(const std::string& name, std::shared_ptr<Function> f,
+            std::vector<EndVariable> arguments, std::vector<Bounds> bounds);
+  /// Adds weight * f(arguments), f of one output.
+  void AddCost(const std::string& name, std::shared_ptr<Function> f,
+               std::vector<EndVariable> arguments, double weight = 1);
+  /// Adds weight * the quantity.
+  void AddCost(EndVariable quantity, double weight = 1);
+
+  std::string NameOf(Variable variable) const;
+
+ private:
+  friend class Phase;
+  friend class Transcription;
+  struct Parameter {
+    std::string name;
+    Bounds bounds;
+    double scale;
+    double guess;
+  };
+  struct LinkConstraint {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<EndVariable> arguments;
+    std::vector<Bounds> bounds;
+  };
+  struct EndCost {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<EndVariable> arguments;
+    double weight;
+  };
+  [[noreturn]] void Fail(const std::string& what) const;
+  void CheckEnds(const std::string& name, const Function* f,
+                 const std::vector<EndVariable>& arguments) const;
+
+  std::string name_;
+  std::deque<Phase> phases_;
+  std::vector<Parameter> parameters_;
+  std::vector<std::pair<EndVariable, EndVariable>> continued_;
+  std::vector<LinkConstraint> links_;
+  std::vector<EndCost> costs_;
+};
+
+}  // namespace possibility::collocation

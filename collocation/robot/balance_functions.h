@@ -1,0 +1,17 @@
+#pragma once
+
+#include "collocation/robot/multibody_functions.h"
+
+namespace possibility::collocation {
+
+/// ID(q, v, a) - J' f; nv outputs, base rows first. Zero in the base rows is the equation of
+/// motion, the joint rows are the joint torques. Inputs: q, v, a, f of all points.
+std::shared_ptr<Function> EquationOfMotion(const PlanarModel& model,
+                                           const std::vector<dynamics::ContactPoint>& points);
+
+/// M(q) (v+ - v-) - J' impulses: nv outputs, zero at an impact. Inputs: q, v-, v+, impulses (x, z
+/// of each point, N s).
+std::shared_ptr<Function> ImpactMap(const PlanarModel& model,
+                                    const std::vector<dynamics::ContactPoint>& points);
+
+}  // namespace possibility::collocation

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collocation/problem/optimal_control_problem.h"
+#include "dynamics/tree/contact_point.h"
+#include "dynamics/tree/multibody_model.h"
+
+namespace possibility::collocation {
+
+/// What fraction of a robot's limits a motion may use, and how hard it may accelerate. What is
+/// left over pays for what a plan in the plane does not see: the robot's small asymmetries, forces
+/// between the knots, feedback.
+struct SagittalLimits {
+  double friction = 0.7;           ///< Coulomb
+  double friction_fraction = 1;    ///< of it
+  double speed_fraction = 1;       ///< of the joints' speed limits
+  double torque_fraction = 1;      ///< of the joints' effort limits
+  double max_acceleration = 200;   ///< rad/s^2 and m/s^2, every coordinate
+  double max_base_speed = 10;      ///< rad/s and m/s
+  double min_normal_force = 0;     ///< N, at one contact point of the plane
+  double max_normal_force = 2000;  ///< N, likewise
+  double joint_margin = 0;         ///< rad or m, inside the joints' position limits
+};
+
+/// One phase of an optimal-control problem whose system is a robot in its sagittal plane, in
+/// inverse-dynamics form: q, v, a and contact forces are variables, the base rows of the equation
+/// of motion are zero, and its joint rows lie within the effort limits.
+struct SagittalPhase {
+  Phase* phase = nullptr;
+  std::vector<Variable> q, v, a;               ///< nv each: pitch, x, z, joints
+  std::vector<Variable> f;                     ///< x and z of every point, N
+  std::vector<dynamics::ContactPoint> points;  ///< that bear
+
+  /// q, or q and v, as arguments of PointPositions and PointVelocities.
+  std::vector<Variable> Positions() const { return q; }
+  std::vector<Variable> State() const;
+  /// q, v and a, as arguments of PointAccelerations.
+  std::vector<Variable> Motion() const;
+};
+
+/// Adds the phase with its dynamics, bounds and scales (q/1, v/5, a/50, f/400). The forces are in
+/// their cones; that the points do not move is left to the caller. The guess of the forces carries
+/// the weight.
+SagittalPhase AddSagittalPhase(OptimalControlProblem* problem, const std::string& name,
+                               const std::shared_ptr<const dynamics::MultibodyModel>& model,
+                               const std::vector<dynamics::ContactPoint>& points,
+                               const SagittalLimits& limits);
+
+/// The end of one phase and the start of the next share their positions, and their velocities
+/// unless an impact lies between them.
+void ContinueSagittally(OptimalControlProblem* problem, const SagittalPhase& from,
+                        const SagittalPhase& to, bool with_velocities);
+
+/// Adds weight * integral of sum x^2 / scale^2.
+void AddSquareCost(const std::string& name, const std::vector<Variable>& variables, double scale,
+                   double weight, Phase* phase);
+
+}  // namespace possibility::collocation

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <IpIpoptApplication.hpp>
+
+#include "collocation/solver/solver.h"
+
+namespace possibility::collocation {
+
+/// Hands SolverOptions to Ipopt; `warm` if the solve starts from multipliers, `largest_bound` the
+/// greatest magnitude among finite bounds.
+/// @throws std::invalid_argument for an Ipopt option that does not exist, does not take the value,
+/// or has a place of its own in SolverOptions.
+void SetIpoptOptions(const SolverOptions& options, bool warm, double largest_bound,
+                     Ipopt::IpoptApplication* application);
+
+}  // namespace possibility::collocation

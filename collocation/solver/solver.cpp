@@ -1,0 +1,311 @@
+#include "collocation/solver/solver.h"
+
+#include <fmt/format.h>
+
+#include <IpIpoptApplication.hpp>
+#include <IpIpoptData.hpp>
+#include <IpTimingStatistics.hpp>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "collocation/solver/hsl_hook.h"
+#include "collocation/solver/ipopt_adapter.h"
+#include "collocation/solver/ipopt_options.h"
+#include "collocation/solver/solve_clock.h"
+#include "collocation/solver/turn_queue.h"
+
+namespace possibility::collocation {
+namespace {
+
+using Eigen::VectorXd;
+using Ipopt::ApplicationReturnStatus;
+
+void CheckBounds(const VectorXd& lower, const VectorXd& upper, int size, const char* what,
+                 const std::function<std::string(int)>& name) {
+  if (lower.size() != size || upper.size() != size) {
+    throw std::invalid_argument(fmt::format("{} {}s but {} lower and {} upper bounds", size, what,
+                                            lower.size(), upper.size()));
+  }
+  for (int i = 0; i < size; ++i) {
+    const bool possible = lower[i] <= upper[i] && lower[i] < HUGE_VAL && upper[i] > -HUGE_VAL;
+    if (possible) continue;
+    throw std::invalid_argument(fmt::format("{} '{}': no value is at least {} and at most {}", what,
+                                            name(i), lower[i], upper[i]));
+  }
+}
+
+void CheckPattern(const SparsityPattern& pattern, int rows, int columns, const char* what) {
+  if (pattern.rows.size() != pattern.columns.size()) {
+    throw std::invalid_argument(fmt::format("the pattern of the {} has {} rows but {} columns",
+                                            what, pattern.rows.size(), pattern.columns.size()));
+  }
+  for (int k = 0; k < pattern.size(); ++k) {
+    const int row = pattern.rows[k], column = pattern.columns[k];
+    if (row >= 0 && row < rows && column >= 0 && column < columns) continue;
+    throw std::invalid_argument(fmt::format("the {} has an entry ({}, {}) but is {} x {}", what,
+                                            row, column, rows, columns));
+  }
+}
+
+void CheckGuessPart(const VectorXd& part, int size, const char* what,
+                    const std::function<std::string(int)>& name) {
+  if (part.size() != size) {
+    throw std::invalid_argument(
+        fmt::format("the guess has {} {} instead of {}", part.size(), what, size));
+  }
+  for (int i = 0; i < size; ++i) {
+    if (std::isfinite(part[i])) continue;
+    throw std::invalid_argument(
+        fmt::format("the guess of the {}: '{}' is {}", what, name(i), part[i]));
+  }
+}
+
+bool IsWarm(const SolverGuess& guess) {
+  return guess.constraint_multipliers.size() + guess.lower_multipliers.size() +
+             guess.upper_multipliers.size() >
+         0;
+}
+
+void CheckInput(const NonlinearProgram& program, const SolverGuess& guess) {
+  const int n = program.num_variables(), m = program.num_constraints();
+  if (n == 0) throw std::invalid_argument("the program has no variables");
+  const auto variable = [&](int i) { return program.VariableName(i); };
+  const auto constraint = [&](int i) { return program.ConstraintName(i); };
+  CheckBounds(program.lower(), program.upper(), n, "variable", variable);
+  CheckBounds(program.constraint_lower(), program.constraint_upper(), m, "constraint", constraint);
+  CheckPattern(program.jacobian_pattern(), m, n, "Jacobian");
+  CheckPattern(program.hessian_pattern(), n, n, "Hessian");
+  CheckGuessPart(guess.x, n, "variables", variable);
+  if (IsWarm(guess)) {
+    CheckGuessPart(guess.constraint_multipliers, m, "constraint multipliers", constraint);
+    CheckGuessPart(guess.lower_multipliers, n, "lower multipliers", variable);
+    CheckGuessPart(guess.upper_multipliers, n, "upper multipliers", variable);
+  }
+}
+
+double LargestBound(const NonlinearProgram& program) {
+  double largest = 0;
+  for (const VectorXd* bounds : {&program.lower(), &program.upper(), &program.constraint_lower(),
+                                 &program.constraint_upper()}) {
+    for (const double bound : *bounds) {
+      if (std::isfinite(bound)) largest = std::max(largest, std::abs(bound));
+    }
+  }
+  return largest;
+}
+
+/// MUMPS keeps state of the process: whole solves take turns.
+TurnQueue& MumpsTurns() {
+  static TurnQueue turns;
+  return turns;
+}
+
+/// A violated bound or constraint.
+struct Violation {
+  double size = 0;      // scaled
+  double own_size = 0;  // in its own unit
+  std::string name;
+};
+
+Violation WorstViolation(const NonlinearProgram& program, const VectorXd& x, const VectorXd& g) {
+  Violation worst;
+  auto look = [&](const VectorXd& value, const VectorXd& lower, const VectorXd& upper,
+                  const std::function<std::string(int)>& name,
+                  const std::function<double(int)>& scale) {
+    for (int i = 0; i < value.size(); ++i) {
+      const double size = std::max(lower[i] - value[i], value[i] - upper[i]);
+      if (size > worst.size) worst = {size, size * scale(i), name(i)};
+    }
+  };
+  look(
+      x, program.lower(), program.upper(),
+      [&](int i) { return fmt::format("variable '{}'", program.VariableName(i)); },
+      [&](int i) { return program.VariableScale(i); });
+  look(
+      g, program.constraint_lower(), program.constraint_upper(),
+      [&](int i) { return fmt::format("constraint '{}'", program.ConstraintName(i)); },
+      [&](int i) { return program.ConstraintScale(i); });
+  return worst;
+}
+
+SolverStatus StatusOf(ApplicationReturnStatus status) {
+  switch (status) {
+    case Ipopt::Solve_Succeeded:
+    case Ipopt::Feasible_Point_Found:
+      return SolverStatus::kSolved;
+    case Ipopt::Solved_To_Acceptable_Level:
+      return SolverStatus::kAcceptable;
+    case Ipopt::Infeasible_Problem_Detected:
+      return SolverStatus::kInfeasible;
+    case Ipopt::Diverging_Iterates:
+      return SolverStatus::kUnbounded;
+    case Ipopt::Maximum_Iterations_Exceeded:
+      return SolverStatus::kIterationLimit;
+    case Ipopt::Maximum_CpuTime_Exceeded:
+      return SolverStatus::kTimeLimit;
+    case Ipopt::Invalid_Number_Detected:
+      return SolverStatus::kInvalidNumber;
+    default:
+      return SolverStatus::kFailed;
+  }
+}
+
+std::string FailureText(ApplicationReturnStatus status) {
+  switch (status) {
+    case Ipopt::Search_Direction_Becomes_Too_Small:
+      return "the steps became too small before the tolerances were met";
+    case Ipopt::Restoration_Failed:
+      return "no step made the constraints less violated";
+    case Ipopt::Error_In_Step_Computation:
+      return "no step could be computed";
+    case Ipopt::Not_Enough_Degrees_Of_Freedom:
+      return "there are fewer free variables than equality constraints";
+    case Ipopt::Insufficient_Memory:
+      return "out of memory";
+    case Ipopt::Invalid_Option:
+      return "Ipopt refuses the options";
+    default:
+      return fmt::format("Ipopt ended with status {}", static_cast<int>(status));
+  }
+}
+
+std::string LargestVariable(const NonlinearProgram& program, const VectorXd& x) {
+  int largest = 0;
+  x.cwiseAbs().maxCoeff(&largest);
+  return fmt::format("'{}' reached {:.3g}", program.VariableName(largest),
+                     x[largest] * program.VariableScale(largest));
+}
+
+/// A solve that got nowhere while its objective fell by orders of magnitude.
+bool ObjectiveRanAway(const SolverResult& result) {
+  constexpr double kFar = 1e12;
+  const bool gave_up =
+      result.status == SolverStatus::kFailed || result.status == SolverStatus::kIterationLimit;
+  const double first = result.history.empty() ? 0 : std::abs(result.history.front().objective);
+  return gave_up && result.objective < -kFar * std::max(1.0, first);
+}
+
+std::string Message(const NonlinearProgram& program, const SolverOptions& options,
+                    const SolverResult& result, const Violation& worst, const std::string& culprit,
+                    ApplicationReturnStatus ipopt_status) {
+  const std::string violation =
+      worst.size <= options.constraint_tolerance
+          ? ""
+          : fmt::format("; {} is off by {:.3g}", worst.name, worst.own_size);
+  switch (result.status) {
+    case SolverStatus::kSolved:
+      return "solved";
+    case SolverStatus::kAcceptable:
+      return "solved to the acceptable level only";
+    case SolverStatus::kInfeasible:
+      return "a local minimum of the constraint violation" + violation;
+    case SolverStatus::kUnbounded:
+      return fmt::format(
+          "the iterates diverge, as they do when nothing bounds the objective: it "
+          "is {:.3g} and {}",
+          result.objective, LargestVariable(program, result.x));
+    case SolverStatus::kIterationLimit:
+      return fmt::format("{} iterations were not enough{}", options.max_iterations, violation);
+    case SolverStatus::kTimeLimit:
+      return fmt::format("the time limit of {} s is over{}", options.time_limit, violation);
+    case SolverStatus::kCancelled:
+      return "cancelled";
+    case SolverStatus::kInvalidNumber:
+      return result.history.empty() ? culprit + " at the starting point" : culprit;
+    case SolverStatus::kFailed:
+      break;
+  }
+  return FailureText(ipopt_status) + violation +
+         (culprit.empty() ? "" : fmt::format("; last evaluation that failed: {}", culprit));
+}
+
+/// Objective, constraints and violation at the iterate that Ipopt ended with.
+Violation EvaluateResult(NonlinearProgram* program, SolverResult* result) {
+  result->constraints = VectorXd::Constant(program->num_constraints(), std::nan(""));
+  result->objective = std::nan("");
+  try {
+    result->objective = program->Objective(result->x);
+    program->Constraints(result->x, &result->constraints);
+  } catch (const std::runtime_error&) {  // an iterate where a function is not defined
+  }
+  Violation worst = WorstViolation(*program, result->x, result->constraints);
+  result->worst_violation = worst.size;
+  return worst;
+}
+
+/// Linear algebra by Ipopt's own stopwatches: it times no factorisation of MUMPS, but all that the
+/// augmented systems take.
+void ReadIpoptTimes(Ipopt::IpoptApplication* application, SolverTimes* times) {
+  const auto data = application->IpoptDataObject();
+  if (!Ipopt::IsValid(data)) return;
+  Ipopt::TimingStatistics& statistics = data->TimingStats();
+  times->back_solves = statistics.LinearSystemBackSolve().TotalWallclockTime();
+  times->factorisation =
+      statistics.StdAugSystemSolverMultiSolve().TotalWallclockTime() - times->back_solves;
+}
+
+ApplicationReturnStatus RunIpopt(const SolverOptions& options, const SolverGuess& guess,
+                                 const NonlinearProgram& program, SolveClock* clock,
+                                 const Ipopt::SmartPtr<IpoptAdapter>& adapter, SolverTimes* times) {
+  std::optional<HslScope> scope;
+  if (options.linear_solver == LinearSolver::kSparseLdlt)
+    scope.emplace(program.num_constraints(), clock);
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
+  SetIpoptOptions(options, IsWarm(guess), LargestBound(program), Ipopt::GetRawPtr(application));
+  ApplicationReturnStatus status = application->Initialize("");
+  if (status == Ipopt::Solve_Succeeded) {
+    status = application->OptimizeTNLP(Ipopt::GetRawPtr(adapter));
+  }
+  if (scope) {
+    times->factorisation = scope->factorisation_seconds();
+    times->back_solves = scope->back_solve_seconds();
+  } else {
+    ReadIpoptTimes(Ipopt::GetRawPtr(application), times);
+  }
+  return status;
+}
+
+}  // namespace
+
+SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
+                   const SolverOptions& options, SolveControl* control,
+                   const std::function<void(const SolverIteration&)>& log) {
+  CheckInput(*program, guess);
+  SolveClock clock(options.time_limit, control);
+  SolverResult result;
+  result.x = guess.x;
+  result.constraint_multipliers = VectorXd::Zero(program->num_constraints());
+  result.lower_multipliers = VectorXd::Zero(program->num_variables());
+  result.upper_multipliers = VectorXd::Zero(program->num_variables());
+
+  const Ipopt::SmartPtr<IpoptAdapter> adapter =
+      new IpoptAdapter(program, guess, &clock, log, &result);
+  ApplicationReturnStatus status = Ipopt::User_Requested_Stop;
+  {
+    std::optional<TurnQueue::Ticket> turn;
+    if (options.linear_solver == LinearSolver::kMumps) {
+      turn.emplace(&MumpsTurns());
+      turn->Wait([&clock] { return !clock.Proceed(); });
+    }
+    if (clock.Proceed()) {
+      status = RunIpopt(options, guess, *program, &clock, adapter, &result.times);
+    }
+  }
+  if (adapter->exception()) std::rethrow_exception(adapter->exception());
+
+  result.status = StatusOf(status);
+  if (clock.stop() == SolveClock::Stop::kCancelled) result.status = SolverStatus::kCancelled;
+  if (clock.stop() == SolveClock::Stop::kTimeLimit) result.status = SolverStatus::kTimeLimit;
+  const Violation worst = EvaluateResult(program, &result);
+  if (ObjectiveRanAway(result)) result.status = SolverStatus::kUnbounded;
+  result.message = Message(*program, options, result, worst, adapter->culprit(), status);
+  SolverTimes& times = result.times;
+  times.total = clock.Seconds();
+  times.rest = std::max(0.0, times.total - times.functions - times.derivatives -
+                                 times.factorisation - times.back_solves);
+  return result;
+}
+
+}  // namespace possibility::collocation

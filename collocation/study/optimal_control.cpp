@@ -1,0 +1,174 @@
+#include "collocation/study/optimal_control.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "collocation/study/mesh_error.h"
+
+namespace possibility::collocation {
+
+namespace {
+
+std::vector<Mesh> FirstMeshes(const OptimalControlProblem& problem,
+                              const OptimalControlOptions& options) {
+  if (!options.meshes.empty()) return options.meshes;
+  const std::vector<int>& intervals = options.intervals;
+  const auto n = static_cast<std::size_t>(problem.num_phases());
+  if (intervals.size() != 1 && intervals.size() != n) {
+    throw std::invalid_argument(fmt::format("{}: {} numbers of intervals for {} phases",
+                                            problem.name(), intervals.size(), n));
+  }
+  std::vector<Mesh> meshes;
+  for (std::size_t p = 0; p < n; ++p) {
+    meshes.push_back(UniformMesh(intervals.size() == 1 ? intervals[0] : intervals[p]));
+  }
+  return meshes;
+}
+
+/// The worst of each constraint, by its name without the point.
+std::map<std::string, ConstraintViolation> Violations(const Transcription& program,
+                                                      const SolverResult& solution) {
+  std::map<std::string, ConstraintViolation> violations;
+  for (int i = 0; i < program.num_constraints() && i < solution.constraints.size(); ++i) {
+    const double g = solution.constraints[i];
+    const double amount =
+        std::max({0.0, program.constraint_lower()[i] - g, g - program.constraint_upper()[i]}) *
+        program.ConstraintScale(i);
+    const std::string where = program.ConstraintName(i);
+    ConstraintViolation& worst = violations[program.ConstraintGroup(i)];
+    if (worst.where.empty() || amount > worst.amount) worst = {amount, where};
+  }
+  return violations;
+}
+
+void AddUp(const SolverResult& solution, OptimalControlResult* result) {
+  result->iterations += solution.history.empty() ? 0 : solution.history.back().number;
+  const auto add = [](auto* to, const auto& from, auto... members) {
+    ((to->*members += from.*members), ...);
+  };
+  add(&result->times, solution.times, &SolverTimes::total, &SolverTimes::functions,
+      &SolverTimes::derivatives, &SolverTimes::factorisation, &SolverTimes::back_solves,
+      &SolverTimes::rest);
+  add(&result->evaluations, solution.evaluations, &SolverEvaluations::objective,
+      &SolverEvaluations::gradient, &SolverEvaluations::constraints, &SolverEvaluations::jacobian,
+      &SolverEvaluations::hessian);
+}
+
+double Greatest(const std::vector<std::vector<double>>& errors) {
+  double greatest = 0;
+  for (const auto& phase : errors) {
+    for (const double error : phase) greatest = std::max(greatest, error);
+  }
+  return greatest;
+}
+
+/// Where the first solve starts: at a motion, perhaps with multipliers, or at the problem's
+/// guesses.
+struct Start {
+  const Trajectory* trajectory = nullptr;
+  const Multipliers* multipliers = nullptr;
+};
+
+SolverGuess GuessOf(const Transcription& program, const Start& start) {
+  SolverGuess guess;
+  guess.x = start.trajectory ? program.GuessFrom(*start.trajectory) : program.InitialGuess();
+  if (start.multipliers) program.AddMultipliers(*start.multipliers, *start.trajectory, &guess);
+  return guess;
+}
+
+/// Ends whatever a cancelled solve was about to do.
+struct Cancellation {};
+
+void WaitOrStop(SolveControl* control) {
+  if (control == nullptr) return;
+  if (!control->cancelled()) control->WaitWhilePaused();
+  if (control->cancelled()) throw Cancellation();
+}
+
+OptimalControlResult Cancelled(OptimalControlResult result) {
+  result.status = SolverStatus::kCancelled;
+  result.message = "cancelled";
+  result.multipliers = {};  // an earlier mesh's
+  result.violations.clear();
+  result.mesh_error = std::numeric_limits<double>::quiet_NaN();
+  return result;
+}
+
+void SolveFrom(Start start, const OptimalControlProblem& problem,
+               const OptimalControlOptions& options, SolveControl* control,
+               const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
+  OptimalControlResult& result = *out;
+  std::vector<Mesh> meshes = FirstMeshes(problem, options);
+  for (;; ++result.refinements) {
+    Transcription program(problem, options.scheme, meshes, [control] { WaitOrStop(control); });
+    const SolverGuess guess = GuessOf(program, start);
+    if (result.refinements == 0) result.dual_start = guess.constraint_multipliers.size() > 0;
+    result.solver = Solve(&program, guess, options.solver, control, log);
+    AddUp(result.solver, &result);
+    result.status = result.solver.status;
+    result.message = result.solver.message;
+    result.objective = result.solver.objective;
+    result.trajectory = program.TrajectoryOf(result.solver.x);
+    if (result.status == SolverStatus::kCancelled) throw Cancellation();
+    result.multipliers = program.MultipliersOf(result.solver);
+    result.violations = Violations(program, result.solver);
+    const auto errors = MeshErrors(problem, result.trajectory);
+    result.mesh_error = Greatest(errors);
+    const bool fine_enough =
+        options.mesh_tolerance <= 0 || result.mesh_error <= options.mesh_tolerance;
+    if (!result.succeeded() || fine_enough || result.refinements >= options.max_refinements) {
+      return;
+    }
+    const int order = 2 * options.scheme.num_nodes() - 2;
+    for (std::size_t p = 0; p < meshes.size(); ++p) {
+      meshes[p] = Refined(meshes[p], errors[p], options.mesh_tolerance, order);
+    }
+    start = {&result.trajectory, &result.multipliers};
+  }
+}
+
+OptimalControlResult SolveOrCancel(const Start& start, const OptimalControlProblem& problem,
+                                   const OptimalControlOptions& options, SolveControl* control,
+                                   const std::function<void(const SolverIteration&)>& log) {
+  OptimalControlResult result;
+  try {
+    SolveFrom(start, problem, options, control, log, &result);
+  } catch (const Cancellation&) {
+    return Cancelled(std::move(result));
+  }
+  return result;
+}
+
+}  // namespace
+
+OptimalControlResult SolveOptimalControl(const OptimalControlProblem& problem,
+                                         const OptimalControlOptions& options,
+                                         const std::optional<Trajectory>& guess,
+                                         SolveControl* control,
+                                         const std::function<void(const SolverIteration&)>& log) {
+  return SolveOrCancel({guess ? &*guess : nullptr, nullptr}, problem, options, control, log);
+}
+
+OptimalControlResult SolveOptimalControl(const OptimalControlProblem& problem,
+                                         const StoredSolution& start,
+                                         const OptimalControlOptions& options,
+                                         SolveControl* control,
+                                         const std::function<void(const SolverIteration&)>& log) {
+  CheckSameQuantities(problem, start);
+  return SolveOrCancel({&start.trajectory, &start.multipliers}, problem, options, control, log);
+}
+
+StoredSolution Store(const OptimalControlProblem& problem, const OptimalControlResult& result) {
+  StoredSolution stored{
+      problem.name(), {}, problem.ParameterNames(), result.trajectory, result.multipliers};
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    stored.phases.push_back(problem.phase(p).Names());
+  }
+  return stored;
+}
+
+}  // namespace possibility::collocation

@@ -1,0 +1,65 @@
+#include "collocation/transcription/trajectory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::collocation {
+
+namespace {
+
+/// The interval that holds share s, and where in it s is, 0 to 1.
+std::pair<int, double> Locate(const Mesh& mesh, double s) {
+  const auto after = std::upper_bound(mesh.begin(), mesh.end(), s);
+  const int last = static_cast<int>(mesh.size()) - 2;
+  const int interval = std::clamp(static_cast<int>(after - mesh.begin()) - 1, 0, last);
+  return {interval, (s - mesh[interval]) / (mesh[interval + 1] - mesh[interval])};
+}
+
+}  // namespace
+
+Mesh UniformMesh(int intervals) {
+  if (intervals < 1) {
+    throw std::invalid_argument(
+        fmt::format("a mesh has {} intervals, expected 1 or more", intervals));
+  }
+  Mesh mesh(intervals + 1);
+  for (int i = 0; i <= intervals; ++i) mesh[i] = static_cast<double>(i) / intervals;
+  return mesh;
+}
+
+double PhaseTrajectory::PointShare(int point) const {
+  const int inside = scheme.num_nodes() - 1;
+  if (point == num_points() - 1) return 1;
+  const int interval = point / inside;
+  return mesh[interval] + scheme.nodes[point % inside] * (mesh[interval + 1] - mesh[interval]);
+}
+
+Eigen::VectorXd PhaseTrajectory::Coordinates(double s, int order) const {
+  const auto [interval, c] = Locate(mesh, s);
+  const int highest = static_cast<int>(coordinates.size()) - 1;
+  const int inside = scheme.num_nodes() - 1;
+  const int first = interval * inside;
+  const double h = (mesh[interval + 1] - mesh[interval]) * duration;
+  // Taylor's polynomial of the interval's start and the repeated integral of the highest.
+  Eigen::VectorXd value = Eigen::VectorXd::Zero(coordinates[0].rows());
+  double factor = 1;
+  for (int r = order; r < highest; ++r) {
+    value += factor * coordinates[r].col(first);
+    factor *= c * h / (r - order + 1);
+  }
+  const int k = highest - order;
+  value += std::pow(h, k) * coordinates[highest].middleCols(first, inside + 1) *
+           scheme.LagrangeIntegrals(c, k);
+  return value;
+}
+
+Eigen::VectorXd PhaseTrajectory::Controls(double s) const {
+  const auto [interval, c] = Locate(mesh, s);
+  const int inside = scheme.num_nodes() - 1;
+  return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeIntegrals(c, 0);
+}
+
+}  // namespace possibility::collocation

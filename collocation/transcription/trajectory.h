@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "collocation/transcription/transcription_scheme.h"
+
+namespace possibility::collocation {
+
+/// Knots of a phase as shares of its duration, ascending from 0 to 1.
+using Mesh = std::vector<double>;
+Mesh UniformMesh(int intervals);
+
+/// A motion of one phase: every coordinate with its derivatives at every point of the mesh.
+struct PhaseTrajectory {
+  double begin = 0;     ///< s, since the beginning of the problem
+  double duration = 0;  ///< s
+  Mesh mesh;
+  TranscriptionScheme scheme;
+  std::vector<Eigen::MatrixXd> coordinates;  ///< by order: coordinates x points
+  Eigen::MatrixXd controls;                  ///< controls x points
+
+  int num_points() const { return static_cast<int>(controls.cols()); }
+  double PointShare(int point) const;  ///< of the duration
+  /// Coordinates differentiated `order` times at share s of the duration: the very polynomials
+  /// that were transcribed, so that each is the exact derivative of the one below.
+  Eigen::VectorXd Coordinates(double s, int order = 0) const;
+  Eigen::VectorXd Controls(double s) const;
+};
+
+struct Trajectory {
+  std::vector<PhaseTrajectory> phases;
+  Eigen::VectorXd parameters;
+};
+
+}  // namespace possibility::collocation

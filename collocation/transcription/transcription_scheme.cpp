@@ -1,0 +1,54 @@
+#include "collocation/transcription/transcription_scheme.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::collocation {
+
+Eigen::VectorXd TranscriptionScheme::LagrangeIntegrals(double c, int k) const {
+  Eigen::VectorXd powers(num_nodes());  // c^p, integrated k times
+  for (int p = 0; p < num_nodes(); ++p) {
+    double factor = 1;
+    for (int step = 1; step <= k; ++step) factor /= p + step;
+    powers[p] = factor * std::pow(c, p + k);
+  }
+  return lagrange.transpose() * powers;
+}
+
+TranscriptionScheme SchemeOfNodes(const std::string& name, const std::vector<double>& nodes,
+                                  bool separated) {
+  bool ascends = nodes.size() >= 2 && nodes.front() == 0 && nodes.back() == 1;
+  for (std::size_t i = 1; i < nodes.size(); ++i) ascends = ascends && nodes[i] > nodes[i - 1];
+  if (!ascends) {
+    throw std::invalid_argument(
+        fmt::format("transcription scheme '{}': nodes must ascend from 0 to 1", name));
+  }
+  TranscriptionScheme scheme{name, nodes, separated, {}, {}};
+  const int n = scheme.num_nodes();
+  Eigen::MatrixXd powers(n, n);  // row i: powers of node i
+  for (int i = 0; i < n; ++i) {
+    for (int p = 0; p < n; ++p) powers(i, p) = std::pow(nodes[i], p);
+  }
+  scheme.lagrange = powers.partialPivLu().solve(Eigen::MatrixXd::Identity(n, n));
+  for (int k = 0; k <= 2; ++k) {
+    Eigen::MatrixXd integral(n, n);
+    for (int i = 0; i < n; ++i) {
+      integral.row(i) = scheme.LagrangeIntegrals(nodes[i], k).transpose();
+    }
+    scheme.integral.push_back(integral);
+  }
+  return scheme;
+}
+
+TranscriptionScheme Trapezoidal() { return SchemeOfNodes("trapezoidal", {0, 1}, true); }
+
+TranscriptionScheme HermiteSimpson() { return SchemeOfNodes("hermite_simpson", {0, 0.5, 1}, true); }
+
+TranscriptionScheme CompressedHermiteSimpson() {
+  return SchemeOfNodes("hermite_simpson_compressed", {0, 0.5, 1}, false);
+}
+
+}  // namespace possibility::collocation

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "dynamics/tree/contact_point.h"
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::dynamics {
+
+class MultibodyDynamics;
+
+struct ContactForceSettings {
+  double friction = 0.7;         ///< Coulomb; the cone is linearised from inside
+  double friction_margin = 0.9;  ///< fraction of `friction` that may be used
+  double torque_margin = 0.95;   ///< fraction of each joint's effort limit that may be used
+  /// N: every point's cone starts at this normal force, so that a force that turns out smaller by
+  /// less than it still lies in the cone.
+  double normal_reserve = 0;
+  /// Of the pyramid inside the cone, at least 3: with n edges it reaches cos(pi / n) of the
+  /// friction in every direction.
+  int cone_edges = 8;
+};
+
+struct ContactForces {
+  Eigen::Matrix3Xd forces;  ///< 3 x points, on the robot, world axes, N
+  Eigen::VectorXd torques;  ///< by (independent) joint
+  /// Greatest tangential force over friction * normal force (without the margin); 0 at points
+  /// that bear nothing.
+  double friction_utilisation = 0;
+  /// Greatest |torque| over effort limit (without the margin).
+  double torque_utilisation = 0;
+};
+
+/// Forces in the friction cones and joint torques within limits that realise acceleration `a` at
+/// the state held by `kinematics` (SetPosition and SetVelocity done): the smallest forces and
+/// torques in a weighted square norm, so a smooth function of the state while the active set
+/// stays. None if no such forces exist. Without points: the torques of free flight, if `a` is
+/// one that a flying robot can have. Every joint is taken to have a motor of its own.
+/// @throws std::invalid_argument if `a` has a wrong size or is not finite, a point names no link
+/// or is not finite, a normal is no unit vector, or a setting is out of range.
+std::optional<ContactForces> DistributeContactForces(TreeKinematics* kinematics,
+                                                     const Eigen::Ref<const Eigen::VectorXd>& a,
+                                                     const std::vector<ContactPoint>& points,
+                                                     const ContactForceSettings& settings);
+
+/// The same in independent coordinates (joints that mimic others, planar models), at the state and
+/// acceleration set: torques and limits are those of MultibodyModel's independent joints.
+/// @throws std::invalid_argument as above.
+std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics,
+                                                     const std::vector<ContactPoint>& points,
+                                                     const ContactForceSettings& settings);
+
+/// Tangential over normal force; 0 if there is no force along the normal.
+double FrictionUsed(const ContactPoint& point, const Eigen::Vector3d& force);
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,224 @@
+#include "dynamics/forward/forward_dynamics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace possibility::dynamics {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Of a constraint, as a fraction of what it balances: what may stay unmet, and what makes the
+// solver take the slower and more exact way.
+constexpr double kUnmet = 1e-8;
+constexpr double kRefine = 1e-12;
+
+/// Per joint, the independent velocities that move its link: exactly these share mass.
+std::vector<std::vector<int>> VelocityCliques(const MultibodyModel& model) {
+  const std::vector<models::Joint>& joints = model.tree().joints;
+  std::vector<std::vector<int>> cliques(1 + joints.size());
+  for (int i = 0; i < model.num_base_velocities(); ++i) cliques[0].push_back(i);
+  for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+    std::vector<int>& clique = cliques[joint + 1];
+    clique = cliques[joints[joint].parent];
+    const int independent = model.couplings()[6 + joint].independent;
+    if (independent >= 0) clique.push_back(independent);
+  }
+  return cliques;
+}
+
+const ContactPoint& PointOf(const HeldPoint& held) { return held.point; }
+const ContactPoint& PointOf(const ContactPoint& point) { return point; }
+
+std::string VelocityName(const MultibodyModel& model, int index) {
+  if (index < model.num_base_velocities()) return "the base";
+  const int joint = model.joints()[index - model.num_base_velocities()];
+  return fmt::format("joint '{}'", model.tree().joints[joint].name);
+}
+
+}  // namespace
+
+ForwardDynamics::ForwardDynamics(std::shared_ptr<const MultibodyModel> model,
+                                 const ForwardDynamicsSettings& settings)
+    : settings_(settings),
+      dynamics_(std::move(model)),
+      mass_factor_(dynamics_.model().nv(), VelocityCliques(dynamics_.model())) {
+  if (!(settings.drift_time > 0)) {
+    throw std::invalid_argument(
+        fmt::format("ForwardDynamics: the drift time is {}, expected a positive number or infinity",
+                    settings.drift_time));
+  }
+  zero_.setZero(dynamics_.model().nv());
+  jacobian_.resize(3, dynamics_.model().nv());
+}
+
+void ForwardDynamics::SetState(const Eigen::Ref<const VectorXd>& q,
+                               const Eigen::Ref<const VectorXd>& v) {
+  has_state_ = has_factor_ = false;
+  dynamics_.SetState(q, v);
+  bias_ = dynamics_.InverseDynamics();
+  if (!bias_.allFinite()) {
+    throw std::invalid_argument(
+        "ForwardDynamics: q or v is so large that the forces it needs are not finite");
+  }
+  velocity_ = v;
+  has_state_ = true;
+}
+
+const VectorXd& ForwardDynamics::Free(const Eigen::Ref<const VectorXd>& forces) {
+  RequireState();
+  CheckForces(forces);
+  Factor();
+  AccelerateFreely(forces);
+  return free_;
+}
+
+const ConstrainedMotion& ForwardDynamics::Held(const Eigen::Ref<const VectorXd>& forces,
+                                               const std::vector<HeldPoint>& points) {
+  RequireState();
+  CheckForces(forces);
+  const bool feedback = std::isfinite(settings_.drift_time);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CheckPoint(i, points[i].point);
+    if (feedback && !points[i].anchor.allFinite()) {
+      throw std::invalid_argument(fmt::format("ForwardDynamics: the anchor of {} is not finite",
+                                              Described(i, points[i].point)));
+    }
+  }
+  Factor();
+  AccelerateFreely(forces);
+  dynamics_.SetAcceleration(zero_);
+  half_solved_.resize(model().nv(), 3 * points.size());
+  required_.resize(3 * points.size());
+  const double rate = feedback ? 1 / settings_.drift_time : 0;
+  double scale = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint& point = points[i].point;
+    Constrain(i, point);
+    const Vector3d unforced = jacobian_ * free_;
+    const Vector3d bias = dynamics_.Acceleration(point);
+    Vector3d drift = Vector3d::Zero();
+    if (feedback) {
+      drift = 2 * rate * dynamics_.Velocity(point) +
+              rate * rate * (dynamics_.Position(point) - points[i].anchor);
+    }
+    required_.segment<3>(3 * i) = -(unforced + bias + drift);
+    for (const Vector3d& term : {unforced, bias, drift}) {
+      scale = std::max(scale, term.lpNorm<Eigen::Infinity>());
+    }
+  }
+  SolveMultipliers(points, scale, "m/s^2");
+  motion_.acceleration = free_ + change_;
+  motion_.forces = Eigen::Map<const Eigen::Matrix3Xd>(multipliers_.data(), 3, points.size());
+  return motion_;
+}
+
+const Impact& ForwardDynamics::Hit(const std::vector<ContactPoint>& points) {
+  RequireState();
+  for (std::size_t i = 0; i < points.size(); ++i) CheckPoint(i, points[i]);
+  Factor();
+  half_solved_.resize(model().nv(), 3 * points.size());
+  required_.resize(3 * points.size());
+  double scale = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Constrain(i, points[i]);
+    required_.segment<3>(3 * i).noalias() = -(jacobian_ * velocity_);
+    scale = std::max(scale, (jacobian_.cwiseAbs() * velocity_.cwiseAbs()).maxCoeff());
+  }
+  SolveMultipliers(points, scale, "m/s");
+  impact_.velocity = velocity_ + change_;
+  impact_.impulses = Eigen::Map<const Eigen::Matrix3Xd>(multipliers_.data(), 3, points.size());
+  // With J v+ = 0: T- - T+ is the kinetic energy of v- - v+, half the square of Y Lambda.
+  impact_.energy_lost = 0.5 * (half_solved_ * multipliers_).squaredNorm();
+  return impact_;
+}
+
+void ForwardDynamics::RequireState() const {
+  if (has_state_) return;
+  throw std::invalid_argument("ForwardDynamics: there is no state q, v; SetState comes first");
+}
+
+void ForwardDynamics::CheckForces(const Eigen::Ref<const VectorXd>& forces) const {
+  if (forces.size() != model().nv()) {
+    throw std::invalid_argument(fmt::format("ForwardDynamics: forces has {} elements, expected {}",
+                                            forces.size(), model().nv()));
+  }
+  if (!forces.allFinite()) {
+    throw std::invalid_argument("ForwardDynamics: forces is not finite");
+  }
+}
+
+void ForwardDynamics::CheckPoint(std::size_t index, const ContactPoint& point) const {
+  const int links = model().tree().num_links();
+  if (point.link < 0 || point.link >= links) {
+    throw std::invalid_argument(fmt::format(
+        "ForwardDynamics: point {} is on link {}, expected 0 to {}", index, point.link, links - 1));
+  }
+  if (!point.p_L.allFinite()) {
+    throw std::invalid_argument(
+        fmt::format("ForwardDynamics: {} is not finite", Described(index, point)));
+  }
+}
+
+std::string ForwardDynamics::Described(std::size_t index, const ContactPoint& point) const {
+  return fmt::format("point {} (link '{}')", index, model().tree().links[point.link].name);
+}
+
+void ForwardDynamics::Factor() {
+  if (has_factor_) return;
+  const int failed = mass_factor_.Factor(dynamics_.MassMatrix());
+  if (failed >= 0) {
+    throw std::runtime_error(
+        fmt::format("ForwardDynamics: the mass matrix is not positive definite: {} moves nothing "
+                    "that has mass",
+                    VelocityName(model(), failed)));
+  }
+  has_factor_ = true;
+}
+
+void ForwardDynamics::AccelerateFreely(const Eigen::Ref<const VectorXd>& forces) {
+  free_ = forces - bias_;
+  mass_factor_.Solve(&free_);
+  if (free_.allFinite()) return;
+  throw std::invalid_argument(
+      "ForwardDynamics: forces, q or v is so large that the acceleration is not finite");
+}
+
+void ForwardDynamics::Constrain(std::size_t index, const ContactPoint& point) {
+  dynamics_.Jacobian(point, jacobian_);
+  for (int axis = 0; axis < 3; ++axis) {
+    auto column = half_solved_.col(3 * index + axis);
+    column = jacobian_.row(axis).transpose();
+    mass_factor_.SolveTransposed(column);
+  }
+}
+
+template <typename Points>
+void ForwardDynamics::SolveMultipliers(const Points& points, double scale, const char* unit) {
+  if (!half_solved_.allFinite() || !std::isfinite((half_solved_.squaredNorm() + 1) * scale)) {
+    throw std::invalid_argument(
+        "ForwardDynamics: the points, q or v are so large that the constraints are not finite");
+  }
+  gram_.Factor(half_solved_);
+  gram_.Solve(required_, kRefine * scale, &multipliers_, &unmet_);
+  Eigen::Index worst = 0;
+  if (unmet_.size() > 0 && !(unmet_.cwiseAbs().maxCoeff(&worst) <= kUnmet * scale)) {
+    throw std::runtime_error(fmt::format(
+        "ForwardDynamics: {} cannot be held together with the others: {:.3g} {} are left there",
+        Described(worst / 3, PointOf(points[worst / 3])), std::abs(unmet_[worst]), unit));
+  }
+  change_.noalias() = half_solved_ * multipliers_;
+  mass_factor_.SolveLower(change_);
+  if (change_.allFinite()) return;
+  throw std::runtime_error(
+      "ForwardDynamics: the points cannot be held: that takes forces beyond all numbers");
+}
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/forward/branched_cholesky.h"
+#include "dynamics/forward/gram_solver.h"
+#include "dynamics/tree/multibody_dynamics.h"
+
+namespace possibility::dynamics {
+
+/// A point of the robot held where it is: it neither slides nor leaves the ground.
+struct HeldPoint {
+  ContactPoint point;
+  /// Where it is held, world, m. Drift from there is fed back (ForwardDynamicsSettings).
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();
+};
+
+struct ForwardDynamicsSettings {
+  /// s: drift of a held point dies out like a critically damped oscillator of this time constant
+  /// (Baumgarte 1972); infinite: no feedback, anchors are not looked at.
+  double drift_time = 0.02;
+};
+
+/// How a robot moves under given forces while points of it are held.
+struct ConstrainedMotion {
+  Eigen::VectorXd acceleration;  ///< nv
+  /// 3 x points, on the robot, world axes, N. Where points share what a rigid body cannot tell
+  /// apart, the forces of least square norm.
+  Eigen::Matrix3Xd forces;
+};
+
+/// An inelastic impact: the velocity after it and the impulses that make it so.
+struct Impact {
+  Eigen::VectorXd velocity;   ///< nv, after
+  Eigen::Matrix3Xd impulses;  ///< 3 x points, on the robot, world axes, N s, least square norm
+  double energy_lost = 0;     ///< J, >= 0
+};
+
+/// Forward dynamics of a MultibodyModel from its mass matrix (composite rigid bodies) and a
+/// Cholesky factorisation; held points by Lagrange multipliers. One workspace per thread.
+/// @throws std::invalid_argument that names a bad argument (size, not finite, no such link, so
+/// large that the result is not finite); std::runtime_error if the mass matrix is not positive
+/// definite (which joint) or the held points cannot be held (which point): no acceleration meets
+/// the constraints.
+class ForwardDynamics {
+ public:
+  explicit ForwardDynamics(std::shared_ptr<const MultibodyModel> model,
+                           const ForwardDynamicsSettings& settings = {});
+
+  /// At the state set; only SetState of this class may change that.
+  MultibodyDynamics* dynamics() { return &dynamics_; }
+  const MultibodyModel& model() const { return dynamics_.model(); }
+
+  void SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
+                const Eigen::Ref<const Eigen::VectorXd>& v);
+  /// Acceleration under generalised forces (nv, gravity not among them); nv.
+  const Eigen::VectorXd& Free(const Eigen::Ref<const Eigen::VectorXd>& forces);
+  const ConstrainedMotion& Held(const Eigen::Ref<const Eigen::VectorXd>& forces,
+                                const std::vector<HeldPoint>& points);
+  /// Inelastic, all points at once: they are at rest afterwards.
+  const Impact& Hit(const std::vector<ContactPoint>& points);
+
+ private:
+  void CheckForces(const Eigen::Ref<const Eigen::VectorXd>& forces) const;
+  void CheckPoint(std::size_t index, const ContactPoint& point) const;
+  std::string Described(std::size_t index, const ContactPoint& point) const;
+  void RequireState() const;
+  /// Factorises the mass matrix unless this was done at this state.
+  void Factor();
+  void AccelerateFreely(const Eigen::Ref<const Eigen::VectorXd>& forces);
+  /// Row block i of the constraints: the Jacobian of a point, from which Y = L^-T J' follows.
+  void Constrain(std::size_t index, const ContactPoint& point);
+  /// The multipliers of least norm with Y'Y lambda = required; `scale` is what is compared.
+  template <typename Points>
+  void SolveMultipliers(const Points& points, double scale, const char* unit);
+
+  ForwardDynamicsSettings settings_;
+  MultibodyDynamics dynamics_;
+  BranchedCholesky mass_factor_;
+  GramSolver gram_;
+  bool has_state_ = false;
+  bool has_factor_ = false;
+  Eigen::VectorXd velocity_;     // nv
+  Eigen::VectorXd bias_;         // nv, generalised forces at a = 0
+  Eigen::VectorXd zero_;         // nv
+  Eigen::VectorXd free_;         // nv, acceleration without constraints
+  Eigen::VectorXd change_;       // nv, what the multipliers add to it
+  Eigen::MatrixXd jacobian_;     // 3 x nv, of one point
+  Eigen::MatrixXd half_solved_;  // nv x 3 points: Y
+  Eigen::VectorXd required_;     // 3 points
+  Eigen::VectorXd multipliers_;  // 3 points
+  Eigen::VectorXd unmet_;        // 3 points
+  ConstrainedMotion motion_;
+  Impact impact_;
+};
+
+}  // namespace possibility::dynamics

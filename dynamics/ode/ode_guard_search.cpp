@@ -1,0 +1,151 @@
+#include "dynamics/ode/ode_guard_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace possibility::dynamics {
+
+namespace {
+
+double Sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+}  // namespace
+
+GuardSearch::GuardSearch(const OdeProblem& problem, const OdeSettings& settings)
+    : problem_(problem), settings_(settings), values_(problem.guards.size()) {
+  if (problem.guards.empty()) return;
+  Evaluate(problem.start_time, problem.start, &values_);
+  for (const double value : values_) {
+    sides_.push_back(std::abs(value) <= settings.guard_zero ? 0 : Sign(value));
+  }
+}
+
+void GuardSearch::Evaluate(double time, const Eigen::VectorXd& state, Eigen::VectorXd* values) {
+  ++evaluations_;
+  problem_.guard_values(time, state, *values);
+  for (Eigen::Index i = 0; i < values->size(); ++i) {
+    if (!std::isfinite((*values)[i])) {
+      throw OdeError(
+          "guard " + std::to_string(i) + " is not finite at t = " + std::to_string(time) + " s",
+          time, -1);
+    }
+  }
+}
+
+double GuardSearch::ValueAt(const OdePiece& piece, double time, int guard) {
+  Evaluate(time, piece.State(time), &values_);
+  return values_[guard];
+}
+
+bool GuardSearch::Watched(int guard, double from_side) const {
+  switch (problem_.guards[guard].direction) {
+    case GuardDirection::kFalling:
+      return from_side > 0;
+    case GuardDirection::kRising:
+      return from_side < 0;
+    case GuardDirection::kBoth:
+      break;
+  }
+  return from_side != 0;
+}
+
+/// A guard that was zero at the start is not at `end`. Which side it left to first tells a guard
+/// that has crossed since from one that moved off in the direction watched.
+std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdePiece& piece, double begin,
+                                                           double end, int guard) {
+  const double side = Sign(ValueAt(piece, end, guard));
+  for (double fraction = 1e-8; fraction < 1; fraction *= 10) {
+    const double time = begin + fraction * (end - begin);
+    const double value = ValueAt(piece, time, guard);
+    if (std::abs(value) <= settings_.guard_zero) continue;
+    if (Sign(value) != side && Watched(guard, Sign(value))) {
+      return Bracket{guard, Sign(value), time, end};
+    }
+    break;
+  }
+  const OdeGuard& spec = problem_.guards[guard];
+  sides_[guard] = side;
+  if (spec.fires_from_zero && spec.direction != GuardDirection::kBoth && Watched(guard, -side)) {
+    return Bracket{guard, -side, begin, begin};
+  }
+  return std::nullopt;
+}
+
+std::vector<GuardSearch::Bracket> GuardSearch::Brackets(const OdePiece& piece, double begin,
+                                                        double end) {
+  Evaluate(end, piece.State(end), &values_);
+  const Eigen::VectorXd values = values_;
+  std::vector<Bracket> brackets;
+  for (int i = 0; i < static_cast<int>(sides_.size()); ++i) {
+    if (sides_[i] == 0) {
+      if (std::abs(values[i]) <= settings_.guard_zero) continue;
+      if (const auto bracket = LeaveZero(piece, begin, end, i)) brackets.push_back(*bracket);
+    } else if (sides_[i] * values[i] <= 0) {
+      if (Watched(i, sides_[i])) brackets.push_back({i, sides_[i], begin, end});
+      if (values[i] != 0) sides_[i] = Sign(values[i]);
+    }
+  }
+  return brackets;
+}
+
+/// Illinois' false position (Dowell & Jarratt 1971); every third step bisects.
+double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
+  double low = bracket.before, high = bracket.after;
+  if (low == high) return high;
+  double at_low = bracket.side * ValueAt(piece, low, bracket.guard);
+  double at_high = bracket.side * ValueAt(piece, high, bracket.guard);
+  // Neighbouring pieces agree to the local error only: this one may begin beyond zero.
+  if (at_low <= 0) return low;
+  const double resolution =
+      4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+  bool moved_low = false, moved_high = false;
+  for (int iteration = 1; high - low > resolution && at_high != 0; ++iteration) {
+    const double share = iteration % 3 == 0 ? 0.5 : at_low / (at_low - at_high);
+    const double time =
+        std::clamp(low + (high - low) * share, low + resolution / 4, high - resolution / 4);
+    if (time <= low || time >= high) break;
+    const double value = bracket.side * ValueAt(piece, time, bracket.guard);
+    if (value > 0) {
+      low = time;
+      at_low = value;
+      if (moved_low) at_high /= 2;
+    } else {
+      high = time;
+      at_high = value;
+      if (moved_high) at_low /= 2;
+    }
+    moved_low = value > 0;
+    moved_high = !moved_low;
+  }
+  return high;
+}
+
+std::optional<GuardCrossing> GuardSearch::Search(const OdePiece& piece, double begin) {
+  if (problem_.guards.empty()) return std::nullopt;
+  const double length = piece.end - begin;
+  double from = begin;
+  for (int sample = 1; sample <= settings_.guard_samples; ++sample) {
+    const double to = sample == settings_.guard_samples
+                          ? piece.end
+                          : begin + length * sample / settings_.guard_samples;
+    const std::vector<Bracket> brackets = Brackets(piece, from, to);
+    if (!brackets.empty()) {
+      std::vector<double> roots;
+      for (const Bracket& bracket : brackets) roots.push_back(Root(piece, bracket));
+      GuardCrossing crossing;
+      crossing.time = *std::min_element(roots.begin(), roots.end());
+      for (size_t i = 0; i < roots.size(); ++i) {
+        if (roots[i] <= crossing.time + settings_.simultaneous) {
+          crossing.guards.push_back(brackets[i].guard);
+        }
+      }
+      return crossing;
+    }
+    from = to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace possibility::dynamics

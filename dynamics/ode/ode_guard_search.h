@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "dynamics/ode/ode_integrator.h"
+
+namespace possibility::dynamics {
+
+/// Where guards fired within one step.
+struct GuardCrossing {
+  double time = 0;
+  std::vector<int> guards;  ///< ascending
+};
+
+/// Follows the guards of an OdeProblem along the pieces of its trajectory and finds their first
+/// crossing in the watched direction. Each guard has a side (the sign it last had); it fires when
+/// it reaches zero from the side its direction names.
+class GuardSearch {
+ public:
+  /// Both must outlive the search.
+  GuardSearch(const OdeProblem& problem, const OdeSettings& settings);
+
+  /// The first crossing in [begin, piece.end], where the last call ended.
+  /// @throws OdeError if a guard is not finite.
+  std::optional<GuardCrossing> Search(const OdePiece& piece, double begin);
+
+  long evaluations() const { return evaluations_; }
+
+ private:
+  struct Bracket {
+    int guard = 0;
+    double side = 0;
+    double before = 0;
+    double after = 0;
+  };
+
+  void Evaluate(double time, const Eigen::VectorXd& state, Eigen::VectorXd* values);
+  double ValueAt(const OdePiece& piece, double time, int guard);
+  bool Watched(int guard, double from_side) const;
+  std::optional<Bracket> LeaveZero(const OdePiece& piece, double begin, double end, int guard);
+  std::vector<Bracket> Brackets(const OdePiece& piece, double begin, double end);
+  double Root(const OdePiece& piece, Bracket bracket);
+
+  const OdeProblem& problem_;
+  const OdeSettings& settings_;
+  Eigen::VectorXd values_;
+  std::vector<double> sides_;  ///< -1, 1; 0: at zero since the start
+  long evaluations_ = 0;
+};
+
+}  // namespace possibility::dynamics

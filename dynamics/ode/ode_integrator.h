@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dynamics/ode/ode_export.h"
+#include "dynamics/ode/ode_trajectory.h"
+
+namespace possibility::dynamics {
+
+/// Writes dx/dt (n) at time t (s) and state x (n). A result that is not finite makes the
+/// integrator try a shorter step.
+using OdeRate = std::function<void(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
+                                   Eigen::Ref<Eigen::VectorXd> rate)>;
+/// Writes the values of all guards at time t (s) and state x (n).
+using OdeGuardFunction = std::function<void(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
+                                            Eigen::Ref<Eigen::VectorXd> values)>;
+
+enum class GuardDirection { kFalling, kRising, kBoth };
+
+struct OdeGuard {
+  GuardDirection direction = GuardDirection::kFalling;
+  /// Whether a guard that starts at zero and leaves it in its direction fires at the start. A
+  /// guard that starts beyond zero fires only after it has come back.
+  bool fires_from_zero = true;
+};
+
+enum class OdeMethod {
+  kAdams,  ///< orders 1 to 12, fixed-point iteration: systems that are not stiff
+  kBdf     ///< orders 1 to 5, Newton iteration with a dense Jacobian by differences: stiff ones
+};
+
+struct OdeProblem {
+  OdeRate rate;
+  double start_time = 0;
+  double end_time = 0;
+  Eigen::VectorXd start;          ///< n
+  std::vector<OdeGuard> guards;   ///< the first that crosses zero ends the integration
+  OdeGuardFunction guard_values;  ///< needed if there are guards
+};
+
+struct OdeSettings {
+  OdeMethod method = OdeMethod::kAdams;
+  double relative_tolerance = 1e-9;
+  double absolute_tolerance = 1e-10;
+  /// n, one per component in place of `absolute_tolerance`; empty: not used.
+  Eigen::VectorXd absolute_tolerances;
+  double max_step = std::numeric_limits<double>::infinity();  ///< s
+  int max_steps = 100'000;
+  /// Guards are looked at this many times in each step: a pair of crossings nearer to each other
+  /// than max_step / guard_samples may be missed.
+  int guard_samples = 2;
+  /// |guard| up to this counts as zero at the start.
+  double guard_zero = 1e-11;
+  /// s: guards that cross within this time after the first fire together with it.
+  double simultaneous = 1e-9;
+  /// Asked before every step; true ends the integration (OdeEnd::kStopped).
+  std::function<bool()> stop;
+};
+
+enum class OdeEnd { kTime, kGuard, kStopped };
+
+struct OdeStatistics {
+  long steps = 0;
+  long rate_evaluations = 0;  ///< those for Jacobians included
+  long guard_evaluations = 0;
+  long error_test_failures = 0;
+};
+
+struct OdeSolution {
+  OdeEnd end = OdeEnd::kTime;
+  double time = 0;          ///< s; at a guard: its first instant at or beyond zero
+  Eigen::VectorXd state;    ///< n, at `time`
+  std::vector<int> guards;  ///< ascending: those that fired
+  OdeTrajectory trajectory;
+  OdeStatistics statistics;
+};
+
+/// The integrator gave up. The message is one line: the time reached, why, and which component of
+/// the state has the greatest error estimate.
+class POSSIBILITY_ODE_API OdeError : public std::runtime_error {
+ public:
+  OdeError(const std::string& message, double time, int component);
+  ~OdeError() override;
+  double time() const { return time_; }
+  int component() const { return component_; }  ///< -1 where none is to blame
+
+ private:
+  double time_;
+  int component_;
+};
+
+/// Integrates with CVODE (SUNDIALS: Hindmarsh et al. 2005), whose local error estimates stay
+/// within the tolerances, until the end time, a guard or the stop callback. Reentrant.
+/// @throws std::invalid_argument for sizes, tolerances or numbers that make no sense, OdeError
+/// if the integrator gives up or a guard is not finite; whatever `rate`, `guard_values` or `stop`
+/// throw passes through.
+POSSIBILITY_ODE_API OdeSolution Integrate(const OdeProblem& problem,
+                                          const OdeSettings& settings = {});
+
+}  // namespace possibility::dynamics

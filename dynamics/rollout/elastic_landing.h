@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/rollout/robot_rollout.h"
+
+namespace possibility::dynamics {
+
+struct ElasticLandingSettings {
+  Eigen::VectorXd stiffness;  ///< num_joints, N m/rad or N/m
+  Eigen::VectorXd damping;    ///< num_joints, N m s/rad or N s/m
+  double time_limit = 3;      ///< s
+  double rest_energy = 0.05;  ///< J, kinetic
+  double rest_time = 0.1;     ///< s
+  /// Its rest_energy, rest_time and hybrid.end_at_zeno (true here) are not read.
+  RobotRolloutSettings rollout;
+};
+
+struct ElasticLandingOutcome {
+  bool is_at_rest = false;
+  std::string reason;  ///< one line, how it ended
+  double time = 0;     ///< s, to rest or to the end
+  RobotRollout rollout;
+};
+
+/// Gains of equal frequency for every joint: `frequency` (rad/s) and `damping_ratio` of a joint
+/// that moves alone, the base fixed, at q.
+struct ElasticGains {
+  Eigen::VectorXd stiffness;
+  Eigen::VectorXd damping;
+};
+ElasticGains GainsOfFrequency(const std::shared_ptr<const MultibodyModel>& model,
+                              const Eigen::Ref<const Eigen::VectorXd>& q, double frequency,
+                              double damping_ratio);
+
+/// A landing from the state at touchdown: what touches the ground hits it inelastically, then every
+/// joint is a spring and damper about `posture` (num_joints) with gravity compensation as if all
+/// `contacts` carried the robot (once one does), within the effort limits, until the robot is at
+/// rest or the time is over.
+/// @throws what RobotSimulator throws.
+ElasticLandingOutcome LandElastically(const std::shared_ptr<const MultibodyModel>& model,
+                                      const std::vector<RolloutContact>& contacts,
+                                      const Eigen::Ref<const Eigen::VectorXd>& q,
+                                      const Eigen::Ref<const Eigen::VectorXd>& v,
+                                      const Eigen::Ref<const Eigen::VectorXd>& posture,
+                                      const ElasticLandingSettings& settings);
+
+}  // namespace possibility::dynamics

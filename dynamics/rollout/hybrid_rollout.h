@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/ode/ode_integrator.h"
+
+namespace possibility::dynamics {
+
+struct HybridMode;
+
+/// What ends a mode.
+struct HybridEvent {
+  double time = 0;          ///< s
+  int segment = 0;          ///< index of the segment that it ends
+  std::vector<int> guards;  ///< ascending: those of the segment's mode that fired
+  Eigen::VectorXd before;
+  Eigen::VectorXd after;  ///< what the reset made of it; empty while the reset is asked
+};
+
+/// What a reset map says: how things go on.
+struct HybridTransition {
+  std::shared_ptr<const HybridMode> mode;  ///< null: the rollout ends here
+  Eigen::VectorXd state;                   ///< after the event; any size that suits `mode`
+  std::string reason;                      ///< why the rollout ends; in words
+};
+
+/// One mode of a hybrid system: a flow, the guards that end it, and what follows. Modes are made
+/// when they are needed: there may be any number of them.
+struct HybridMode {
+  std::string name;
+  OdeRate rate;
+  std::vector<OdeGuard> guards;
+  std::vector<std::string> guard_names;  ///< for messages; one per guard
+  OdeGuardFunction guard_values;
+  std::function<HybridTransition(const HybridEvent&)> reset;  ///< needed if there are guards
+};
+
+struct HybridSettings {
+  OdeSettings integration;
+  /// Zeno behaviour: this many events within this many seconds.
+  int zeno_events = 40;
+  double zeno_time = 1e-3;  ///< s
+  /// True: such a rollout ends (HybridEnd::kZeno); false: it throws OdeError.
+  bool end_at_zeno = false;
+};
+
+enum class HybridEnd { kTime, kReset, kZeno, kStopped };
+
+struct HybridSegment {
+  std::shared_ptr<const HybridMode> mode;
+  OdeTrajectory trajectory;
+};
+
+struct HybridRollout {
+  HybridEnd end = HybridEnd::kTime;
+  std::string reason;  ///< one line: why it ended
+  double time = 0;     ///< s
+  Eigen::VectorXd state;
+  std::vector<HybridSegment> segments;
+  std::vector<HybridEvent> events;
+  OdeStatistics statistics;
+
+  /// State at a time of the rollout; at an event: after it, or before it if it was the last.
+  /// @throws std::invalid_argument outside.
+  Eigen::VectorXd State(double t) const;
+  const HybridSegment& SegmentAt(double t) const;
+};
+
+/// Runs a hybrid system from a mode and state until a time, a reset that ends it or the stop
+/// callback. A reset that changes neither mode nor state has merely watched its guard, which then
+/// fires again only after it has come back.
+/// @throws what Integrate throws; std::invalid_argument for an inconsistent mode or transition.
+HybridRollout RollOut(std::shared_ptr<const HybridMode> mode,
+                      const Eigen::Ref<const Eigen::VectorXd>& state, double start_time,
+                      double end_time, const HybridSettings& settings = {});
+
+}  // namespace possibility::dynamics

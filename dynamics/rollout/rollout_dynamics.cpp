@@ -1,0 +1,143 @@
+#include "dynamics/rollout/rollout_dynamics.h"
+
+#include <utility>
+
+namespace possibility::dynamics {
+
+using Eigen::Matrix3Xd;
+using Eigen::VectorXd;
+
+RolloutDynamics::RolloutDynamics(std::shared_ptr<const MultibodyModel> model,
+                                 std::vector<RolloutContact> contacts, JointControl control,
+                                 const ForwardDynamicsSettings& settings)
+    : forward_(std::move(model), settings),
+      torques_(forward_.model(), std::move(control)),
+      contacts_(std::move(contacts)) {
+  generalised_.setZero(nv());
+}
+
+bool RolloutDynamics::Lands(int contact, const VectorXd& state) const {
+  return !contacts_[contact].lands || contacts_[contact].lands(state.head(nq()));
+}
+
+void RolloutDynamics::NormaliseOrientation(VectorXd* state) const {
+  if (model().base() == Base::kFloating) state->head<4>().normalize();
+}
+
+void RolloutDynamics::SetState(const Eigen::Ref<const VectorXd>& state) {
+  forward_.SetState(state.head(nq()), state.tail(nv()));
+}
+
+double RolloutDynamics::Gap(int contact) {
+  const ContactPoint& point = contacts_[contact].point;
+  return point.normal_W.dot(dynamics()->Position(point)) - contacts_[contact].offset;
+}
+
+double RolloutDynamics::KineticEnergy(const Eigen::Ref<const VectorXd>& v) {
+  return 0.5 * v.dot(dynamics()->MassMatrix() * v);
+}
+
+std::vector<HeldPoint> RolloutDynamics::HeldWhereTheyAre(const std::vector<int>& held) {
+  std::vector<HeldPoint> points;
+  for (const int contact : held) {
+    const ContactPoint& point = contacts_[contact].point;
+    points.push_back({point, dynamics()->Position(point)});
+  }
+  return points;
+}
+
+std::vector<ContactPatchBalance> RolloutDynamics::PatchesOf(const std::vector<int>& held) {
+  std::vector<PatchPoint> points;
+  for (const int contact : held) {
+    const ContactPoint& point = contacts_[contact].point;
+    points.push_back({point.link, dynamics()->Position(point), point.normal_W});
+  }
+  return MakePatches(points);
+}
+
+const Impact& RolloutDynamics::Hit(const std::vector<int>& contacts) {
+  std::vector<ContactPoint> points;
+  points.reserve(contacts.size());
+  for (const int contact : contacts) points.push_back(contacts_[contact].point);
+  return forward_.Hit(points);
+}
+
+UnilateralContacts RolloutDynamics::UnilateralVelocities(const std::vector<int>& contacts) {
+  VectorXd velocities(3 * contacts.size());
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    velocities.segment<3>(3 * i) = dynamics()->Velocity(contacts_[contacts[i]].point);
+  }
+  return Unilateral(contacts, std::move(velocities));
+}
+
+UnilateralContacts RolloutDynamics::UnilateralAccelerations(double t,
+                                                            const Eigen::Ref<const VectorXd>& state,
+                                                            const std::vector<int>& contacts) {
+  dynamics()->SetAcceleration(forward_.Free(JointForces(t, state, true)));
+  VectorXd accelerations(3 * contacts.size());
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    accelerations.segment<3>(3 * i) = dynamics()->Acceleration(contacts_[contacts[i]].point);
+  }
+  return Unilateral(contacts, std::move(accelerations));
+}
+
+UnilateralContacts RolloutDynamics::Unilateral(const std::vector<int>& contacts,
+                                               VectorXd unconstrained) {
+  UnilateralContacts unilateral;
+  unilateral.mass = dynamics()->MassMatrix();
+  unilateral.unconstrained = std::move(unconstrained);
+  unilateral.jacobian.resize(3 * contacts.size(), nv());
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const ContactPoint& point = contacts_[contacts[i]].point;
+    dynamics()->Jacobian(point, unilateral.jacobian.middleRows<3>(3 * i));
+    unilateral.normals.push_back(point.normal_W);
+  }
+  return unilateral;
+}
+
+const VectorXd& RolloutDynamics::JointForces(double t, const Eigen::Ref<const VectorXd>& state,
+                                             bool has_landed) {
+  generalised_.tail(model().num_joints()) =
+      torques_.Evaluate(t, state.head(nq()), state.tail(nv()), has_landed, dynamics());
+  return generalised_;
+}
+
+VectorXd RolloutDynamics::Accelerate(double t, const Eigen::Ref<const VectorXd>& state,
+                                     const RolloutStance& stance, Matrix3Xd* forces) {
+  SetState(state);
+  const VectorXd& joint_forces = JointForces(t, state, stance.has_landed);
+  if (forces != nullptr) forces->setZero(3, stance.points.size());
+  if (stance.points.empty()) return forward_.Free(joint_forces);
+  const ConstrainedMotion& motion = forward_.Held(joint_forces, stance.points);
+  if (forces != nullptr) *forces = motion.forces;
+  return motion.acceleration;
+}
+
+RobotMotion RolloutDynamics::MotionAt(double t, const VectorXd& state,
+                                      const RolloutStance& stance) {
+  RobotMotion motion;
+  Matrix3Xd forces;
+  motion.a = Accelerate(t, state, stance, &forces);
+  motion.q = state.head(nq());
+  motion.v = state.tail(nv());
+  motion.torques = joint_torques();
+  motion.forces.setZero(3, num_contacts());
+  for (size_t i = 0; i < stance.held.size(); ++i) {
+    motion.forces.col(stance.held[i]) = forces.col(i);
+  }
+  return motion;
+}
+
+double RolloutDynamics::AccelerationIfLetGo(const RolloutStance& stance, int contact) {
+  std::vector<HeldPoint> others;
+  for (size_t i = 0; i < stance.held.size(); ++i) {
+    if (stance.held[i] != contact) others.push_back(stance.points[i]);
+  }
+  const VectorXd acceleration = others.empty() ? forward_.Free(generalised_)
+                                               : forward_.Held(generalised_, others).acceleration;
+  dynamics()->SetAcceleration(acceleration);
+  const ContactPoint& point = contacts_[contact].point;
+  return point.normal_W.dot(dynamics()->Acceleration(point));
+}
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "dynamics/contact/bearing_points.h"
+#include "dynamics/contact/contact_patches.h"
+#include "dynamics/forward/forward_dynamics.h"
+#include "dynamics/rollout/joint_control.h"
+#include "dynamics/rollout/robot_rollout.h"
+#include "dynamics/rollout/rollout_stance.h"
+
+namespace possibility::dynamics {
+
+/// The robot of a rollout: how it moves under its joint control, by which of its contacts are held.
+/// States are (q, v), nq + nv. Holds a state: that of the last SetState, Accelerate or MotionAt;
+/// what has no state as an argument is asked there. One workspace per thread.
+/// @throws what ForwardDynamics and JointTorques throw.
+class RolloutDynamics {
+ public:
+  RolloutDynamics(std::shared_ptr<const MultibodyModel> model, std::vector<RolloutContact> contacts,
+                  JointControl control, const ForwardDynamicsSettings& settings);
+
+  const MultibodyModel& model() const { return forward_.model(); }
+  int nq() const { return model().nq(); }
+  int nv() const { return model().nv(); }
+  int num_contacts() const { return static_cast<int>(contacts_.size()); }
+  const RolloutContact& contact(int index) const { return contacts_[index]; }
+  /// One that stands for a patch of held contacts.
+  const RolloutContact& ContactOf(const ContactPatchBalance& patch,
+                                  const std::vector<int>& held) const {
+    return contacts_[held[patch.points.front()]];
+  }
+  bool Lands(int contact, const Eigen::VectorXd& state) const;
+  void NormaliseOrientation(Eigen::VectorXd* state) const;
+
+  void SetState(const Eigen::Ref<const Eigen::VectorXd>& state);
+  double Gap(int contact);  ///< m above its plane
+  double KineticEnergy(const Eigen::Ref<const Eigen::VectorXd>& v);
+  std::vector<HeldPoint> HeldWhereTheyAre(const std::vector<int>& held);
+  std::vector<ContactPatchBalance> PatchesOf(const std::vector<int>& held);
+  const Impact& Hit(const std::vector<int>& contacts);
+
+  /// Velocities of contacts and their accelerations if none is held, as what SelectBearingPoints
+  /// asks for. `state` is the state set.
+  UnilateralContacts UnilateralVelocities(const std::vector<int>& contacts);
+  UnilateralContacts UnilateralAccelerations(double t,
+                                             const Eigen::Ref<const Eigen::VectorXd>& state,
+                                             const std::vector<int>& contacts);
+
+  /// Acceleration at a state of a stance, nv. `forces`: 3 x held; may be null.
+  Eigen::VectorXd Accelerate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+                             const RolloutStance& stance, Eigen::Matrix3Xd* forces);
+  RobotMotion MotionAt(double t, const Eigen::VectorXd& state, const RolloutStance& stance);
+  /// Of the last Accelerate or MotionAt; num_joints.
+  auto joint_torques() const { return generalised_.tail(model().num_joints()); }
+  /// Along the normal of a held contact while all but it are held, under these torques.
+  double AccelerationIfLetGo(const RolloutStance& stance, int contact);
+
+ private:
+  MultibodyDynamics* dynamics() { return forward_.dynamics(); }
+  /// Generalised forces of the joints at the state set; nv.
+  const Eigen::VectorXd& JointForces(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+                                     bool has_landed);
+  UnilateralContacts Unilateral(const std::vector<int>& contacts, Eigen::VectorXd unconstrained);
+
+  ForwardDynamics forward_;
+  JointTorques torques_;
+  std::vector<RolloutContact> contacts_;
+  Eigen::VectorXd generalised_;
+};
+
+}  // namespace possibility::dynamics

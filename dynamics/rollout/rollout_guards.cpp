@@ -1,0 +1,131 @@
+#include "dynamics/rollout/rollout_guards.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace possibility::dynamics {
+
+namespace {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Kind = RolloutGuard::Kind;
+
+std::vector<RolloutGuard> GuardsOf(const RolloutStance& stance,
+                                   const RobotRolloutSettings& settings) {
+  std::vector<RolloutGuard> guards;
+  for (const int contact : stance.free) {
+    guards.push_back({Kind::kTouchdown, contact, -1, -1});
+    if (stance.slack[contact] > 0) guards.push_back({Kind::kClearing, contact, -1, -1});
+  }
+  for (int patch = 0; patch < static_cast<int>(stance.patches.size()); ++patch) {
+    const int edges = static_cast<int>(stance.patches[patch].edges.size());
+    for (int edge = 0; edge < edges; ++edge) {
+      guards.push_back({Kind::kTipping, -1, patch, edge});
+    }
+    if (settings.ends_at_slip) guards.push_back({Kind::kSlip, -1, patch, -1});
+  }
+  for (const int contact : stance.jammed) {
+    guards.push_back({Kind::kUnjamming, contact, -1, -1});
+  }
+  if (settings.rest_energy > 0) {
+    guards.push_back({Kind::kCalm, -1, -1, -1});
+    if (stance.calm_since) guards.push_back({Kind::kRest, -1, -1, -1});
+  }
+  return guards;
+}
+
+}  // namespace
+
+RolloutGuards::RolloutGuards(std::shared_ptr<const RolloutStance> stance,
+                             const RobotRolloutSettings& settings, RolloutDynamics* robot)
+    : stance_(std::move(stance)),
+      settings_(settings),
+      robot_(robot),
+      guards_(GuardsOf(*stance_, settings_)) {}
+
+OdeGuard RolloutGuards::Watched(int index) const {
+  const RolloutGuard& guard = guards_[index];
+  const bool passes =
+      guard.kind == Kind::kTouchdown && robot_->contact(guard.contact).lands != nullptr;
+  const bool rises = guard.kind == Kind::kUnjamming || guard.kind == Kind::kClearing ||
+                     (guard.kind == Kind::kCalm && stance_->calm_since);
+  return {rises ? GuardDirection::kRising : GuardDirection::kFalling, !passes};
+}
+
+std::string RolloutGuards::NameOf(int index) const {
+  const RolloutGuard& guard = guards_[index];
+  switch (guard.kind) {
+    case Kind::kTouchdown:
+      return fmt::format("touchdown of '{}'", robot_->contact(guard.contact).name);
+    case Kind::kClearing:
+      return fmt::format("'{}' clear of the ground", robot_->contact(guard.contact).name);
+    case Kind::kTipping:
+      return fmt::format("tipping of the patch of '{}'", PatchContact(guard).name);
+    case Kind::kUnjamming:
+      return fmt::format("release of the jammed '{}'", robot_->contact(guard.contact).name);
+    case Kind::kSlip:
+      return fmt::format("slip of the patch of '{}'", PatchContact(guard).name);
+    case Kind::kCalm:
+      return "kinetic energy at its bound";
+    case Kind::kRest:
+      break;
+  }
+  return "at rest";
+}
+
+std::vector<int> RolloutGuards::Tipping(const RolloutGuard& guard) const {
+  const ContactPatchBalance& patch = stance_->patches[guard.patch];
+  const VectorXd& levers = patch.edges[guard.edge].levers;
+  std::vector<int> tipping;
+  for (size_t i = 0; i < patch.points.size(); ++i) {
+    if (levers[i] > 0) tipping.push_back(stance_->held[patch.points[i]]);
+  }
+  return tipping;
+}
+
+void RolloutGuards::Evaluate(double t, const Eigen::Ref<const VectorXd>& state,
+                             Eigen::Ref<VectorXd> values) const {
+  Matrix3Xd forces;
+  if (stance_->points.empty()) {
+    robot_->SetState(state);
+  } else {
+    robot_->Accelerate(t, state, *stance_, &forces);
+  }
+  for (size_t i = 0; i < guards_.size(); ++i) values[i] = Value(t, state, forces, guards_[i]);
+}
+
+double RolloutGuards::Value(double t, const Eigen::Ref<const VectorXd>& state,
+                            const Matrix3Xd& forces, const RolloutGuard& guard) const {
+  switch (guard.kind) {
+    case Kind::kTouchdown:
+      return robot_->Gap(guard.contact) + stance_->slack[guard.contact];
+    case Kind::kClearing:
+      return robot_->Gap(guard.contact) - kContactSlack;
+    case Kind::kTipping: {
+      const ContactPatchBalance& patch = stance_->patches[guard.patch];
+      return patch.Moment(patch.edges[guard.edge], forces);
+    }
+    case Kind::kUnjamming:
+      return robot_->AccelerationIfLetGo(*stance_, guard.contact);
+    case Kind::kSlip: {
+      const ContactPatchBalance& patch = stance_->patches[guard.patch];
+      const Vector3d force = patch.Resultant(forces);
+      const double normal = patch.normal_W.dot(force);
+      return PatchContact(guard).friction * normal - (force - normal * patch.normal_W).norm();
+    }
+    case Kind::kCalm:
+      return robot_->KineticEnergy(state.tail(robot_->nv())) - settings_.rest_energy;
+    case Kind::kRest:
+      break;
+  }
+  return *stance_->calm_since + settings_.rest_time - t;
+}
+
+const RolloutContact& RolloutGuards::PatchContact(const RolloutGuard& guard) const {
+  return robot_->ContactOf(stance_->patches[guard.patch], stance_->held);
+}
+
+}  // namespace possibility::dynamics

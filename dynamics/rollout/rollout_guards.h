@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/ode/ode_integrator.h"
+#include "dynamics/rollout/robot_rollout.h"
+#include "dynamics/rollout/rollout_dynamics.h"
+#include "dynamics/rollout/rollout_stance.h"
+
+namespace possibility::dynamics {
+
+/// What may end a stance.
+struct RolloutGuard {
+  enum class Kind { kTouchdown, kClearing, kTipping, kUnjamming, kSlip, kCalm, kRest };
+  Kind kind = Kind::kTouchdown;
+  int contact = -1;  ///< of kTouchdown, kClearing, kUnjamming
+  int patch = -1;    ///< of kTipping, kSlip
+  int edge = -1;     ///< of kTipping
+};
+
+/// The guards of one stance, which keep it. The robot has to outlive them.
+class RolloutGuards {
+ public:
+  RolloutGuards(std::shared_ptr<const RolloutStance> stance, const RobotRolloutSettings& settings,
+                RolloutDynamics* robot);
+
+  const RolloutStance& stance() const { return *stance_; }
+  int size() const { return static_cast<int>(guards_.size()); }
+  const RolloutGuard& operator[](int index) const { return guards_[index]; }
+
+  OdeGuard Watched(int index) const;    ///< how the integrator watches it
+  std::string NameOf(int index) const;  ///< for messages
+  /// Of kTipping: the contacts that leave.
+  std::vector<int> Tipping(const RolloutGuard& guard) const;
+  /// Of kTipping or kSlip: one that stands for its patch.
+  const RolloutContact& PatchContact(const RolloutGuard& guard) const;
+  /// `values`: size().
+  void Evaluate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+                Eigen::Ref<Eigen::VectorXd> values) const;
+
+ private:
+  double Value(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+               const Eigen::Matrix3Xd& forces, const RolloutGuard& guard) const;
+
+  std::shared_ptr<const RolloutStance> stance_;
+  RobotRolloutSettings settings_;
+  RolloutDynamics* robot_;
+  std::vector<RolloutGuard> guards_;
+};
+
+}  // namespace possibility::dynamics

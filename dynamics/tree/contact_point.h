@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace possibility::dynamics {
+
+/// A point of the robot that bears on the ground.
+struct ContactPoint {
+  int link = 0;
+  Eigen::Vector3d p_L = Eigen::Vector3d::Zero();
+  /// Unit, out of the ground towards the robot; read only where friction cones matter.
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
+};
+
+/// @throws std::invalid_argument beginning with `caller` if a point names no link of `num_links`
+/// or is not finite, or its normal is no unit vector.
+void CheckContactPoints(const char* caller, int num_links, const std::vector<ContactPoint>& points);
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,203 @@
+// Second derivatives of lambda' ID and of points (docs/dynamics.md, "Second derivatives").
+#include "dynamics/tree/tree_derivatives.h"
+
+namespace possibility::dynamics {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+const HessianProduct& TreeDerivatives::Hessian(const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                                               const std::vector<PointTerm>& terms) {
+  CheckSize("lambda", lambda.size());
+  FindVirtualMotion(lambda);
+  for (int i = num_links_ - 1; i > 0; --i) AddJointHessian(i);
+  AddRootHessian();
+  for (const PointTerm& term : terms) AddPointHessian(term);
+  // The root's rotations do not commute: the second derivative along a curve is the mean.
+  const Matrix3d root = hessian_.qq.topLeftCorner<3, 3>();
+  hessian_.qq.topLeftCorner<3, 3>() = (root + root.transpose()) / 2;
+  return hessian_;
+}
+
+void TreeDerivatives::FindVirtualMotion(const Eigen::Ref<const Eigen::VectorXd>& lambda) {
+  w_[0] = {lambda.head<3>(), lambda.segment<3>(3)};
+  for (int k = 0; k < 6; ++k) axes_[k].virtual_rate = CrossMotion(w_[0], axes_[k].S);
+  for (int i = 1; i < num_links_; ++i) {
+    Axis& axis = axes_[Coordinate(i)];
+    const SpatialVector& parent = w_[constants_[i].parent];
+    axis.virtual_rate = CrossMotion(parent, axis.S);
+    w_[i] = parent + lambda[Coordinate(i)] * axis.S;
+  }
+  for (int i = 0; i < num_links_; ++i) {
+    const Body& body = bodies_[i];
+    VirtualBody& result = virtual_bodies_[i];
+    result.momentum = body.Inertia(w_[i]);
+    result.coriolis = CoriolisMatrix(w_[i], body.moment, body.inertia);
+    result.turning = body.CoriolisTransposed(w_[i]);
+  }
+  for (int i = num_links_ - 1; i > 0; --i) {
+    VirtualBody& parent = virtual_bodies_[constants_[i].parent];
+    parent.momentum += virtual_bodies_[i].momentum;
+    parent.coriolis += virtual_bodies_[i].coriolis;
+    parent.turning += virtual_bodies_[i].turning;
+  }
+}
+
+void TreeDerivatives::AddJointHessian(int link) {
+  const int c = Coordinate(link);
+  const Axis& axis = axes_[c];
+  const Body& subtree = subtrees_[link];
+  const VirtualBody& dual = virtual_bodies_[link];
+  const Vector3d rate_angular = axis.rate.angular;
+  const Vector3d axis_angular = axis.S.angular;
+  const SpatialVector turning{dual.turning, Vector3d::Zero()};
+
+  // First derivatives of the subtree's force along this coordinate (DifferentiateJoint) ...
+  const SpatialVector da = subtree.Inertia(axis.S);
+  const SpatialVector dv = 2 * (subtree.Coriolis(axis.S) + subtree.Inertia(axis.rate));
+  const SpatialVector dq = 2 * subtree.Coriolis(axis.rate) + subtree.Inertia(axis.rate_rate) +
+                           CrossForce(axis.S, subtree.force);
+  // ... and what multiplies an outer coordinate's rates in the derivative of the gradient.
+  const SpatialVector on_rate_rate =
+      subtree.Inertia(axis.virtual_rate) + CrossForce(axis.S, dual.momentum);
+  const SpatialVector on_rate =
+      2 * (SpatialVector{subtree.CoriolisTransposed(axis.virtual_rate), Vector3d::Zero()} +
+           CrossForce(axis.rate, dual.momentum) + dual.Turning(rate_angular) +
+           CrossForce(axis.S, turning));
+  const SpatialVector on_velocity =
+      2 * (dual.Turning(axis_angular) + CrossForce(axis.S, dual.momentum));
+
+  auto& H = hessian_;
+  const auto pair = [&](int d) {
+    const Axis& outer = axes_[d];
+    H.qq(d, c) = H.qq(c, d) =
+        Dot(dq, outer.virtual_rate) + Dot(on_rate, outer.rate) + Dot(on_rate_rate, outer.rate_rate);
+    H.vv(d, c) = H.vv(c, d) = Dot(on_velocity, outer.S);
+    H.qv(c, d) = Dot(on_rate_rate, outer.twice) + Dot(on_rate, outer.S);
+    H.qv(d, c) = Dot(dv, outer.virtual_rate) + Dot(on_velocity, outer.rate);
+    H.qa(c, d) = Dot(on_rate_rate, outer.S);
+    H.qa(d, c) = Dot(da, outer.virtual_rate);
+  };
+  for (int d = 0; d < 3; ++d) pair(d);
+  StoreRow(on_rate_rate, c, &H.qa);
+  for (int j = constants_[link].parent; j > 0; j = constants_[j].parent) pair(Coordinate(j));
+  pair(c);
+}
+
+void TreeDerivatives::AddRootHessian() {
+  const Body& all = subtrees_[0];
+  const VirtualBody& dual = virtual_bodies_[0];
+  auto& H = hessian_;
+  for (int d = 0; d < 3; ++d) {
+    const Axis& axis = axes_[d];
+    // How force, virtual momentum and turning change with a rotation of the whole robot.
+    const SpatialVector force =
+        2 * all.Coriolis(axis.rate) + all.Inertia(axis.rate_rate) + CrossForce(axis.S, all.force);
+    const SpatialVector momentum =
+        CrossForce(axis.S, dual.momentum) + all.Inertia(axis.virtual_rate);
+    const Vector3d turning = axis.S.angular.cross(dual.turning) -
+                             TransposedTimes(dual.coriolis, axis.rate.angular) +
+                             all.CoriolisTransposed(axis.virtual_rate);
+    for (int c = 0; c < 3; ++c) {
+      const Axis& other = axes_[c];
+      H.qq(d, c) = Dot(other.virtual_rate, force) + Dot(other.rate_rate, momentum) +
+                   2 * Dot(other.rate.angular, turning);
+      H.qv(d, c) = 2 * turning[c] + Dot(momentum, other.rate);
+      H.vv(d, c) = 2 * dual.Turning(Vector3d::Unit(c)).angular[d] +
+                   dual.momentum.angular.dot(Vector3d::Unit(d).cross(Vector3d::Unit(c)));
+    }
+    StoreRow(momentum, d, &H.qa);
+  }
+}
+
+void TreeDerivatives::AddPointHessian(const PointTerm& term) {
+  const PointMotion point = MotionOf(term.link, term.p_L);
+  const Vector3d virtual_velocity = VelocityAt(w_[term.link], point.p);
+  for (int i = term.link; i > 0; i = constants_[i].parent) {
+    for (int j = i; j > 0; j = constants_[j].parent) {
+      AddPointPair(term, point, virtual_velocity, Coordinate(j), Coordinate(i));
+    }
+    for (int d = 0; d < 3; ++d) AddPointPair(term, point, virtual_velocity, d, Coordinate(i));
+  }
+  for (int d = 0; d < 3; ++d) {
+    for (int c = 0; c < 3; ++c) AddRootPointPair(term, point, virtual_velocity, d, c);
+  }
+}
+
+void TreeDerivatives::AddPointPair(const PointTerm& term, const PointMotion& point,
+                                   const Vector3d& virtual_velocity, int outer, int inner) {
+  const Axis& j = axes_[outer];
+  const Axis& k = axes_[inner];
+  const Vector3d s_j = j.S.angular;
+  const Vector3d s_k = k.S.angular;
+  const Vector3d moved = s_j.cross(VelocityAt(k.S, point.p));
+  const Vector3d rate_j = VelocityAt(j.rate, point.p);
+  const SpatialVector turned_rate = CrossMotion(j.rate, k.S);
+
+  // Of the velocity, with the rates v and with the multipliers.
+  const Vector3d velocity = s_j.cross(VelocityDerivative(point, inner)) +
+                            VelocityAt(turned_rate, point.p) + s_k.cross(rate_j);
+  const Vector3d virtual_rate_j = VelocityAt(j.virtual_rate, point.p);
+  const Vector3d virtual_second =
+      s_j.cross(VelocityAt(k.virtual_rate, point.p) + s_k.cross(virtual_velocity)) +
+      VelocityAt(CrossMotion(j.virtual_rate, k.S), point.p) + s_k.cross(virtual_rate_j);
+  const Vector3d acceleration =
+      s_j.cross(AccelerationDerivative(point, inner)) +
+      s_k.cross(VelocityAt(j.rate_rate, point.p) + 2 * j.rate.angular.cross(point.velocity)) +
+      VelocityAt(CrossMotion(j.rate_rate, k.S) + 2 * CrossMotion(j.rate, k.rate), point.p) +
+      2 * turned_rate.angular.cross(point.velocity) + 2 * k.rate.angular.cross(rate_j);
+  const double qq = term.on_position.dot(moved) + term.on_velocity.dot(velocity) +
+                    term.on_acceleration.dot(acceleration) + term.force.dot(virtual_second);
+
+  const Vector3d& on_a = term.on_acceleration;
+  const Vector3d c_j = VelocityAt(j.S, point.p);
+  const SpatialVector turned_axis = CrossMotion(j.S, k.S);
+  const double q_inner_v_outer =
+      term.on_velocity.dot(moved) +
+      on_a.dot(s_k.cross(VelocityAt(j.twice, point.p) + 2 * s_j.cross(point.velocity)) +
+               VelocityAt(CrossMotion(j.twice, k.S) + 2 * CrossMotion(j.S, k.rate), point.p) +
+               2 * turned_axis.angular.cross(point.velocity) + 2 * k.rate.angular.cross(c_j));
+  const double q_outer_v_inner = term.on_velocity.dot(moved) + 2 * on_a.dot(velocity);
+  const double vv = 2 * on_a.dot(VelocityAt(turned_axis, point.p) + s_k.cross(c_j));
+  const double qa = on_a.dot(moved);
+
+  auto& H = hessian_;
+  H.qq(outer, inner) += qq;
+  H.vv(outer, inner) += vv;
+  H.qv(inner, outer) += q_inner_v_outer;
+  H.qa(inner, outer) += qa;
+  if (outer == inner) return;
+  H.qq(inner, outer) += qq;
+  H.vv(inner, outer) += vv;
+  H.qv(outer, inner) += q_outer_v_inner;
+  H.qa(outer, inner) += qa;
+}
+
+void TreeDerivatives::AddRootPointPair(const PointTerm& term, const PointMotion& point,
+                                       const Vector3d& virtual_velocity, int j, int k) {
+  // Rotating the robot leaves the root's own axes, velocity and acceleration as they are.
+  const Vector3d e_j = Vector3d::Unit(j);
+  const Vector3d e_k = Vector3d::Unit(k);
+  const Axis& axis = axes_[k];
+  const Vector3d moved = e_j.cross(point.p);
+  const Vector3d velocity_j = VelocityDerivative(point, j);
+  const Vector3d virtual_velocity_j =
+      VelocityAt(axes_[j].virtual_rate, point.p) + e_j.cross(virtual_velocity);
+  const Vector3d rate = axis.rate.angular;
+  const Vector3d& on_a = term.on_acceleration;
+
+  const Vector3d acceleration = e_k.cross(AccelerationDerivative(point, j)) +
+                                axis.rate_rate.angular.cross(moved) + 2 * rate.cross(velocity_j);
+  const Vector3d virtual_angular = axis.virtual_rate.angular;
+  auto& H = hessian_;
+  H.qq(j, k) += term.on_position.dot(e_k.cross(moved)) +
+                term.on_velocity.dot(rate.cross(moved) + e_k.cross(velocity_j)) +
+                on_a.dot(acceleration) +
+                term.force.dot(virtual_angular.cross(moved) + e_k.cross(virtual_velocity_j));
+  H.qv(j, k) += term.on_velocity.dot(e_k.cross(moved)) +
+                on_a.dot(rate.cross(moved) + 2 * e_k.cross(velocity_j));
+  H.vv(j, k) += on_a.dot(e_j.cross(e_k).cross(point.p) + 2 * e_k.cross(moved));
+  H.qa(j, k) += on_a.dot(e_k.cross(moved));
+}
+
+}  // namespace possibility::dynamics

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+
+namespace possibility::dynamics {
+
+enum class Base {
+  kFloating,  ///< q: quaternion (w, x, y, z), position; v: angular, linear velocity, world axes
+  kPlanar     ///< q: pitch about +y, x, z; v: their rates
+};
+
+/// One velocity of the tree as a multiple of one independent velocity.
+struct CoupledVelocity {
+  int independent = -1;  ///< index into v; -1: always zero
+  double factor = 1;
+};
+
+/// What is immutable about a multibody system, shared by the workspaces of all threads: a tree of
+/// links (models::RobotModel, its own conventions of q and v) and how the tree's coordinates
+/// follow from the independent ones of this class. Independent coordinates: base first (Base),
+/// then the independent joints in the tree's order.
+///
+/// Generalised forces are dual to v. A tangent (nv) is a displacement of q: a rotation vector in
+/// world axes and a translation for a floating base, differences otherwise.
+class MultibodyModel {
+ public:
+  /// The robot in space: every joint independent but those that mimic another.
+  static std::shared_ptr<const MultibodyModel> Spatial(const models::RobotModel& robot);
+  /// A tree all of whose joints stay in the plane y = 0 (parallel to y, or prismatic in it).
+  static std::shared_ptr<const MultibodyModel> Planar(const models::RobotModel& tree);
+
+  const models::RobotModel& tree() const { return tree_; }
+  Base base() const { return base_; }
+  int nq() const { return num_base_positions() + num_joints(); }
+  int nv() const { return num_base_velocities() + num_joints(); }
+  int num_base_positions() const { return base_ == Base::kFloating ? 7 : 3; }
+  int num_base_velocities() const { return base_ == Base::kFloating ? 6 : 3; }
+  int num_joints() const { return static_cast<int>(joints_.size()); }  ///< independent ones
+  /// By independent joint: index into tree().joints of the one whose value it is.
+  const std::vector<int>& joints() const { return joints_; }
+  /// True if every tree velocity is an independent velocity itself, in the same order.
+  bool is_identity() const { return is_identity_; }
+  /// By tree velocity (tree().nv() of them).
+  const std::vector<CoupledVelocity>& couplings() const { return couplings_; }
+
+  // Limits by independent joint, mimic joints counted in.
+  const Eigen::VectorXd& lower() const { return lower_; }        ///< rad or m, may be -inf
+  const Eigen::VectorXd& upper() const { return upper_; }        ///< rad or m, may be +inf
+  const Eigen::VectorXd& velocity() const { return velocity_; }  ///< rad/s or m/s
+  const Eigen::VectorXd& effort() const { return effort_; }      ///< N m or N
+
+  /// Tree coordinates of independent ones (sizes checked: std::invalid_argument).
+  Eigen::VectorXd TreeConfiguration(const Eigen::Ref<const Eigen::VectorXd>& q) const;
+  Eigen::VectorXd TreeVelocity(const Eigen::Ref<const Eigen::VectorXd>& v) const;
+  /// Independent generalised forces of the tree's (the transpose of TreeVelocity).
+  Eigen::VectorXd IndependentForces(const Eigen::Ref<const Eigen::VectorXd>& tree_forces) const;
+
+  /// q displaced by a tangent (nv); the quaternion comes back normalised.
+  Eigen::VectorXd Displaced(const Eigen::Ref<const Eigen::VectorXd>& q,
+                            const Eigen::Ref<const Eigen::VectorXd>& tangent) const;
+  /// dq/dt (nq) at configuration q and velocity v.
+  Eigen::VectorXd ConfigurationRate(const Eigen::Ref<const Eigen::VectorXd>& q,
+                                    const Eigen::Ref<const Eigen::VectorXd>& v) const;
+
+ private:
+  MultibodyModel(models::RobotModel tree, Base base);
+  void CoupleJoints();
+  void CombineLimits();
+
+  models::RobotModel tree_;
+  Base base_;
+  std::vector<int> joints_;
+  std::vector<CoupledVelocity> couplings_;
+  Eigen::VectorXd offsets_;  ///< by tree joint: its value when the independent joint is at 0
+  bool is_identity_ = true;
+  Eigen::VectorXd lower_, upper_, velocity_, effort_;
+};
+
+}  // namespace possibility::dynamics

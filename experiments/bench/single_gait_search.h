@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/conditions/exploration_pose.h"
+#include "actions/conditions/locomotion_model.h"
+#include "actions/conditions/quasi_static_action.h"
+#include "actions/motion/planar_pose.h"
+#include "actions/planner/planner_switches.h"
+#include "graph/find_path.h"
+#include "models/robot/robot_model.h"
+#include "models/world/ground_map.h"
+#include "models/world/scenario.h"
+
+namespace possibility::experiments {
+
+struct FoundPath {
+  bool found = false;
+  double seconds = 0;                  ///< until it was found and confirmed, or given up
+  std::vector<std::string> explorers;  ///< that found its edges
+  std::vector<actions::PlanarPose> poses;
+};
+
+/// The way from a scenario's start to its first goal by one gait and nothing else, as a question
+/// for whatever searches the plane. Heights, actions and the other goals are not looked at.
+class SingleGaitSearch {
+ public:
+  /// `robot` must outlive this.
+  /// @throws InputError if the gait does not exist or cannot stand at start or goal.
+  SingleGaitSearch(const models::RobotModel& robot, const std::string& gait,
+                   models::Scenario scenario);
+  SingleGaitSearch(const SingleGaitSearch&) = delete;
+  SingleGaitSearch& operator=(const SingleGaitSearch&) = delete;
+
+  const models::Scenario& scenario() const { return scenario_; }
+  const actions::PlanarPose& start() const { return start_; }
+  const actions::PlanarPose& goal() const { return goal_; }
+
+  /// Sufficient conditions on a stance and on the straight way between two: C_S of the gait's
+  /// action. From any number of threads.
+  bool IsValid(const actions::PlanarPose& pose) const;
+  bool IsValid(const actions::PlanarPose& from, const actions::PlanarPose& to) const;
+
+  /// The possibility graph's own answer, as either preset of the planner searches.
+  FoundPath Find(actions::PlannerPreset preset, std::uint64_t seed, double time_limit) const;
+
+ private:
+  graph::Point PointAt(const actions::PlanarPose& pose) const;
+  actions::PlanarPose PoseAt(const graph::Point& point) const;
+
+  actions::LocomotionModel model_;
+  models::Scenario scenario_;
+  models::GroundMap ground_;
+  actions::World world_;
+  std::shared_ptr<actions::PelvisPoseSpace> space_;
+  std::vector<std::shared_ptr<actions::QuasiStaticAction>> gaits_;  ///< one
+  actions::PlanarPose start_;
+  actions::PlanarPose goal_;
+};
+
+/// m, in the plane.
+double LengthOf(const std::vector<actions::PlanarPose>& path);
+
+}  // namespace possibility::experiments

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/gait/gait_motion.h"
+#include "actions/plan/plan.h"
+
+namespace possibility::actions {
+
+/// How the robot holds itself at one point of the step.
+struct StepPosture {
+  double lift = 0;   ///< m, of the root above where the nominal stance on that foot's ground has it
+  double lean = 0;   ///< rad, pitch of the root beside the nominal one, forward positive
+  double ahead = 0;  ///< m, of the centre of mass beside its nominal place over the bearing foot
+};
+
+/// Lengths and postures that DRC-HUBO1 needs, found by trying 800 at random: these work with 0.85
+/// of its torques and 0.95 of its friction for every rise up to 0.15 m that was tried.
+struct StepUpSettings {
+  double approach = 0.24;   ///< m, walked before the step: the stance keeps farther from the edge
+  double step = 0.26;       ///< m, ahead, of each foot
+  double clearance = 0.03;  ///< m, of the foot above the higher ground
+  double shift_time = 1.2;  ///< s
+  double lift_time = 0.8;   ///< s, from ground to above the edge; lowering takes half of it
+  double carry_time = 0.8;  ///< s, over the edge
+  double time_scale = 1.4;  ///< of all times, those of the strides included
+  StepPosture first_foot_up{0.114, -0.138, 0.054};  ///< bearing on the lower foot
+  /// Bearing on the upper foot, the other one still on the lower ground.
+  StepPosture second_foot_leaves{-0.041, 0.236, 0.014};
+  StepPosture second_foot_up{0.004, 0.177, -0.003};  ///< bearing on the upper foot
+};
+
+/// Two strides up to an edge, then up onto it with one foot after the other: quasi-static, from
+/// rest in a nominal stance of a gait to rest in one that stands higher.
+class StepUpMotion {
+ public:
+  /// `gait` must be of the robot and outlive it.
+  StepUpMotion(const models::RobotModel& robot, const LocomotionModel::GaitEntry& gait,
+               const StepUpSettings& settings = {});
+
+  /// Of the higher stance, ahead of the lower one.
+  double distance() const { return settings_.approach + settings_.step; }
+  /// Of a step from `from`, s.
+  double ExpectedDuration(const PlanarPose& from) const;
+
+  /// From `from` on ground of height `z` to distance() ahead on ground `rise` (m, > 0) higher.
+  /// @throws MotionError naming the limit that the robot would break; Abandoned.
+  std::vector<Phase> Generate(const PlanarPose& from, double z, double rise,
+                              const std::function<bool()>& keep_going) const;
+
+ private:
+  struct State;
+  std::vector<MotionPhase> Phases(const PlanarPose& from, double z, double rise) const;
+  WholeBodyTask TaskOf(const State& state) const;
+  std::vector<int> ContactsBut(int limb) const;
+  Eigen::Vector2d Over(int limb, const State& state, double ahead) const;
+  void Shift(const State& target, State* state, std::vector<MotionPhase>* phases) const;
+  void Swing(int limb, double rise, const State& target, State* state,
+             std::vector<MotionPhase>* phases) const;
+  void MoveFoot(int limb, const Eigen::Vector3d& p_WF, const State& target, double duration,
+                State* state, std::vector<MotionPhase>* phases) const;
+
+  const models::RobotModel* robot_;
+  const LocomotionModel::GaitEntry* gait_;
+  StepUpSettings settings_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,104 @@
+#include "experiments/program/bench_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "experiments/bench/bench_collocation.h"
+#include "experiments/bench/bench_confirmation.h"
+#include "experiments/bench/bench_dynamics.h"
+#include "experiments/bench/bench_graph.h"
+#include "experiments/bench/benchmark.h"
+#include "experiments/support/option_values.h"
+#include "experiments/support/standard_streams.h"
+#include "models/input/input_error.h"
+#include "models/input/nearest_name.h"
+#include "models/robot/robot_yaml.h"
+
+namespace possibility::experiments {
+namespace {
+
+struct BenchOptions {
+  std::string subject;
+  std::string robot = "models/drchubo1/drchubo1.yaml";
+  std::string scenarios = GraphBenchSettings().scenarios;
+  std::string seeds;
+  bool json = false;
+};
+
+using Progress = std::function<void(int, int)>;
+using Bench =
+    std::function<BenchmarkReport(const BenchOptions&, const models::RobotModel&, const Progress&)>;
+
+/// A subject that only the robot is asked of.
+template <typename Function>
+Bench OfRobot(Function bench) {
+  return [bench](const BenchOptions&, const models::RobotModel& robot, const Progress& progress) {
+    return bench(robot, progress);
+  };
+}
+
+BenchmarkReport BenchGraphAsAsked(const BenchOptions& options, const models::RobotModel& robot,
+                                  const Progress& progress) {
+  GraphBenchSettings settings;
+  settings.scenarios = options.scenarios;
+  if (!options.seeds.empty()) {
+    settings.seeds = static_cast<int>(ParseInteger("--seeds", options.seeds, 1, 100000));
+  }
+  return BenchGraph(robot, settings, progress);
+}
+
+const std::map<std::string, Bench>& Benches() {
+  static const std::map<std::string, Bench> benches = {
+      {"collocation", OfRobot(&BenchCollocation)},
+      {"confirmation", OfRobot(&BenchConfirmation)},
+      {"dynamics", OfRobot(&BenchDynamics)},
+      {"graph", &BenchGraphAsAsked}};
+  return benches;
+}
+
+/// "round 3 of 15" over and over on stderr, if somebody looks.
+void ShowRound(int round, int rounds) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  PrintError("\rround {} of {}{}", round, rounds, round == rounds ? "\r\x1b[K" : "");
+}
+
+ExitCode RunBench(const BenchOptions& options) {
+  const auto found = Benches().find(options.subject);
+  if (found == Benches().end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, bench] : Benches()) known.push_back(name);
+    throw InputError(fmt::format("bench: unknown subject '{}', expected {}{}", options.subject,
+                                 fmt::join(known, ", "),
+                                 models::DidYouMean(options.subject, known)));
+  }
+  const BenchmarkReport report =
+      found->second(options, models::LoadRobotModel(options.robot), &ShowRound);
+  if (options.json) {
+    PrintOut("{}\n", report.Json().dump());
+  } else {
+    PrintOut("{}", report.Text());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command AddBenchCommand(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("bench", "Measures speed, against peers in the same run.");
+  auto options = std::make_shared<BenchOptions>();
+  app->add_option("SUBJECT", options->subject, "collocation, confirmation, dynamics or graph")
+      ->required();
+  app->add_option("--robot", options->robot, "Robot YAML")->capture_default_str();
+  app->add_option("--scenarios", options->scenarios, "graph: folder of the paper's scenarios")
+      ->capture_default_str();
+  app->add_option("--seeds", options->seeds, "graph: searches of each planner (default 20)");
+  app->add_flag("--json", options->json, "One JSON object on stdout, nothing else");
+  return {app, [options] { return RunBench(*options); }};
+}
+
+}  // namespace possibility::experiments

@@ -1,0 +1,164 @@
+#include "experiments/program/library_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "actions/jump/jump_sweep.h"
+#include "actions/transition/transition_motion.h"
+#include "experiments/report/jump_reach_plot.h"
+#include "experiments/support/hardware_threads.h"
+#include "experiments/support/option_values.h"
+#include "experiments/support/output_file.h"
+#include "experiments/support/standard_streams.h"
+#include "models/input/input_error.h"
+#include "models/robot/robot_yaml.h"
+
+namespace possibility::experiments {
+namespace {
+
+struct LibraryOptions {
+  std::string robot;
+  std::string out;
+  std::string threads;
+  std::string heights = "-0.2,-0.1,0,0.1,0.2";
+  bool json = false;
+};
+
+/// "0.1,0.2": numbers in m, ascending.
+std::vector<double> ParseHeights(const std::string& text) {
+  std::vector<double> heights;
+  for (const std::string& word : ParseNames("--heights", text)) {
+    char* end = nullptr;
+    const double height = std::strtod(word.c_str(), &end);
+    const bool ascends = heights.empty() || height > heights.back();
+    if (*end != '\0' || !(std::abs(height) <= 10) || !ascends) {
+      throw InputError(
+          fmt::format("--heights: '{}': expected ascending numbers of m, at most 10", text));
+    }
+    heights.push_back(height);
+  }
+  return heights;
+}
+
+/// "jump 12 of 105  1:20 left" over and over on stderr, if somebody looks.
+class SweepProgress {
+ public:
+  bool Show(int done, int all) const {
+    if (isatty(STDERR_FILENO) == 0) return true;
+    const double passed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const int left = static_cast<int>(passed / done * (all - done));
+    PrintError("\rjump {} of {}  {}:{:02} left {}", done, all, left / 60, left % 60,
+               done == all ? "\r\x1b[K" : "");
+    return true;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+const models::Jump& OnlyJump(const models::RobotModel& robot) {
+  if (robot.jumps.empty()) {
+    throw InputError(fmt::format("{}: jumps: the robot has none", robot.file.string()));
+  }
+  return robot.jumps.front();
+}
+
+void PrintText(const std::vector<actions::JumpSweepEntry>& entries,
+               const actions::JumpReach& reach) {
+  for (const actions::JumpSweepEntry& entry : entries) {
+    PrintOut("{:.2f} m by {:+.3f} m  {}  {:.2f} s{}{}\n", entry.task.distance, entry.task.height,
+             entry.is_possible ? "yes" : "no ", entry.effort.total,
+             entry.was_known ? "  (known)" : "", entry.reason.empty() ? "" : "  " + entry.reason);
+  }
+  for (const actions::JumpReach::Row& row : reach.rows) {
+    if (row.farthest < row.shortest) {
+      PrintOut("height {:+.3f} m: none\n", row.height);
+    } else {
+      PrintOut("height {:+.3f} m: {:.2f} to {:.2f} m\n", row.height, row.shortest, row.farthest);
+    }
+  }
+}
+
+void PrintJson(const std::vector<actions::JumpSweepEntry>& entries,
+               const actions::JumpReach& reach) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const actions::JumpSweepEntry& entry : entries) {
+    rows.push_back({{"distance", entry.task.distance},
+                    {"height", entry.task.height},
+                    {"possible", entry.is_possible},
+                    {"known", entry.was_known},
+                    {"seconds", entry.effort.total},
+                    {"reason", entry.reason}});
+  }
+  nlohmann::ordered_json table = nlohmann::ordered_json::array();
+  for (const actions::JumpReach::Row& row : reach.rows) {
+    table.push_back({row.height, row.shortest, row.farthest});
+  }
+  PrintOut("{}\n", nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}.dump());
+}
+
+void SaveTransitions(const models::RobotModel& robot, const std::string& folder) {
+  for (const models::Transition& transition : robot.transitions) {
+    const auto from = actions::SolveNominalStance(robot, robot.GaitNamed(transition.from));
+    const auto to = actions::SolveNominalStance(robot, robot.GaitNamed(transition.to));
+    actions::TransitionMotion(robot, from, to, folder, {}).Save();
+  }
+}
+
+ExitCode RunLibrary(const LibraryOptions& options) {
+  const models::RobotModel robot = models::LoadRobotModel(options.robot);
+  const models::Jump& jump = OnlyJump(robot);
+  PrepareOutputFolder("--out", options.out);
+  const actions::NominalStance launch =
+      actions::SolveNominalStance(robot, robot.GaitNamed(jump.from));
+  const actions::NominalStance landing =
+      actions::SolveNominalStance(robot, robot.GaitNamed(jump.to));
+  const actions::JumpSolver solver(robot, launch, landing);
+  actions::JumpLibrary library(robot, solver, options.out);
+  actions::JumpSweep sweep;
+  sweep.heights = ParseHeights(options.heights);
+  sweep.simulates = true;
+  sweep.threads =
+      options.threads.empty()
+          ? HardwareThreads()
+          : static_cast<int>(ParseInteger("--threads", options.threads, 1, kMaxThreads));
+  const SweepProgress progress;
+  sweep.keep_going = [&progress](int done, int all) { return progress.Show(done, all); };
+  const std::vector<actions::JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
+  const actions::JumpReach reach = actions::ReachOf(entries);
+  library.SaveReach(reach);
+  SaveTransitions(robot, options.out);
+  WriteOutput(library.folder() / "reach.svg", JumpReachPicture(entries));
+  if (options.json) {
+    PrintJson(entries, reach);
+  } else {
+    PrintText(entries, reach);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command AddLibraryCommand(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("library", "Solves a robot's jumps and transitions for later plans.");
+  auto options = std::make_shared<LibraryOptions>();
+  app->add_option("ROBOT", options->robot, "Robot YAML")->required();
+  app->add_option("--out", options->out, "Folder of the library")->required();
+  app->add_option("--heights", options->heights, "Heights of landing grounds, m")
+      ->capture_default_str();
+  app->add_option("--threads", options->threads, "Solves at a time; default: all cores");
+  app->add_flag("--json", options->json, "Print one JSON object");
+  return {app, [options] { return RunLibrary(*options); }};
+}
+
+}  // namespace possibility::experiments

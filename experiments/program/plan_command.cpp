@@ -1,0 +1,160 @@
+#include "experiments/program/plan_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/plan/plan_writer.h"
+#include "actions/planner/planner.h"
+#include "actions/verify/verification_report.h"
+#include "experiments/report/plan_summary.h"
+#include "experiments/support/hardware_threads.h"
+#include "experiments/support/option_values.h"
+#include "experiments/support/output_file.h"
+#include "experiments/support/preset_names.h"
+#include "experiments/support/progress_line.h"
+#include "experiments/support/standard_streams.h"
+#include "experiments/viewer/viewer_page.h"
+#include "models/input/input_error.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
+#include "models/world/scenario.h"
+
+namespace possibility::experiments {
+namespace {
+
+/// Numbers are taken as text: CLI11 would wrap a negative seed around and cut "1.5" short.
+struct PlanOptions {
+  std::string scenario;
+  std::string out;
+  std::string seed;
+  std::string threads;
+  std::string time_limit;
+  std::string actions;
+  std::string library;
+  std::string preset;
+  std::string explorers;
+  bool json = false;
+};
+
+/// out/<name>, whatever characters the name is made of.
+std::filesystem::path DefaultFolder(std::string name) {
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  }
+  return std::filesystem::path("out") / (name.empty() ? "plan" : name);
+}
+
+/// Overlays the options on `request`, which holds the defaults.
+void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
+  if (!options.seed.empty()) {
+    request->seed = ParseInteger("--seed", options.seed, 0, std::numeric_limits<int64_t>::max());
+  }
+  if (!options.threads.empty()) {
+    request->threads = static_cast<int>(ParseInteger("--threads", options.threads, 1, kMaxThreads));
+  }
+  if (!options.time_limit.empty()) {
+    request->time_limit = ParseSeconds("--time-limit", options.time_limit);
+  }
+  if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
+  if (!options.preset.empty()) request->preset = ParsePreset("--preset", options.preset);
+  if (!options.explorers.empty()) {
+    request->explorers = ParseNames("--explorers", options.explorers);
+    actions::WithExplorers({}, request->explorers, "--explorers");
+  }
+  if (!options.library.empty()) {
+    if (!std::filesystem::is_directory(options.library)) {
+      throw InputError(fmt::format("--library: '{}' is not a folder", options.library));
+    }
+    request->library = options.library;
+  }
+}
+
+/// The plan is one for the scenario's file, which `verify` reads again.
+void RequireAllowed(const std::vector<std::string>& actions, const models::Scenario& scenario) {
+  const std::vector<std::string>& allowed = scenario.actions;
+  for (const std::string& action : actions) {
+    if (std::find(allowed.begin(), allowed.end(), action) != allowed.end()) continue;
+    throw InputError(
+        fmt::format("--actions: '{}' is not among the actions of {}, expected some of {}", action,
+                    scenario.file.string(), fmt::join(allowed, ", ")));
+  }
+}
+
+actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
+                                     const models::Scenario& scenario,
+                                     actions::PlanRequest request) {
+  ProgressLine line(request.time_limit);
+  request.progress = [&line](const actions::PlanProgress& progress) { line.Show(progress); };
+  return actions::PlanTraversal(robot, scenario, request);
+}
+
+ExitCode Report(const actions::PlanResult& result, const PlanFiles& files, bool json) {
+  if (json) {
+    PrintOut("{}\n", SummaryJson(result, files));
+  } else {
+    PrintOut("{}", SummaryText(result, files));
+  }
+  if (result.status == actions::PlanStatus::kFound) return kDone;
+  PrintError("no plan: {}{}{}\n", actions::ToString(result.status),
+             result.explanation.empty() ? "" : ": ", result.explanation);
+  return kNoPlan;
+}
+
+ExitCode RunPlan(const PlanOptions& options) {
+  actions::PlanRequest request;
+  ApplyOptions(options, &request);
+  const models::Scenario scenario = models::LoadScenario(options.scenario);
+  RequireAllowed(request.actions, scenario);
+  const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
+  request.seed = scenario.seed;
+  request.threads = HardwareThreads();
+  request.time_limit = scenario.time_limit;
+  request.library = robot.file.parent_path() / "jumps";
+  ApplyOptions(options, &request);
+  const std::filesystem::path folder =
+      options.out.empty() ? DefaultFolder(scenario.name) : std::filesystem::path(options.out);
+  PrepareOutputFolder("--out", folder);
+
+  const PlanFiles files{folder / "plan.json", folder / "plan.html"};
+  const actions::PlanResult result = PlanWithProgress(robot, scenario, request);
+  if (result.status == actions::PlanStatus::kFound && !result.verification.accepted()) {
+    PrintError("{}", actions::FormatText(result.verification));
+    return kVerificationFailed;
+  }
+  actions::WritePlan(result.plan, files.plan);
+  WriteOutput(files.page, ViewerPage(result.plan, robot, scenario));
+  return Report(result, files, options.json);
+}
+
+}  // namespace
+
+Command AddPlanCommand(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("plan", "Plans, verifies and writes plan.json and a page.");
+  auto options = std::make_shared<PlanOptions>();
+  app->add_option("SCENARIO", options->scenario, "Scenario YAML")->required();
+  app->add_option("--out", options->out, "Folder for the plan (default: out/<scenario name>)");
+  app->add_option("--seed", options->seed, "Random seed (default: the scenario's)");
+  app->add_option("--threads", options->threads, "1 to 256 (default: all this machine has)");
+  app->add_option("--time-limit", options->time_limit, "s (default: the scenario's)");
+  app->add_option("--actions", options->actions, "Of the scenario's only these, e.g. walk,crawl");
+  app->add_option("--library", options->library,
+                  "Folder of solved jumps (default: jumps, beside the robot)");
+  app->add_option("--preset", options->preset, "Planner: default, or paper (as it prints it)");
+  app->add_option("--explorers", options->explorers,
+                  "Only these: straight, lattice, random, shortcuts (default: the preset's)");
+  app->add_flag("--json", options->json, "Print one JSON object");
+  return {app, [options] { return RunPlan(*options); }};
+}
+
+}  // namespace possibility::experiments

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/regression/regression_run.h"
+
+namespace possibility::experiments {
+
+/// Writes into a folder that exists: NAME.svg for each problem that has a motion, and index.html
+/// with the table of results and all pictures.
+/// @throws InputError naming the file that cannot be written.
+void WriteRegressionPages(const RegressionReport& report, const std::filesystem::path& folder);
+
+}  // namespace possibility::experiments

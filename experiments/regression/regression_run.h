@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/problems/regression_problems.h"
+#include "experiments/support/run_environment.h"
+
+namespace possibility::experiments {
+
+/// What a run changes of the defaults.
+struct RegressionOptions {
+  std::optional<collocation::TranscriptionScheme> scheme;  ///< none: as each problem says
+  std::optional<int> intervals;  ///< per phase to begin with; none: as each problem says
+  collocation::LinearSolver linear_solver = collocation::LinearSolver::kSparseLdlt;
+  collocation::HessianMode hessian = collocation::HessianMode::kExact;
+
+  nlohmann::ordered_json Json() const;
+  /// For one problem.
+  collocation::OptimalControlOptions For(const RegressionProblem& problem) const;
+};
+
+/// How one problem came out.
+struct RegressionRecord {
+  std::string name;
+  std::string source;
+  std::string scheme;
+  std::string status;  ///< "solved", ...; "error" if it could not even be posed
+  std::string message;
+  double objective = 0;
+  KnownOptimum nearest;       ///< of the known optima
+  double relative_error = 0;  ///< to that one; absolute if its value is 0
+  bool within_tolerance = false;
+  int iterations = 0;
+  collocation::SolverEvaluations evaluations;
+  std::vector<int> intervals;  ///< of each phase, in the end
+  int refinements = 0;
+  double mesh_error = 0;
+  collocation::SolverTimes seconds;
+  int variables = 0;
+  int constraints = 0;
+  collocation::StoredSolution solution;  ///< without phases if there is none; not in the JSON
+
+  nlohmann::ordered_json Json() const;
+};
+
+struct RegressionReport {
+  RunEnvironment environment;
+  RegressionOptions options;
+  std::vector<RegressionRecord> problems;
+
+  /// Names of problems that were not solved or missed every known optimum.
+  std::vector<std::string> Failures() const;
+  /// docs/command_line.md, "possibility-regress/1".
+  nlohmann::ordered_json Json() const;
+  /// One line per problem and a summary.
+  std::string Text() const;
+};
+
+std::string StatusName(collocation::SolverStatus status);
+
+/// Solves one problem from its stated guess and looks its answer up. What the problem throws ends
+/// in the record.
+RegressionRecord RunProblem(const RegressionProblem& problem, const RegressionOptions& options);
+
+/// Solves the problems one after another. `progress` hears before each how many are done, and its
+/// name.
+RegressionReport RunRegression(const std::vector<RegressionProblem>& problems,
+                               const RegressionOptions& options,
+                               const std::function<void(int, const std::string&)>& progress);
+
+}  // namespace possibility::experiments

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "actions/plan/plan.h"
+#include "models/world/environment.h"
+
+namespace possibility::experiments {
+
+/// Colour of an action, the same in every picture: of a gait, a jump, or a transition ("a->b").
+std::string ActionColor(const std::string& action);
+
+/// The scene from above as an SVG document: ground, obstacles, the explored graph in thin lines and
+/// the path of the pelvis, coloured by action. Without segments: no path.
+std::string PlanPicture(const actions::Plan& plan, const models::Environment& environment,
+                        double width = 420);
+
+}  // namespace possibility::experiments

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "actions/planner/planner.h"
+#include "graph/deadline.h"
+
+namespace possibility::experiments {
+
+/// What the planner is at, in one line: "exploring  1204 vertices  ...".
+std::string DescribeProgress(const actions::PlanProgress& progress, double elapsed_s,
+                             double time_limit_s);
+
+/// A line on stderr that is written over and over while the planner works; says nothing if stderr
+/// is not a terminal. Gone when it is destroyed.
+class ProgressLine {
+ public:
+  explicit ProgressLine(double time_limit_s);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void Show(const actions::PlanProgress& progress);
+
+ private:
+  bool is_terminal_;
+  double time_limit_s_;
+  graph::Deadline clock_;
+};
+
+}  // namespace possibility::experiments

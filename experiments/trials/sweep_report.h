@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/trials/trial_record.h"
+
+namespace possibility::experiments {
+
+/// What `possibility sweep` found: success and times over a parameter of a scenario.
+struct SweepReport {
+  std::vector<TrialRecord> trials;  ///< in the order of a results file; at least one
+
+  /// "possibility-sweep/1" (docs/experiments.md).
+  nlohmann::ordered_json Summary() const;
+  /// A row per value and preset.
+  std::string Csv() const;
+  std::string Markdown() const;
+
+  /// summary.json, sweep.csv, success.svg, times.svg and report.html; pictures of plans are taken
+  /// from the folder (PictureFile).
+  /// @throws InputError if a file cannot be written.
+  void Write(const std::filesystem::path& folder) const;
+};
+
+}  // namespace possibility::experiments

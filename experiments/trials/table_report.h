@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/trials/trial_record.h"
+
+namespace possibility::experiments {
+
+/// What `possibility table` found: our Table 1 beside the paper's.
+struct TableReport {
+  std::vector<TrialRecord> trials;  ///< in the order of a results file
+  std::vector<TrialRecord> twins;   ///< of scenarios without a way through; may be empty
+
+  /// "possibility-table/1" (docs/experiments.md).
+  nlohmann::ordered_json Summary() const;
+  std::string Markdown() const;
+
+  /// summary.json, table.md, report.html and the plots; pictures of plans are taken from the
+  /// folder (PictureFile).
+  /// @throws InputError if a file cannot be written.
+  void Write(const std::filesystem::path& folder) const;
+};
+
+/// Names of all rows, those of twins included, in the order of results files.
+std::vector<std::string> TableRowOrder();
+
+}  // namespace possibility::experiments

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/plan/plan.h"
+
+namespace possibility::experiments {
+
+/// Which trial of an experiment: what is planned, by which planner, with which seed.
+struct TrialKey {
+  std::string row;
+  std::string preset;
+  std::uint64_t seed = 1;
+
+  auto operator<=>(const TrialKey&) const = default;
+};
+
+/// What has to be the same for trials to be counted together.
+struct TrialIdentity {
+  std::string experiment;     ///< "table", "twins", "sweep <template> <parameter>"
+  std::string scenario_hash;  ///< of the scenario or template
+  std::string robot_hash;
+  std::string settings_hash;  ///< of the program's version and options
+
+  bool operator==(const TrialIdentity&) const = default;
+};
+
+/// How one trial came out. Times in s.
+struct TrialRecord {
+  TrialKey key;
+  TrialIdentity identity;
+  std::string parameter;  ///< of a sweep; empty: none
+  double value = 0;       ///< of the parameter
+
+  bool success = false;
+  bool verified = false;
+  std::string no;  ///< if not: "proven_infeasible", "exhausted" or "time_limit"
+  actions::PlanTimings timings;
+  double memory_mb = 0;  ///< the process' peak meanwhile, MB; 0: unknown
+  std::optional<double> real_time_ratio;
+  std::map<std::string, std::int64_t> counters;
+  std::string explorers;  ///< that found the edges of the route: "lattice, shortcuts"
+
+  double plan_duration = 0;
+  double length = 0;      ///< PlanarLength, m
+  std::string plan_hash;  ///< of the plan's motion; empty: none
+  std::string machine;    ///< its processor
+
+  /// m/s; none without a plan.
+  std::optional<double> speed() const;
+
+  nlohmann::ordered_json Json() const;
+  /// @throws nlohmann::json::exception if `json` is no record.
+  static TrialRecord FromJson(const nlohmann::ordered_json& json);
+};
+
+/// Whether two records differ in nothing but how fast the machine was, and which.
+bool SameButTimings(const TrialRecord& a, const TrialRecord& b);
+
+/// The order of a results file: rows as in `row_order`, others behind; within, by the parameter's
+/// value, the preset (default first) and the seed.
+void SortRecords(const std::vector<std::string>& row_order, std::vector<TrialRecord>* records);
+
+/// Length of the root link's way in the x-y plane, m: from where each segment begins straight to
+/// where it ends, so that swaying from foot to foot counts for nothing.
+double PlanarLength(const actions::Plan& plan);
+
+/// Of everything that executing the plan depends on: actions, contacts and knots, bit by bit.
+std::string MotionHash(const actions::Plan& plan);
+
+}  // namespace possibility::experiments

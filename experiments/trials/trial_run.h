@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/planner/planner.h"
+#include "experiments/trials/results_file.h"
+#include "experiments/trials/trial_record.h"
+#include "models/robot/robot_model.h"
+#include "models/world/scenario.h"
+
+namespace possibility::experiments {
+
+/// A trial that is to be run.
+struct TrialTask {
+  TrialKey key;
+  TrialIdentity identity;
+  std::string parameter;  ///< of a sweep; empty: none
+  double value = 0;
+  std::shared_ptr<const models::RobotModel> robot;
+  /// Called once, by the thread that runs the trial.
+  std::function<std::shared_ptr<const models::Scenario>()> scenario;
+  actions::PlanRequest request;      ///< but for seed and time limit
+  std::optional<double> time_limit;  ///< s; none: the scenario's
+  std::filesystem::path picture;     ///< where a picture of the plan goes; empty: nowhere
+};
+
+/// Plans once; a picture is written even if there is no plan.
+/// @throws InputError as PlanTraversal and for whatever the scenario throws.
+TrialRecord RunTrial(const TrialTask& task);
+
+/// Called after every trial, one at a time, with how many are done of how many.
+using TrialProgress = std::function<void(std::size_t, std::size_t)>;
+
+/// Runs trials in their order, `threads` at a time, and adds each to `results` as it ends.
+/// @throws what the first trial to fail throws, once those that were running have ended.
+void RunTrials(const std::vector<TrialTask>& tasks, int threads, ResultsFile* results,
+               const TrialProgress& progress);
+
+/// "trial 12 of 400, 1:20 left": a line on stderr that is written over and over, if stderr is a
+/// terminal; gone when it is destroyed.
+class TrialProgressLine {
+ public:
+  TrialProgressLine();
+  ~TrialProgressLine();
+  TrialProgressLine(const TrialProgressLine&) = delete;
+  TrialProgressLine& operator=(const TrialProgressLine&) = delete;
+
+  void Show(std::size_t done, std::size_t all) const;
+
+ private:
+  bool is_terminal_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// What that line says after `elapsed_s`.
+std::string DescribeTrials(std::size_t done, std::size_t all, double elapsed_s);
+
+}  // namespace possibility::experiments

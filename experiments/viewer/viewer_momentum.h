@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "actions/plan/plan.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::experiments {
+
+/// What the robot does as a whole, world axes.
+struct CentroidalState {
+  Eigen::Vector3d position;  ///< of the centre of mass, m
+  Eigen::Vector3d linear;    ///< momentum, N s
+  Eigen::Vector3d angular;   ///< momentum about the centre of mass, N m s
+};
+
+/// The sums over all links. `kinematics` must be the robot's.
+CentroidalState CentroidalStateAt(const actions::Knot& knot, dynamics::TreeKinematics* kinematics);
+
+/// What the motors have to give, num_joints: torques of mimic joints act through their masters,
+/// and are 0 themselves.
+Eigen::VectorXd MotorTorques(const models::RobotModel& robot, const Eigen::VectorXd& tau);
+
+}  // namespace possibility::experiments

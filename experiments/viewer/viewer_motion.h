@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "actions/plan/plan.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "experiments/viewer/viewer_packing.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::experiments {
+
+/// Knots of all phases behind one another, thinned out to the pace of a video (finer in segments
+/// in which the robot flies), with what there is to plot at each.
+class MotionPacker {
+ public:
+  /// `robot` must outlive it.
+  explicit MotionPacker(const models::RobotModel& robot) : robot_(robot), kinematics_(robot) {}
+
+  /// What the page has to know of a segment besides its knots.
+  /// @throws InputError if it names a contact that the robot does not have.
+  nlohmann::ordered_json Add(const actions::Segment& segment);
+
+  /// The tables of all knots added, members of the page's data.
+  void WriteTo(nlohmann::ordered_json* data) const;
+
+ private:
+  nlohmann::ordered_json AddPhase(const actions::Phase& phase, bool is_dynamic);
+  void AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames);
+  /// t, q, centre of mass, linear and angular momentum about it, joint rates, torques, forces.
+  std::vector<float> Drawn(const actions::Knot& knot);
+
+  const models::RobotModel& robot_;
+  dynamics::TreeKinematics kinematics_;
+  int count_ = 0;       ///< of knots
+  int num_forces_ = 0;  ///< three a point and knot
+  CourseTable courses_;
+  std::vector<std::int32_t> indices_;  ///< of the phases' courses, in the order of Drawn
+};
+
+}  // namespace possibility::experiments

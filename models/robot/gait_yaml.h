@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "models/input/yaml_reader.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::models {
+
+/// Reads the `gaits` list of a robot YAML (docs/file_formats.md). Links, joints and contacts of
+/// `robot` are complete. Nominal postures are checked: joints within limits, contacts on z = 0.
+/// @throws InputError for anything malformed or inconsistent.
+std::vector<Gait> ReadGaits(const YamlNode& list, const RobotModel& robot);
+
+/// Reads the `transitions` list; the gaits of `robot` are complete.
+std::vector<Transition> ReadTransitions(const YamlNode& list, const RobotModel& robot);
+
+/// Reads the `jumps` list; the gaits of `robot` are complete.
+std::vector<Jump> ReadJumps(const YamlNode& list, const RobotModel& robot);
+
+}  // namespace possibility::models

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "models/robot/robot_model.h"
+#include "models/robot/urdf_reader.h"
+
+namespace possibility::models {
+
+/// `body` moved by X_PL and added to `total`, both rigidly attached to P (parallel-axis theorem).
+Inertial Combined(const Inertial& total, const Inertial& body, const Eigen::Isometry3d& X_PL);
+
+/// Fills `robot->links` and `robot->joints` from the tree: depth first from the root, children in
+/// the order of their joints' names. Links below fixed joints and below the joints in `lumped`
+/// (held at 0) become part of the nearest link above that is kept.
+/// @throws InputError naming `file` for joints that are unsupported or without limits, and for
+/// links without mass.
+void BuildLumpedTree(const UrdfTree& tree, const std::set<std::string>& lumped,
+                     const std::string& file, RobotModel* robot);
+
+}  // namespace possibility::models

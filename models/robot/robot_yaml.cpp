@@ -1,0 +1,203 @@
+#include "models/robot/robot_yaml.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <system_error>
+
+#include "models/input/file_contents.h"
+#include "models/input/input_error.h"
+#include "models/input/named_lookup.h"
+#include "models/input/yaml_reader.h"
+#include "models/robot/gait_yaml.h"
+#include "models/robot/lumping.h"
+#include "models/robot/mimic_joints.h"
+#include "models/robot/urdf_reader.h"
+#include "models/shapes/shape_yaml.h"
+
+namespace possibility::models {
+namespace {
+
+std::set<std::string> ReadLumped(const YamlNode& root, const UrdfTree& tree) {
+  std::set<std::string> lumped;
+  const auto list = root.Find("lump");
+  if (!list) return lumped;
+  for (const int joint : IndicesOfNamed(*list, tree.joints, "joint")) {
+    lumped.insert(tree.joints[joint].name);
+  }
+  return lumped;
+}
+
+void ReadRootLink(const YamlNode& node, const UrdfTree& tree) {
+  if (node.String() == tree.root) return;
+  node.Fail(fmt::format("expected the root of the URDF, '{}', got {}", tree.root, node.String()));
+}
+
+void ReadEfforts(const YamlNode& list, RobotModel* robot) {
+  std::set<int> seen;
+  for (const YamlNode& node : list.Items()) {
+    node.MapOf({"joints", "limit", "reason"});
+    node.At("reason").String();
+    const double limit = node.At("limit").Positive();
+    for (const int joint : IndicesOfNamed(node.At("joints"), robot->joints, "joint")) {
+      if (!seen.insert(joint).second) {
+        node.At("joints").Fail(
+            fmt::format("joint '{}' is listed twice", robot->joints[joint].name));
+      }
+      if (const auto& mimic = robot->joints[joint].mimic) {
+        node.At("joints").Fail(fmt::format("joint '{}' mimics '{}', whose limit counts for both",
+                                           robot->joints[joint].name,
+                                           robot->joints[mimic->joint].name));
+      }
+      robot->joints[joint].effort = limit;
+    }
+  }
+}
+
+void CheckEfforts(const YamlNode& root, const RobotModel& robot) {
+  for (const Joint& joint : robot.joints) {
+    if (joint.effort > 0) continue;
+    root.Fail(
+        fmt::format("joint '{}' has no effort limit: expected a positive one in the URDF or "
+                    "under 'effort'",
+                    joint.name));
+  }
+}
+
+void ReadShapes(const YamlNode& map, RobotModel* robot) {
+  std::vector<std::string> names;
+  for (const Link& link : robot->links) names.push_back(link.name);
+  map.MapOf(names);
+  for (const auto& [name, list] : map.Entries()) {
+    std::vector<PosedShape>& shapes = robot->links[robot->LinkIndex(name)].shapes;
+    shapes.clear();
+    for (const YamlNode& node : list.Items()) {
+      shapes.push_back(ReadPosedShape(node.MapOf(kShapeKeys)));
+    }
+  }
+}
+
+ContactPatch ReadContact(const YamlNode& node, const RobotModel& robot) {
+  node.MapOf({"name", "link", "points", "normal"});
+  ContactPatch contact;
+  contact.name = node.At("name").String();
+  contact.link = IndexOfNamed(node.At("link"), robot.links, "link");
+  for (const YamlNode& point : node.At("points").Items()) {
+    contact.points.push_back(point.Vector3());
+  }
+  if (contact.points.empty()) node.At("points").FailExpected("at least one point");
+  const Eigen::Vector3d normal = node.At("normal").Vector3();
+  if (!(normal.norm() > 1e-6)) node.At("normal").Fail("expected a direction, got a zero vector");
+  contact.normal_L = normal.normalized();
+  return contact;
+}
+
+std::vector<ContactPatch> ReadContacts(const YamlNode& list, const RobotModel& robot) {
+  std::vector<ContactPatch> contacts;
+  for (const YamlNode& node : list.Items()) {
+    ContactPatch contact = ReadContact(node, robot);
+    for (const ContactPatch& other : contacts) {
+      if (other.name == contact.name) node.At("name").Fail("this name is already taken");
+    }
+    contacts.push_back(std::move(contact));
+  }
+  return contacts;
+}
+
+/// A list of pairs of names, none paired with itself.
+template <typename Named>
+std::vector<std::pair<int, int>> ReadPairs(const YamlNode& list, const std::vector<Named>& items,
+                                           const std::string& kind) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const YamlNode& node : list.Items()) {
+    const std::vector<int> pair = IndicesOfNamed(node, items, kind);
+    if (pair.size() != 2) node.FailExpected(fmt::format("a pair of {}s", kind));
+    pairs.emplace_back(pair[0], pair[1]);
+  }
+  return pairs;
+}
+
+std::vector<std::pair<int, int>> ReadSagittalPairs(const YamlNode& list, const RobotModel& robot) {
+  const auto pairs = ReadPairs(list, robot.joints, "joint");
+  std::set<int> seen;
+  const std::vector<YamlNode> nodes = list.Items();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (const int joint : {pairs[i].first, pairs[i].second}) {
+      if (seen.insert(joint).second) continue;
+      nodes[i].Fail(fmt::format("joint '{}' is in two pairs", robot.joints[joint].name));
+    }
+    if (robot.joints[pairs[i].first].type != robot.joints[pairs[i].second].type) {
+      nodes[i].Fail("expected two joints of one type");
+    }
+  }
+  return pairs;
+}
+
+const std::vector<std::string> kRobotKeys = {
+    "name",        "urdf",   "root_link",      "pelvis_link",       "lump",
+    "friction",    "effort", "shapes",         "contacts",          "gaits",
+    "transitions", "jumps",  "sagittal_pairs", "ignored_collisions"};
+
+/// Everything but the tree itself.
+void ReadDescription(const YamlNode& root, RobotModel* robot) {
+  robot->pelvis_shape_link = IndexOfNamed(root.At("pelvis_link"), robot->links, "link");
+  robot->friction = root.At("friction").Positive();
+  if (const auto efforts = root.Find("effort")) ReadEfforts(*efforts, robot);
+  CheckEfforts(root, *robot);
+  if (const auto shapes = root.Find("shapes")) ReadShapes(*shapes, robot);
+  if (robot->links[robot->pelvis_shape_link].shapes.empty()) {
+    root.At("pelvis_link").Fail("this link has no collision shape");
+  }
+  robot->contacts = ReadContacts(root.At("contacts"), *robot);
+  if (const auto pairs = root.Find("sagittal_pairs")) {
+    robot->sagittal_pairs = ReadSagittalPairs(*pairs, *robot);
+  }
+  if (const auto pairs = root.Find("ignored_collisions")) {
+    robot->ignored_collisions = ReadPairs(*pairs, robot->links, "link");
+  }
+  robot->gaits = ReadGaits(root.At("gaits"), *robot);
+  if (const auto transitions = root.Find("transitions")) {
+    robot->transitions = ReadTransitions(*transitions, *robot);
+  }
+  if (const auto jumps = root.Find("jumps")) robot->jumps = ReadJumps(*jumps, *robot);
+}
+
+/// The file that the YAML names. @throws InputError unless there is one.
+std::filesystem::path UrdfFile(const YamlNode& root, const std::filesystem::path& yaml_file) {
+  const YamlNode urdf = root.At("urdf");
+  const std::filesystem::path file = yaml_file.parent_path() / urdf.String();
+  if (std::error_code error; !std::filesystem::is_regular_file(file, error)) {
+    urdf.Fail(fmt::format("no such file: {}", file.string()));
+  }
+  return file;
+}
+
+}  // namespace
+
+std::string RobotContentHash(const std::filesystem::path& yaml_file) {
+  const std::string yaml = ReadFileContents(yaml_file);
+  const YamlNode root = YamlNode::Parse(yaml, yaml_file);
+  return HashOfParts({yaml, ReadFileContents(UrdfFile(root, yaml_file))});
+}
+
+RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
+  const std::string yaml = ReadFileContents(yaml_file);
+  const YamlNode root = YamlNode::Parse(yaml, yaml_file);
+  root.MapOf(kRobotKeys);
+  RobotModel robot;
+  robot.name = root.At("name").String();
+  robot.file = yaml_file;
+  const std::filesystem::path urdf_file = UrdfFile(root, yaml_file);
+  const std::string urdf = ReadFileContents(urdf_file);
+  robot.content_hash = HashOfParts({yaml, urdf});
+  const UrdfTree tree = ParseUrdf(urdf, urdf_file);
+  ReadRootLink(root.At("root_link"), tree);
+  const std::set<std::string> lumped = ReadLumped(root, tree);
+  BuildLumpedTree(tree, lumped, urdf_file.string(), &robot);
+  CoupleMimicJoints(tree, lumped, urdf_file.string(), &robot);
+  if (robot.joints.empty()) throw InputError(urdf_file.string() + ": expected at least one joint");
+  ReadDescription(root, &robot);
+  return robot;
+}
+
+}  // namespace possibility::models

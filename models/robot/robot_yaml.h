@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "models/robot/robot_model.h"
+
+namespace possibility::models {
+
+/// Reads a robot YAML and the URDF it names. Links that fixed joints or the YAML's `lump` list
+/// attach are lumped into their parents (mass properties and shapes).
+/// @throws InputError for anything malformed, unknown, missing, NaN or physically impossible.
+RobotModel LoadRobotModel(const std::filesystem::path& yaml_file);
+
+/// RobotModel::content_hash of what LoadRobotModel would read, without understanding it.
+/// @throws InputError if a file cannot be read, or the YAML names no URDF.
+std::string RobotContentHash(const std::filesystem::path& yaml_file);
+
+}  // namespace possibility::models

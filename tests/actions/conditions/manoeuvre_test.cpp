@@ -1,0 +1,144 @@
+#include "actions/conditions/manoeuvre.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "actions/flood/route_flood.h"
+#include "actions/flood/sufficient_flood.h"
+#include "actions/planner/planner.h"
+#include "models/input/input_error.h"
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/leap.h"
+
+namespace possibility::actions {
+namespace {
+
+graph::JobVerdict Refutes(graph::JobControl*) { return graph::JobVerdict::kRefuted; }
+std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
+
+std::string MessageOf(const models::Scenario& scenario,
+                      const std::vector<ManoeuvreFactory>& manoeuvres,
+                      const std::vector<std::string>& actions = {}) {
+  PlanRequest request;
+  request.time_limit = 1000;
+  request.manoeuvres = manoeuvres;
+  request.actions = actions;
+  try {
+    PlanTraversal(DrcHubo1(), scenario, request);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void ExpectOneLine(const std::string& message, const std::vector<std::string>& parts) {
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  for (const std::string& part : parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks " << part;
+  }
+}
+
+TEST(ManoeuvreTest, NamesThatNobodyKnowsAreRefused) {
+  const models::Scenario scenario = PitScene(true);
+  const ManoeuvreFactory leap = LeapFactory(Refutes, Slides);
+  ExpectOneLine(MessageOf(scenario, {}), {"pit.yaml: actions", "no action 'leap'"});
+  ExpectOneLine(MessageOf(scenario, {leap}, {"walk", "lepa"}),
+                {"pit.yaml: actions", "no action 'lepa'", "leap"});
+  models::Scenario stands = scenario;
+  stands.start.action = "leap";
+  ExpectOneLine(MessageOf(stands, {leap}), {"start.action", "'leap' is not a gait"});
+}
+
+TEST(ManoeuvreTest, NamesThatAreTakenAreRefused) {
+  models::Scenario scenario = PitScene(true);
+  scenario.actions = {"walk"};
+  for (const std::string name : {"walk", "crawl", "jump"}) {
+    ManoeuvreFactory leap = LeapFactory(Refutes, Slides);
+    leap.name = name;
+    ExpectOneLine(MessageOf(scenario, {leap}, {"walk"}), {"pit.yaml: actions", "'" + name + "'"});
+  }
+  const ManoeuvreFactory leap = LeapFactory(Refutes, Slides);
+  ExpectOneLine(MessageOf(scenario, {leap, leap}), {"pit.yaml: actions", "'leap'"});
+}
+
+TEST(ManoeuvreTest, FactoriesThatMakeNothingAreRefused) {
+  models::Scenario scenario = PitScene(true);
+  const auto nothing = [](const PlanningContext&) { return std::shared_ptr<Manoeuvre>(); };
+  ExpectOneLine(MessageOf(scenario, {{"leap", nothing}}), {"pit.yaml", "'leap' made nothing"});
+  ExpectOneLine(MessageOf(scenario, {{"leap", {}}}), {"pit.yaml", "'leap' is empty"});
+  ManoeuvreFactory hop = LeapFactory(Refutes, Slides);
+  hop.name = "hop";
+  scenario.actions = {"walk"};
+  ExpectOneLine(MessageOf(scenario, {hop}, {"walk", "hop"}), {"'hop' made one called 'leap'"});
+}
+
+TEST(ManoeuvreTest, AManoeuvreWithoutItsGaitsIsRefused) {
+  models::Scenario scenario = PitScene(true);
+  scenario.start.action = "crawl";
+  scenario.goals = {scenario.start};
+  ExpectOneLine(MessageOf(scenario, {LeapFactory(Refutes, Slides)}, {"crawl", "leap"}),
+                {"'leap'", "not planned with"});
+}
+
+TEST(ManoeuvreTest, TheLastWordOnAnEdgeCounts) {
+  const Context context(PitScene(true).environment);
+  Leap leap(*context, Refutes, Slides);
+  const graph::Point from = *leap.FindLaunchPoint(ToPoint(PlanarPose{-1, 0, 0}.At(1)), {});
+  const graph::PointPair edge = {from, leap.ExtendTowards(from, {})};
+  EXPECT_TRUE(leap.Explorable(edge));
+  EXPECT_FALSE(leap.CS(edge));
+  leap.Record(edge, true, {});
+  EXPECT_TRUE(leap.CS(edge));
+  EXPECT_TRUE(leap.Refusals().empty());
+  leap.Forbid(edge, "a reason", false);
+  EXPECT_FALSE(leap.CS(edge));
+  EXPECT_FALSE(leap.Explorable(edge));
+  ASSERT_EQ(leap.Refusals().size(), 1u);
+  EXPECT_EQ(leap.Refusals().front().reason, "a reason");
+}
+
+/// Wherever a declared landing is, the flood finds it: an island around a random landing of a
+/// random launch, with nothing in between.
+TEST(ManoeuvreTest, TheFloodReachesEveryDeclaredLanding) {
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const LandingRange range{{Eigen::Vector2d(1.6, -0.4), Eigen::Vector2d(2.2, 0.4)}, 0.35};
+  for (int i = 0; i < 60; ++i) {
+    const PlanarPose launch{0.2 * unit(generator), 0.2 * unit(generator), 3 * unit(generator)};
+    const PlanarPose landing =
+        launch * PlanarPose{1.9 + 0.3 * unit(generator), 0.4 * unit(generator),
+                            range.turn * unit(generator)};
+    const double rise = i % 2 == 0 ? 0 : 0.2;
+    models::Environment environment;
+    environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(-3, -3), Eigen::Vector2d(3, 3));
+    const auto add = [&](const PlanarPose& at, double z) {
+      models::Obstacle island;
+      island.shape = models::Shape::Box({0.6, 0.6, 0.1});
+      island.X_WO = at.At(z - 0.05);
+      island.is_ground = true;
+      environment.obstacles.push_back(island);
+    };
+    add(launch, 0);
+    add(landing, rise);
+    const Context context(environment);
+    const GroundedStance start{0, launch, 0};
+    const GroundedStance goal{0, landing, rise};
+    const auto flood = [&](const std::vector<FloodManoeuvre>& manoeuvres) {
+      return FloodSufficient(DrcHubo1Locomotion(), (*context).world, start, {goal}, {}, {},
+                             manoeuvres)
+          .route_may_exist;
+    };
+    const auto only_at = [&](double height) {
+      return [=](double r) {
+        return std::abs(r - height) < 1e-6 ? std::optional(range) : std::nullopt;
+      };
+    };
+    EXPECT_FALSE(flood({}));
+    EXPECT_FALSE(flood({{0, 0, only_at(0.7)}}));
+    EXPECT_TRUE(flood({{0, 0, only_at(rise)}})) << i;
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions

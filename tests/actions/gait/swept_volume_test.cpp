@@ -1,0 +1,152 @@
+#include "actions/gait/swept_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "models/input/input_error.h"
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/quadruped.h"
+
+namespace possibility::actions {
+namespace {
+
+/// Every link of the robot at `X_WL`, seen from `frame`, must lie in the union of `boxes`. Checked
+/// on a cloud of surface points of each shape.
+void ExpectInside(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
+                  const PlanarPose& frame, const std::vector<Eigen::AlignedBox3d>& boxes,
+                  std::mt19937* generator) {
+  std::normal_distribution<double> normal;
+  const Eigen::Isometry3d X_FW = frame.At(0).inverse();
+  for (int link = 0; link < robot.num_links(); ++link) {
+    for (const models::PosedShape& posed : robot.links[link].shapes) {
+      for (int i = 0; i < 10; ++i) {
+        const Eigen::Vector3d direction(normal(*generator), normal(*generator), normal(*generator));
+        Eigen::Vector3d p = X_FW * X_WL[link] * posed.X_PS * posed.shape.Support(direction);
+        p.z() = std::max(p.z(), SweptVolume::kGroundGap);
+        const bool inside = std::any_of(boxes.begin(), boxes.end(),
+                                        [&p](const auto& box) { return box.contains(p); });
+        ASSERT_TRUE(inside) << robot.links[link].name << " at " << p.transpose();
+      }
+    }
+  }
+}
+
+/// A stride of the class, of any length that the bounds allow; every second one of the longest.
+PlanarPose RandomStride(StrideClass strides, const models::GaitParameters& parameters,
+                        std::mt19937* generator) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  PlanarPose share;
+  if (Includes(strides, {1, 0, 0})) share.x = unit(*generator);
+  if (Includes(strides, {0, 1, 0})) share.y = unit(*generator);
+  if (Includes(strides, {0, 0, 1})) share.yaw = unit(*generator);
+  double size = std::abs(share.x) + std::abs(share.y) + std::abs(share.yaw);
+  if ((*generator)() % 2 == 0) size = std::max(size, 1.0);
+  return {share.x / size * parameters.forward, share.y / size * parameters.lateral,
+          share.yaw / size * parameters.turn};
+}
+
+void ExpectVolumesHoldRandomStrides(const LocomotionModel& model, int trials) {
+  std::mt19937 generator(1);
+  MotionSettings fine;
+  fine.knot_spacing = 0.02;
+  MotionBuilder builder(*model.robot, fine);
+  dynamics::TreeKinematics kinematics(*model.robot);
+  for (const auto& gait : model.gaits) {
+    for (int trial = 0; trial < trials; ++trial) {
+      const StrideClass strides = kStrideClasses[trial % kStrideClasses.size()];
+      const PlanarPose d = RandomStride(strides, gait->stance.gait->parameters, &generator);
+      for (const Phase& phase :
+           builder.Build(gait->motion->Phases({PlanarPose(), d}, 0, 1), gait->stance.q)) {
+        for (const Knot& knot : phase.knots) {
+          kinematics.SetPosition(knot.q);
+          ExpectInside(*model.robot, kinematics.X_WL(), GaitMotion::StrideFrame(PlanarPose(), d),
+                       gait->volumes.sweep(strides), &generator);
+        }
+      }
+    }
+  }
+}
+
+TEST(SweptVolumeTest, HoldsRandomStridesOfEveryClass) {
+  ExpectVolumesHoldRandomStrides(DrcHubo1Locomotion(), 15);
+  ExpectVolumesHoldRandomStrides(QuadrupedLocomotion(), 15);
+}
+TEST(SweptVolumeLong, HoldsRandomStridesOfEveryClass) {
+  ExpectVolumesHoldRandomStrides(DrcHubo1Locomotion(), 300);
+  ExpectVolumesHoldRandomStrides(QuadrupedLocomotion(), 300);
+}
+
+/// Of steps across a stance of a gait, the pose of the frame of a stride of the class may be so
+/// far away.
+std::vector<PlanarPose> HalfStrides(StrideClass strides, const models::GaitParameters& p) {
+  switch (strides) {
+    case StrideClass::kStraight:
+      return {{p.forward / 2, 0, 0}, {-p.forward / 2, 0, 0}};
+    case StrideClass::kSideways:
+      return {{0, p.lateral / 2, 0}, {0, -p.lateral / 2, 0}};
+    case StrideClass::kOblique:
+      return {{p.forward / 2, 0, 0}, {0, p.lateral / 2, 0}, {-p.forward / 4, p.lateral / 4, 0}};
+    default:
+      return {{}};
+  }
+}
+
+TEST(SweptVolumeTest, WhereverThereIsRoomToMoveThereIsRoomToStand) {
+  for (const LocomotionModel* model : {&DrcHubo1Locomotion(), &QuadrupedLocomotion()}) {
+    for (const auto& gait : model->gaits) {
+      for (const StrideClass strides : kStrideClasses) {
+        for (const PlanarPose& d : HalfStrides(strides, gait->stance.gait->parameters)) {
+          for (const Eigen::AlignedBox3d& box : gait->volumes.standing) {
+            const Eigen::AlignedBox3d moved = box.translated(Eigen::Vector3d(d.x, d.y, 0));
+            const auto& sweep = gait->volumes.sweep(strides);
+            EXPECT_TRUE(std::any_of(sweep.begin(), sweep.end(),
+                                    [&](const auto& other) { return other.contains(moved); }));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(SweptVolumeTest, StrideOfOneDirectionNeedsLessRoomInTheOther) {
+  const auto extent = [](const std::vector<Eigen::AlignedBox3d>& boxes) -> Eigen::Vector3d {
+    Eigen::AlignedBox3d hull;
+    for (const Eigen::AlignedBox3d& box : boxes) hull.extend(box);
+    return hull.sizes();
+  };
+  for (const auto& gait : DrcHubo1Locomotion().gaits) {
+    const GaitVolumes& volumes = gait->volumes;
+    const models::GaitParameters& parameters = gait->stance.gait->parameters;
+    const Eigen::Vector3d any = extent(volumes.sweep(StrideClass::kAny));
+    EXPECT_LT(extent(volumes.sweep(StrideClass::kStraight)).y(), any.y() - parameters.lateral / 2);
+    EXPECT_LT(extent(volumes.sweep(StrideClass::kSideways)).x(), any.x() - parameters.forward / 2);
+    EXPECT_LT(extent(volumes.standing).y(),
+              extent(volumes.sweep(StrideClass::kStraight)).y() - 0.02);
+  }
+}
+
+TEST(SweptVolumeTest, CrawlingIsLowerThanWalking) {
+  const LocomotionModel& model = DrcHubo1Locomotion();
+  EXPECT_NEAR(model.gaits[0]->volumes.standing.back().max().z(), 1.25, 0.02);  // head top 1.247 m
+  EXPECT_NEAR(model.gaits[1]->volumes.standing.back().max().z(), 0.80, 0.02);  // 0.78 m published
+  EXPECT_NEAR(model.gaits[0]->volumes.standing.front().min().z(), SweptVolume::kGroundGap, 1e-12);
+}
+
+TEST(SweptVolumeTest, AGaitTheRobotCannotWalkIsRefusedByName) {
+  models::RobotModel robot = DrcHubo1();
+  for (models::Gait& gait : robot.gaits) gait.parameters.forward = 0.9;
+  try {
+    BuildLocomotionModel(robot, {"walk"});
+    FAIL() << "a stride of 0.9 m was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("gaits.walk.parameters: the stride"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions

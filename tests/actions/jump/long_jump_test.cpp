@@ -1,0 +1,230 @@
+#include "actions/jump/long_jump.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "actions/conditions/exploration_pose.h"
+#include "actions/jump/jump_reach.h"
+#include "graph/confirmation_queue.h"
+#include "models/world/ground_map.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+namespace {
+
+/// Two floors with a gap between x = 0 and `gap`, and what stands on them.
+models::Environment TwoFloors(double gap, const std::vector<models::Obstacle>& obstacles = {}) {
+  models::Environment environment;
+  environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(-4, -3), Eigen::Vector2d(4, 3));
+  for (const double side : {-1.0, 1.0}) {
+    models::Obstacle floor;
+    floor.name = side < 0 ? "near" : "far";
+    floor.shape = models::Shape::Box({4, 6, 0.5});
+    floor.X_WO.translation() << 2 * side + (side > 0 ? gap : 0), 0, -0.25;
+    floor.is_ground = true;
+    environment.obstacles.push_back(floor);
+  }
+  environment.obstacles.insert(environment.obstacles.end(), obstacles.begin(), obstacles.end());
+  return environment;
+}
+
+/// Above the heads of those who walk, not of those who jump.
+models::Obstacle Beam() {
+  models::Obstacle beam;
+  beam.name = "beam";
+  beam.shape = models::Shape::Box({0.04, 6, 0.04});
+  beam.X_WO.translation() << 0.1, 0, 1.32;
+  return beam;
+}
+
+models::Obstacle Wall(double x, double height) {
+  models::Obstacle wall;
+  wall.name = "wall";
+  wall.shape = models::Shape::Box({0.05, 6, height});
+  wall.X_WO.translation() << x, 0, height / 2;
+  return wall;
+}
+
+class JumpScene {
+ public:
+  explicit JumpScene(models::Environment environment)
+      : environment_(std::move(environment)),
+        ground_(environment_),
+        world_{&environment_, &ground_},
+        space_(std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_.levels(), 0.137)) {
+    for (int gait = 0; gait < 2; ++gait) {
+      gaits_.push_back(std::make_shared<QuasiStaticAction>(Model(), gait, world_, space_, 0.25));
+    }
+    PlanningContext context;
+    context.model = &Model();
+    context.world = world_;
+    context.gaits = gaits_;
+    context.space = space_;
+    jump_ = std::make_unique<LongJump>(context, DrcHubo1().jumps.front());
+  }
+
+  static const LocomotionModel& Model() { return DrcHubo1Locomotion(); }
+
+  const LongJump& jump() const { return *jump_; }
+  LongJump* mutable_jump() { return jump_.get(); }
+
+  static graph::Point At(int gait, double x, double y, double yaw, double z = 0) {
+    return ToPoint(Model().gaits[gait]->stance.RootPose({x, y, yaw}, z));
+  }
+  static graph::PointPair Edge(double x, double distance, double yaw = 0) {
+    return {At(0, x, 0, yaw), At(1, x + distance * std::cos(yaw), distance * std::sin(yaw), yaw)};
+  }
+
+ private:
+  models::Environment environment_;
+  models::GroundMap ground_;
+  World world_;
+  std::shared_ptr<PelvisPoseSpace> space_;
+  std::vector<std::shared_ptr<const QuasiStaticAction>> gaits_;
+  std::unique_ptr<LongJump> jump_;
+};
+
+constexpr double kGap = 0.3;
+
+TEST(LongJumpTest, NecessaryConditionsHoldAcrossAGap) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  EXPECT_TRUE(scene.jump().CN(edge));
+  EXPECT_TRUE(scene.jump().Explorable(edge));
+  EXPECT_FALSE(scene.jump().CS(edge)) << "nobody has confirmed it";
+  EXPECT_TRUE(scene.jump().CN(edge.from));
+  EXPECT_TRUE(scene.jump().CN(edge.to));
+}
+
+TEST(LongJumpTest, NecessaryConditionsAreRefusedOneByOne) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::PointPair good = JumpScene::Edge(-0.2, 0.75);
+  EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.1, 0.75))) << "toes over the edge";
+  EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.3, 0.75))) << "pegs in the gap";
+  EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.2, 0.76))) << "off the grid";
+  EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.2, 1.5))) << "out of reach";
+  EXPECT_FALSE(scene.jump().CN(graph::PointPair{good.to, good.from})) << "backwards";
+  EXPECT_FALSE(scene.jump().CN(graph::PointPair{good.from, JumpScene::At(1, 0.55, 0.01, 0)}))
+      << "to the side";
+  EXPECT_FALSE(scene.jump().CN(graph::PointPair{good.from, JumpScene::At(1, 0.55, 0, 0.1)}))
+      << "turning";
+}
+
+TEST(LongJumpTest, AWallInTheWayIsRefused) {
+  EXPECT_FALSE(JumpScene(TwoFloors(kGap, {Wall(0.15, 5)})).jump().CN(JumpScene::Edge(-0.2, 0.9)));
+}
+
+TEST(LongJumpTest, WhereOneCanWalkNoJumpIsExplored) {
+  const JumpScene scene(TwoFloors(0));
+  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  EXPECT_TRUE(scene.jump().CN(edge));
+  EXPECT_FALSE(scene.jump().Explorable(edge));
+  EXPECT_FALSE(scene.jump().FindLaunchPoint(edge.from, edge.to).has_value());
+}
+
+TEST(LongJumpTest, ExtensionsFaceTheTargetAndStayOnTheGrid) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::Point v = JumpScene::At(0, -0.2, 0.1, 2);
+  const graph::Point target = JumpScene::At(0, 2, 0.3, 1);
+  const auto launch = scene.jump().FindLaunchPoint(v, target);
+  ASSERT_TRUE(launch.has_value());
+  EXPECT_LT((launch->head<3>() - v.head<3>()).norm(), 1e-9);
+  EXPECT_NEAR(Heading(ToPose(*launch).linear()), std::atan2(0.2, 2.2), 1e-9);
+  const graph::Point landing = scene.jump().ExtendTowards(*launch, target);
+  EXPECT_TRUE(scene.jump().CN(graph::PointPair{*launch, landing}));
+  const double distance = (landing - *launch).head<2>().norm();
+  EXPECT_NEAR(std::remainder(distance, JumpLibrary::kDistanceStep), 0, 1e-9);
+  EXPECT_EQ(scene.jump().FindLaunchPoint(*launch, target), *launch) << "lined up already";
+}
+
+TEST(LongJumpTest, ReverseExtensionsComeFromTheTarget) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::Point v = JumpScene::At(1, 0.6, 0, 2);
+  const graph::Point target = JumpScene::At(0, -2, 0.1, 1);
+  const auto landing = scene.jump().FindLandingPoint(v, target);
+  ASSERT_TRUE(landing.has_value());
+  const graph::Point launch = scene.jump().ReverseExtend(*landing, target);
+  EXPECT_TRUE(scene.jump().CN(graph::PointPair{launch, *landing}));
+}
+
+TEST(LongJumpTest, FarFromTheGapNobodyLaunches) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::Point far = JumpScene::At(0, -2, 0, 0);
+  EXPECT_FALSE(scene.jump().FindLaunchPoint(far, JumpScene::At(0, 2, 0, 0)).has_value());
+}
+
+TEST(LongJumpTest, TheJobRefutesWhatTheWholeRobotHitsAndSaysSo) {
+  JumpScene scene(TwoFloors(kGap, {Beam()}));
+  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  ASSERT_TRUE(scene.jump().CN(edge));
+  const auto job = scene.jump().SpawnConfirmationJob(edge);
+  ASSERT_NE(job, nullptr);
+  graph::JobControl control;
+  EXPECT_EQ(job->Run(&control), graph::JobVerdict::kRefuted);
+  EXPECT_NE(job->reason().find("hits"), std::string::npos) << job->reason();
+  EXPECT_FALSE(scene.jump().CS(edge));
+  EXPECT_FALSE(scene.jump().Explorable(edge));
+  ASSERT_EQ(scene.jump().Refusals().size(), 1u);
+}
+
+TEST(LongJumpTest, ACancelledJobDecidesNothing) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.8);
+  const auto job = scene.jump().SpawnConfirmationJob(edge);
+  graph::JobControl control;
+  control.Cancel();
+  EXPECT_EQ(job->Run(&control), graph::JobVerdict::kUndecided);
+  EXPECT_TRUE(scene.jump().Refusals().empty());
+  EXPECT_TRUE(scene.jump().Explorable(edge));
+}
+
+/// In how many turns of 100 checkpoints the jump is solved and placed. `pause`: between turns.
+int TurnsOfJump(double distance, std::chrono::milliseconds pause) {
+  const JumpScene scene(TwoFloors(kGap));
+  // Sanitizers are slow.
+  graph::ConfirmationQueue queue({.checkpoints_per_turn = 100, .job_time_limit = 1000});
+  queue.Insert(0, scene.jump().SpawnConfirmationJob(JumpScene::Edge(-0.2, distance)), 0);
+  int turns = 1;
+  for (; !queue.RunTurn(graph::Deadline(1000)); ++turns) std::this_thread::sleep_for(pause);
+  const std::vector<graph::JobResult> results = queue.DrainFinished();
+  EXPECT_EQ(results.at(0).outcome, graph::JobOutcome::kConfirmed) << results.at(0).reason;
+  return turns;
+}
+
+TEST(LongJumpTest, WithoutWorkersAJumpTakesTheSameNumberOfTurnsEveryTime) {
+  const int turns = TurnsOfJump(0.75, std::chrono::milliseconds(0));
+  EXPECT_GT(turns, 3);
+  const std::jthread load([](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+    }
+  });
+  EXPECT_EQ(TurnsOfJump(0.75, std::chrono::milliseconds(20)), turns);
+}
+
+TEST(LongJumpTest, AForbiddenJumpIsNeitherConfirmedNorExplored) {
+  JumpScene scene(TwoFloors(kGap));
+  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  scene.mutable_jump()->Forbid(edge, "a reason", false);
+  EXPECT_FALSE(scene.jump().Explorable(edge));
+  EXPECT_FALSE(scene.jump().CS(edge));
+  EXPECT_TRUE(scene.jump().Explorable(JumpScene::Edge(-0.21, 0.75)));
+}
+
+TEST(JumpReachTest, GuessesLieOnTheGrid) {
+  const JumpReach reach = GuessReach(JumpScene(TwoFloors(0)).jump().solver(), {-0.1, 0});
+  ASSERT_EQ(reach.rows.size(), 2u);
+  for (const JumpReach::Row& row : reach.rows) {
+    EXPECT_GT(row.shortest, 0);
+    EXPECT_GT(row.farthest, row.shortest);
+    EXPECT_NEAR(std::remainder(row.farthest, JumpLibrary::kDistanceStep), 0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions

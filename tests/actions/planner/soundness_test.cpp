@@ -1,0 +1,106 @@
+// Soundness of possibility: C_S is conservative, C_N optimistic, against motion and verifier.
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "actions/verify/verification_report.h"
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/planner/leg_scene.h"
+#include "tests/actions/random_scene.h"
+
+namespace possibility::actions {
+namespace {
+
+RouteLeg RandomExtension(std::mt19937* generator, int gait) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  RouteLeg leg;
+  leg.gait = gait;
+  leg.from = RandomStance(generator, 2.5);
+  leg.to = leg.from *
+           PlanarPose{0.5 * unit(*generator), 0.25 * unit(*generator), 0.5 * unit(*generator)};
+  return leg;
+}
+
+RouteLeg RandomTransition(std::mt19937* generator) {
+  RouteLeg leg;
+  leg.transition = 0;
+  leg.from = RandomStance(generator, 2.5);
+  leg.to = leg.from * DrcHubo1Locomotion().transitions[0].motion->displacement();
+  leg.backwards = (*generator)() % 2 == 0;
+  if (leg.backwards) std::swap(leg.from, leg.to);
+  return leg;
+}
+
+/// Turns `count` random legs that meet C_S into motion; each must verify, and meet C_N.
+template <typename MakeLeg>
+void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_leg) {
+  const LocomotionModel& model = DrcHubo1Locomotion();
+  std::mt19937 generator(seed);
+  int verified = 0;
+  while (verified < count) {
+    const LegScene scene(model, RandomEnvironment(&generator, 12));
+    for (int attempt = 0; attempt < 200 && verified < count; ++attempt) {
+      const RouteLeg leg = make_leg(&generator);
+      const QuasiStaticAction& action = scene.action(EndGait(model, leg));
+      const graph::PointPair edge = LegEdge(model, leg);
+      if (!action.CS(edge)) continue;
+      EXPECT_TRUE(action.CN(edge));
+      const VerificationReport report = scene.VerifyLeg(leg);
+      ASSERT_TRUE(report.accepted()) << FormatText(report);
+      ++verified;
+    }
+  }
+}
+
+/// Random legs, whatever C_S says of them: the ones that verify must meet C_N. Obstacles are put
+/// close, so that C_S often refuses what is possible.
+void ExpectVerifiedLegsMeetNecessaryConditions(int count, unsigned seed) {
+  const LocomotionModel& model = DrcHubo1Locomotion();
+  std::mt19937 generator(seed);
+  int verified = 0, beyond_sufficient = 0;
+  while (verified < count || beyond_sufficient == 0) {
+    const LegScene scene(model, RandomEnvironment(&generator, 40));
+    for (int attempt = 0; attempt < 20; ++attempt) {
+      const RouteLeg leg = RandomExtension(&generator, attempt % 2);
+      if (!scene.VerifyLeg(leg).accepted()) continue;
+      ++verified;
+      const QuasiStaticAction& action = scene.action(EndGait(model, leg));
+      const graph::PointPair edge = LegEdge(model, leg);
+      EXPECT_TRUE(action.CN(edge));
+      EXPECT_TRUE(action.CN(edge.from));
+      EXPECT_TRUE(action.CN(edge.to));
+      beyond_sufficient += !action.CS(edge);
+    }
+  }
+}
+
+TEST(SoundnessTest, SufficientWalkingVerifies) {
+  ExpectSufficientLegsVerify(10, 1, [](auto* g) { return RandomExtension(g, 0); });
+}
+TEST(SoundnessTest, SufficientCrawlingVerifies) {
+  ExpectSufficientLegsVerify(10, 2, [](auto* g) { return RandomExtension(g, 1); });
+}
+TEST(SoundnessTest, SufficientTransitionsVerify) {
+  ExpectSufficientLegsVerify(6, 3, [](auto* g) { return RandomTransition(g); });
+}
+TEST(SoundnessTest, WhatVerifiesMeetsNecessaryConditions) {
+  ExpectVerifiedLegsMeetNecessaryConditions(5, 4);
+}
+
+TEST(SoundnessLong, FiveHundredSufficientWalkingEdgesVerify) {
+  ExpectSufficientLegsVerify(500, 11, [](auto* g) { return RandomExtension(g, 0); });
+}
+TEST(SoundnessLong, FiveHundredSufficientCrawlingEdgesVerify) {
+  ExpectSufficientLegsVerify(500, 12, [](auto* g) { return RandomExtension(g, 1); });
+}
+TEST(SoundnessLong, FiveHundredSufficientTransitionsVerify) {
+  ExpectSufficientLegsVerify(500, 13, [](auto* g) { return RandomTransition(g); });
+}
+TEST(SoundnessLong, WhatVerifiesMeetsNecessaryConditions) {
+  ExpectVerifiedLegsMeetNecessaryConditions(200, 14);
+}
+
+}  // namespace
+}  // namespace possibility::actions

@@ -1,0 +1,227 @@
+// Problems that cannot be solved, each with an error that names what is wrong with it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "collocation/study/optimal_control.h"
+#include "tests/message_of.h"
+
+namespace possibility::collocation {
+namespace {
+
+/// A mass on a line, from rest at 0.
+struct Mass {
+  explicit Mass(Bounds force = {}) : phase(problem.AddPhase("lift", 2)) {
+    q = phase.AddCoordinate("q");
+    u = phase.AddControl("force", force);
+    phase.SetDynamics(Differentiated<1, 1>([](const auto& z, auto* a) { (*a)[0] = z[0]; }), {u});
+    phase.Fix(q, 0, At::kStart);
+    phase.Fix(phase.Rate(q), 0, At::kStart);
+  }
+
+  OptimalControlProblem problem{"mass"};
+  Phase& phase;
+  Variable q, u;
+};
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string Refusal(const OptimalControlProblem& problem) {
+  return MessageOf([&] { SolveOptimalControl(problem); });
+}
+
+TEST(Culprits, InfeasibleNamesTheWorstConstraintItsKnotAndHowFar) {
+  Mass mass({-100, 100});
+  mass.phase.SetDuration(1);
+  mass.phase.Fix(mass.q, 2, At::kEnd);
+  // At the end q^2 is 4, 3 above the bound, whatever the force.
+  mass.phase.Constrain("tunnel",
+                       Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0]; }),
+                       {mass.q}, {{-1, 1}}, At::kEverywhere, {10});
+  const OptimalControlResult result = SolveOptimalControl(mass.problem);
+  EXPECT_EQ(result.status, SolverStatus::kInfeasible) << result.message;
+  EXPECT_TRUE(Contains(result.message,
+                       "constraint 'lift, knot 20 (t = 1 of the duration): tunnel' "
+                       "is off by 3"))
+      << result.message;
+  const ConstraintViolation& worst = result.violations.at("lift: tunnel");
+  EXPECT_NEAR(worst.amount, 3, 1e-4);
+  EXPECT_TRUE(Contains(worst.where, "knot 20")) << worst.where;
+}
+
+TEST(Culprits, InfeasibleForWantOfForce) {
+  Mass mass({-0.1, 0.1});
+  mass.phase.SetDuration(0.5);
+  mass.phase.Fix(mass.q, 2, At::kEnd);
+  const OptimalControlResult result = SolveOptimalControl(mass.problem);
+  EXPECT_EQ(result.status, SolverStatus::kInfeasible);
+  EXPECT_TRUE(Contains(result.message, "constraint 'lift, ")) << result.message;
+  EXPECT_TRUE(Contains(result.message, "is off by ")) << result.message;
+}
+
+/// Nothing bounds the position, which the objective wants to be large.
+TEST(Culprits, UnboundedNamesWhatRanAway) {
+  Mass mass;
+  mass.phase.SetDuration(1);
+  mass.problem.AddCost({mass.q, At::kEnd}, -1);
+  const OptimalControlResult result = SolveOptimalControl(mass.problem);
+  EXPECT_EQ(result.status, SolverStatus::kUnbounded) << result.message;
+  EXPECT_TRUE(Contains(result.message, "nothing bounds the objective")) << result.message;
+  EXPECT_TRUE(Contains(result.message, "'lift, ")) << result.message;
+  EXPECT_TRUE(Contains(result.message, "reached 1")) << result.message;
+  EXPECT_LT(result.objective, -1e6);
+}
+
+/// The objective runs away long before a variable does.
+TEST(Culprits, UnboundedByAnExponential) {
+  Mass mass;
+  mass.phase.SetDuration(1);
+  mass.phase.AddIntegralCost(
+      "gain", Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = -exp(z[0]); }), {mass.u});
+  const OptimalControlResult result = SolveOptimalControl(mass.problem);
+  EXPECT_EQ(result.status, SolverStatus::kUnbounded) << result.message;
+  EXPECT_LT(result.objective, -1e12);
+}
+
+TEST(Culprits, NotANumberInTheDynamicsNamesTheKnot) {
+  OptimalControlProblem problem("root");
+  Phase& phase = problem.AddPhase("go");
+  const Variable x = phase.AddCoordinate("x");
+  phase.SetDuration(1);
+  // The guess goes from 1 to 0 along a line; below 0.48 the root is none: from knot 11 on.
+  phase.SetDynamics(
+      Differentiated<1, 1>([](const auto& z, auto* f) { (*f)[0] = sqrt(z[0] - 0.48); }), {x});
+  phase.Fix(x, 1, At::kStart);
+  phase.Fix(x, 0, At::kEnd);
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  const OptimalControlResult result = SolveOptimalControl(problem, options);
+  EXPECT_EQ(result.status, SolverStatus::kInvalidNumber);
+  EXPECT_TRUE(Contains(result.message,
+                       "constraint 'go, knot 11 (t = 0.55 of the duration): "
+                       "dynamics'"))
+      << result.message;
+  EXPECT_TRUE(Contains(result.message, "nan at the starting point")) << result.message;
+  EXPECT_TRUE(std::isinf(result.mesh_error)) << "not known where the dynamics are none";
+}
+
+TEST(Culprits, NotANumberInACostNamesTheCostAndTheKnot) {
+  Mass mass;
+  mass.phase.SetDuration(1);
+  mass.phase.Fix(mass.q, 2, At::kEnd);
+  mass.phase.AddIntegralCost(
+      "height", Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = sqrt(1.04 - z[0]); }),
+      {mass.q});
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  const OptimalControlResult result = SolveOptimalControl(mass.problem, options);
+  EXPECT_EQ(result.status, SolverStatus::kInvalidNumber);
+  EXPECT_TRUE(Contains(result.message, "cost 'lift, knot 11 (t = 0.55 of the duration): height'"))
+      << result.message;
+}
+
+/// A function that says itself that it cannot be evaluated.
+class Refuses : public Function {
+ public:
+  Refuses() : Function(1, 1) {}
+  void Evaluate(const Eigen::VectorXd&, Eigen::VectorXd*) override {
+    throw std::runtime_error("the table ends at 3");
+  }
+  void Jacobian(const Eigen::VectorXd&, Eigen::MatrixXd* J) override { J->setZero(); }
+  void Hessian(const Eigen::VectorXd&, const Eigen::VectorXd&, Eigen::MatrixXd* H) override {
+    H->setZero();
+  }
+};
+
+TEST(Culprits, WhatAFunctionThrowsIsTheMessage) {
+  Mass mass;
+  mass.phase.SetDuration(1);
+  mass.phase.Constrain("table", std::make_shared<Refuses>(), {mass.q}, {{0, 0}});
+  const OptimalControlResult result = SolveOptimalControl(mass.problem);
+  EXPECT_EQ(result.status, SolverStatus::kInvalidNumber);
+  EXPECT_TRUE(Contains(result.message, "the table ends at 3")) << result.message;
+}
+
+TEST(Culprits, AGuessThatIsNoNumberNamesItsKnot) {
+  Mass mass;
+  mass.phase.SetDuration(1);
+  mass.phase.Guess(mass.q, [](double s) { return s > 0.96 ? std::nan("") : 0; });
+  EXPECT_EQ(Refusal(mass.problem),
+            "the guess of the variables: 'lift, interval 19, node 1 (t = 0.975 of the duration): "
+            "q' is nan");
+}
+
+TEST(Culprits, PhasesWithoutLength) {
+  Mass mass;
+  EXPECT_EQ(Refusal(mass.problem), "mass: phase 'lift': no duration was set");
+  EXPECT_EQ(MessageOf([&] { mass.phase.SetDuration(0); }),
+            "mass: phase 'lift': expected a duration within finite bounds above 0, got [0, 0]");
+  EXPECT_EQ(MessageOf([&] {
+              mass.phase.SetDuration({0, 1});
+            }),
+            "mass: phase 'lift': expected a duration within finite bounds above 0, got [0, 1]");
+  EXPECT_EQ(MessageOf([&] { mass.phase.SetDuration(std::nan("")); }),
+            "mass: phase 'lift': expected a duration within finite bounds above 0, got [nan, nan]");
+  mass.phase.SetDuration(1);
+  OptimalControlOptions options;
+  options.meshes = {{0, 0.5, 0.5, 1}};
+  EXPECT_EQ(MessageOf([&] { SolveOptimalControl(mass.problem, options); }),
+            "mass: phase 'lift': the mesh must ascend from 0 to 1");
+}
+
+TEST(Culprits, ContradictoryBounds) {
+  Mass mass({-1, 1});
+  mass.phase.SetDuration(1);
+  mass.phase.Fix(mass.u, 2, At::kEnd);
+  EXPECT_EQ(Refusal(mass.problem),
+            "mass: lift, knot 20 (t = 1 of the duration): force: contradictory bounds [2, 1]");
+  EXPECT_EQ(MessageOf([&] {
+              mass.phase.Constrain("narrow", Differentiated<1, 1>([](const auto&, auto*) {}),
+                                   {mass.q}, {{1, -1}});
+            }),
+            "mass: phase 'lift': 'narrow': contradictory bounds [1, -1]");
+  EXPECT_EQ(MessageOf([&] {
+              mass.problem.AddParameter("gain", {std::nan(""), 1});
+            }),
+            "mass: parameter 'gain': contradictory bounds [nan, 1]");
+}
+
+TEST(Culprits, ContradictoryBoundsWherePhasesMeet) {
+  OptimalControlProblem problem("relay");
+  for (const char* name : {"first", "second"}) {
+    Phase& phase = problem.AddPhase(name);
+    phase.AddCoordinate("x", problem.num_phases() == 1 ? Bounds{0, 1} : Bounds{2, 3});
+    phase.SetDuration(1);
+  }
+  problem.Continue({{VariableKind::kCoordinate, 0, 0, 0}, At::kEnd},
+                   {{VariableKind::kCoordinate, 1, 0, 0}, At::kStart});
+  EXPECT_EQ(Refusal(problem),
+            "relay: second, knot 0 (t = 0 of the duration): x: contradictory bounds [2, 1] where "
+            "phases meet");
+}
+
+TEST(Culprits, EmptyProblems) {
+  OptimalControlProblem problem("nothing");
+  EXPECT_EQ(Refusal(problem), "nothing: the problem has no phase");
+  Phase& phase = problem.AddPhase("void");
+  phase.SetDuration(1);
+  EXPECT_EQ(Refusal(problem), "nothing: phase 'void': the phase has no coordinates");
+}
+
+TEST(Culprits, MeshesThatDoNotFit) {
+  Mass mass;
+  mass.phase.SetDuration(1);
+  OptimalControlOptions options;
+  options.intervals = {3, 4};
+  EXPECT_EQ(MessageOf([&] { SolveOptimalControl(mass.problem, options); }),
+            "mass: 2 numbers of intervals for 1 phases");
+  options.intervals = {0};
+  EXPECT_EQ(MessageOf([&] { SolveOptimalControl(mass.problem, options); }),
+            "a mesh has 0 intervals, expected 1 or more");
+}
+
+}  // namespace
+}  // namespace possibility::collocation

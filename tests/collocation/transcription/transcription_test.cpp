@@ -1,0 +1,234 @@
+#include "collocation/transcription/transcription.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "tests/dynamics/richardson.h"
+#include "tests/message_of.h"
+
+namespace possibility::collocation {
+namespace {
+
+using dynamics::RelativeError;
+using dynamics::RichardsonJacobian;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Everything at once: two phases of different order, free and fixed durations, time, a
+/// parameter, bounds inside, links, costs of every kind.
+std::unique_ptr<OptimalControlProblem> Medley() {
+  auto problem = std::make_unique<OptimalControlProblem>("medley");
+  const Variable gain = problem->AddParameter("gain", {0, 5}, 2, 1);
+  Phase& run = problem->AddPhase("run", 1);
+  const Variable x = run.AddCoordinate("x", {-3, 3}, 2);
+  const Variable y = run.AddCoordinate("y", {}, 0.5);
+  const Variable u = run.AddControl("u", {-1, 1}, 3);
+  run.SetDuration({0.5, 2});
+  run.SetDynamics(Differentiated<5, 2>([](const auto& z, auto* f) {
+                    (*f)[0] = z[1] * z[1] + z[2] * z[3];
+                    (*f)[1] = sin(z[0]) * z[2] - z[1] * z[4];
+                  }),
+                  {x, y, u, gain, run.time()});
+  run.Constrain("tube", Differentiated<3, 1>([](const auto& z, auto* f) {
+                  (*f)[0] = z[0] * z[0] + exp(z[1]) * z[2];
+                }),
+                {x, y, run.duration()}, {{-1, 4}}, At::kAfterStart);
+  run.AddIntegralCost(
+      "effort", Differentiated<2, 1>([](const auto& z, auto* f) { (*f)[0] = z[0] * z[0] * z[1]; }),
+      {u, y}, 0.3);
+  Phase& fly = problem->AddPhase("fly", 2);
+  const Variable q = fly.AddCoordinate("q", {-4, 4});
+  const Variable r = fly.AddCoordinate("r");
+  fly.SetScale(fly.Rate(q), 5);
+  const Variable f = fly.AddControl("f");
+  fly.SetDuration({0.2, 1});
+  fly.SetDynamics(Differentiated<4, 2>([](const auto& z, auto* a) {
+                    (*a)[0] = z[2] * cos(z[0]) - z[1] * z[3];
+                    (*a)[1] = z[1] / (1 + z[2] * z[2]);
+                  }),
+                  {q, fly.Rate(q), f, fly.time()});
+  fly.AddIntegralCost("shake", Differentiated<2, 1>([](const auto& z, auto* c) {
+                        (*c)[0] = z[0] * z[0] + z[1] * z[1];
+                      }),
+                      {fly.Rate(q, 2), fly.Rate(r)});
+  problem->Continue({x, At::kEnd}, {q, At::kStart});
+  problem->Link("jump", Differentiated<3, 2>([](const auto& z, auto* g) {
+                  (*g)[0] = z[0] * z[1] - z[2];
+                  (*g)[1] = z[2] * z[2];
+                }),
+                {{y, At::kEnd}, {run.duration(), At::kStart}, {fly.Rate(r), At::kStart}},
+                {{0, 0}, {-1, 1}});
+  problem->AddCost(
+      "miss", Differentiated<2, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0] * z[1]; }),
+      {{q, At::kEnd}, {gain, At::kStart}}, 2);
+  problem->AddCost({fly.duration(), At::kEnd}, 0.1);
+  return problem;
+}
+
+MatrixXd Dense(const SparsityPattern& pattern, const VectorXd& values, int rows, int columns) {
+  MatrixXd dense = MatrixXd::Zero(rows, columns);
+  for (int i = 0; i < pattern.size(); ++i) {
+    dense(pattern.rows[i], pattern.columns[i]) += values[i];
+  }
+  return dense;
+}
+
+VectorXd RandomPoint(std::mt19937* random, const Transcription& program) {
+  std::uniform_real_distribution<double> uniform(0.2, 0.9);
+  VectorXd x(program.num_variables());
+  for (double& element : x) element = uniform(*random);
+  return x;
+}
+
+class EveryScheme : public ::testing::TestWithParam<TranscriptionScheme> {};
+
+TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
+  const auto problem = Medley();
+  Transcription program(*problem, GetParam(), {{0, 0.3, 1}, {0, 0.5, 0.6, 1}});
+  std::mt19937 random(1);
+  const int n = program.num_variables();
+  for (int trial = 0; trial < 5; ++trial) {
+    const VectorXd x = RandomPoint(&random, program);
+    const VectorXd multipliers = VectorXd::Random(program.num_constraints());
+    VectorXd gradient, jacobian_values, hessian_values;
+    program.Gradient(x, &gradient);
+    program.Jacobian(x, &jacobian_values);
+    program.Hessian(x, 0.7, multipliers, &hessian_values);
+    const MatrixXd J =
+        Dense(program.jacobian_pattern(), jacobian_values, program.num_constraints(), n);
+    MatrixXd H = Dense(program.hessian_pattern(), hessian_values, n, n);
+    EXPECT_TRUE(H.isLowerTriangular(0));
+    H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+
+    const MatrixXd objective_differences = RichardsonJacobian(
+        [&](const VectorXd& d) { return VectorXd::Constant(1, program.Objective(x + d)); }, n);
+    EXPECT_LT(RelativeError(gradient.transpose(), objective_differences), 1e-8);
+    const MatrixXd constraint_differences = RichardsonJacobian(
+        [&](const VectorXd& d) {
+          VectorXd g;
+          program.Constraints(x + d, &g);
+          return g;
+        },
+        n);
+    EXPECT_LT(RelativeError(J, constraint_differences), 1e-8);
+    const MatrixXd gradient_differences = RichardsonJacobian(
+        [&](const VectorXd& d) {
+          VectorXd g, values;
+          program.Gradient(x + d, &g);
+          program.Jacobian(x + d, &values);
+          const MatrixXd at =
+              Dense(program.jacobian_pattern(), values, program.num_constraints(), n);
+          return VectorXd(0.7 * g + at.transpose() * multipliers);
+        },
+        n);
+    EXPECT_LT(RelativeError(H, gradient_differences), 1e-8);
+  }
+}
+
+TEST_P(EveryScheme, APolynomialMotionHasNoDefect) {
+  // q of degree 2 + the highest derivative's: the transcription is exact for it.
+  OptimalControlProblem problem("polynomial");
+  Phase& phase = problem.AddPhase("only", 2);
+  const Variable q = phase.AddCoordinate("q");
+  phase.SetDuration(2);
+  phase.Guess(q, [](double s) { return 1 - 2 * s + 6 * s * s - 4 * s * s * s; });
+  phase.Guess(phase.Rate(q), [](double s) { return (-2 + 12 * s - 12 * s * s) / 2; });
+  phase.Guess(phase.Rate(q, 2), [](double s) { return (12 - 24 * s) / 4; });
+  Transcription program(problem, GetParam(), {{0, 0.1, 0.7, 1}});
+  const VectorXd x = program.InitialGuess();
+  VectorXd defects;
+  program.Constraints(x, &defects);
+  EXPECT_LT(defects.cwiseAbs().maxCoeff(), 1e-14);
+  // ... and evaluating it anywhere gives it back, with all its derivatives.
+  const Trajectory trajectory = program.TrajectoryOf(x);
+  for (double s = 0; s <= 1; s += 0.05) {
+    const PhaseTrajectory& motion = trajectory.phases[0];
+    EXPECT_NEAR(motion.Coordinates(s)[0], 1 - 2 * s + 6 * s * s - 4 * s * s * s, 1e-13);
+    EXPECT_NEAR(motion.Coordinates(s, 1)[0], (-2 + 12 * s - 12 * s * s) / 2, 1e-13);
+    EXPECT_NEAR(motion.Coordinates(s, 2)[0], (12 - 24 * s) / 4, 1e-13);
+  }
+  // Another mesh starts from it without loss.
+  Transcription finer(problem, GetParam(), {UniformMesh(7)});
+  finer.Constraints(finer.GuessFrom(trajectory), &defects);
+  EXPECT_LT(defects.cwiseAbs().maxCoeff(), 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    TranscriptionTest, EveryScheme,
+    ::testing::Values(Trapezoidal(), HermiteSimpson(), CompressedHermiteSimpson(),
+                      SchemeOfNodes("lobatto_4", {0, 0.27639320225, 0.72360679775, 1}, true)),
+    [](const auto& info) { return info.param.name; });
+
+TEST(TranscriptionTest, SchemesHaveThePublishedCoefficients) {
+  const TranscriptionScheme simpson = HermiteSimpson();
+  // Moreno-Martin, Ros & Celaya 2023, of the accelerations a0, ac, a1 over an interval of length 1.
+  EXPECT_LT((simpson.integral[1].row(2) - Eigen::RowVector3d(1, 4, 1) / 6).norm(), 1e-14);
+  EXPECT_LT((simpson.integral[1].row(1) - Eigen::RowVector3d(5, 8, -1) / 24).norm(), 1e-14);
+  EXPECT_LT((simpson.integral[2].row(2) - Eigen::RowVector3d(1, 2, 0) / 6).norm(), 1e-14);
+  EXPECT_LT((simpson.integral[2].row(1) - Eigen::RowVector3d(7, 6, -1) / 96).norm(), 1e-14);
+  const TranscriptionScheme trapezoidal = Trapezoidal();
+  EXPECT_LT((trapezoidal.integral[1].row(1) - Eigen::RowVector2d(1, 1) / 2).norm(), 1e-14);
+  EXPECT_LT((trapezoidal.integral[2].row(1) - Eigen::RowVector2d(2, 1) / 6).norm(), 1e-14);
+  EXPECT_THROW(SchemeOfNodes("bad", {0, 0.5}, true), std::invalid_argument);
+}
+
+TEST(TranscriptionTest, CompressedHasNoStatesInside) {
+  const auto problem = Medley();
+  const std::vector<Mesh> meshes = {UniformMesh(4), UniformMesh(3)};
+  const Transcription separated(*problem, HermiteSimpson(), meshes);
+  const Transcription compressed(*problem, CompressedHermiteSimpson(), meshes);
+  // 2 states in 4 interval middles, 4 in 3; where they are bounded a row takes their place.
+  EXPECT_EQ(separated.num_variables() - compressed.num_variables(), 2 * 4 + 4 * 3);
+  EXPECT_EQ(separated.num_constraints() - compressed.num_constraints(), 1 * 4 + 3 * 3);
+}
+
+TEST(TranscriptionTest, NamesSayWhereAndWhat) {
+  const auto problem = Medley();
+  const Transcription program(*problem, HermiteSimpson(), {UniformMesh(2), UniformMesh(1)});
+  EXPECT_EQ(program.VariableName(0), "gain");
+  EXPECT_EQ(program.VariableName(1), "run: duration");
+  EXPECT_EQ(program.VariableName(2), "run, knot 0 (t = 0 of the duration): x");
+  EXPECT_EQ(program.ConstraintName(0),
+            "run, interval 0, node 1 (t = 0.25 of the duration): defect of x");
+  EXPECT_EQ(program.ConstraintName(program.num_constraints() - 1), "jump[1]");
+}
+
+TEST(TranscriptionTest, SaysWhatContradictsItself) {
+  const auto transcribe = [](const OptimalControlProblem& problem) {
+    Transcription(problem, HermiteSimpson(), {UniformMesh(2)});
+  };
+  OptimalControlProblem problem("task");
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }), "task: the problem has no phase");
+  Phase& phase = problem.AddPhase("go");
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }),
+            "task: phase 'go': the phase has no coordinates");
+  const Variable x = phase.AddCoordinate("x", {0, 1});
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }), "task: phase 'go': no duration was set");
+  EXPECT_EQ(MessageOf([&] { phase.SetDuration(0); }),
+            "task: phase 'go': expected a duration within finite bounds above 0, got [0, 0]");
+  phase.SetDuration(1);
+  EXPECT_EQ(MessageOf([&] {
+              phase.Bound(x, {2, 1});
+            }),
+            "task: phase 'go': 'x': contradictory bounds [2, 1]");
+  EXPECT_EQ(MessageOf([&] { phase.Rate(x, 2); }),
+            "task: phase 'go': 'x' has no derivative of order 2");
+  EXPECT_EQ(MessageOf([&] {
+              phase.Constrain("c", Differentiated<2, 1>([](const auto&, auto*) {}), {x}, {{0, 0}});
+            }),
+            "task: phase 'go': 'c' takes 2 arguments, got 1");
+  phase.Fix(x, 3, At::kEnd);
+  EXPECT_EQ(MessageOf([&] { transcribe(problem); }),
+            "task: go, knot 2 (t = 1 of the duration): x: contradictory bounds [3, 1]");
+  EXPECT_EQ(MessageOf([&] {
+              Transcription(problem, HermiteSimpson(), {{0, 0.5, 0.5, 1}});
+            }),
+            "task: phase 'go': the mesh must ascend from 0 to 1");
+  EXPECT_EQ(MessageOf([&] { UniformMesh(0); }), "a mesh has 0 intervals, expected 1 or more");
+  EXPECT_EQ(MessageOf([&] { problem.AddPhase("go"); }), "task: two phases are named 'go'");
+}
+
+}  // namespace
+}  // namespace possibility::collocation

@@ -1,0 +1,406 @@
+#include "dynamics/ode/ode_integrator.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace possibility::dynamics {
+namespace {
+
+using Eigen::VectorXd;
+using State = const Eigen::Ref<const VectorXd>&;
+using Output = Eigen::Ref<VectorXd>;
+
+OdeSettings Accurate(double tolerance = 1e-12) {
+  OdeSettings settings;
+  settings.relative_tolerance = tolerance;
+  settings.absolute_tolerance = tolerance;
+  return settings;
+}
+
+/// x'' = -x from (1, 0): cos t.
+OdeProblem Oscillator(double end_time) {
+  OdeProblem problem;
+  problem.rate = [](double, State x, Output rate) { rate << x[1], -x[0]; };
+  problem.start = Eigen::Vector2d(1, 0);
+  problem.end_time = end_time;
+  return problem;
+}
+
+OdeProblem Watching(OdeProblem problem, std::vector<OdeGuard> guards, OdeGuardFunction values) {
+  problem.guards = std::move(guards);
+  problem.guard_values = std::move(values);
+  return problem;
+}
+
+std::string ErrorOf(const OdeProblem& problem, const OdeSettings& settings = {}) {
+  try {
+    Integrate(problem, settings);
+  } catch (const OdeError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OdeIntegrator, DenseOutputIsAsAccurateAsTheIntegration) {
+  const OdeSolution solution = Integrate(Oscillator(20), Accurate());
+  EXPECT_EQ(solution.end, OdeEnd::kTime);
+  EXPECT_EQ(solution.time, 20);
+  EXPECT_EQ(solution.trajectory.end_time(), 20);
+  double worst_state = 0, worst_rate = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double t = 20 * i / 2000.0;
+    const Eigen::Vector2d exact(std::cos(t), -std::sin(t));
+    const Eigen::Vector2d exact_rate(-std::sin(t), -std::cos(t));
+    worst_state = std::max(worst_state, (solution.trajectory.State(t) - exact).norm());
+    worst_rate = std::max(worst_rate, (solution.trajectory.Rate(t) - exact_rate).norm());
+  }
+  const double at_the_end = (solution.state - Eigen::Vector2d(std::cos(20), -std::sin(20))).norm();
+  EXPECT_LT(at_the_end, 1e-9);
+  EXPECT_LT(worst_state, 1e-9);
+  EXPECT_LT(worst_rate, 1e-7);
+  EXPECT_EQ(solution.trajectory.State(20), solution.state);
+}
+
+TEST(OdeIntegrator, RandomLinearSystemsAgreeWithTheirEigenmodes) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 30; ++trial) {
+    Eigen::Matrix4d basis;
+    Eigen::Vector4d rates;
+    for (double& x : basis.reshaped()) x = uniform(random);
+    basis += 3 * Eigen::Matrix4d::Identity();
+    for (double& x : rates) x = 3 * uniform(random) - 2;
+    const Eigen::Matrix4d A = basis * rates.asDiagonal() * basis.inverse();
+    OdeProblem problem;
+    problem.rate = [&A](double, State x, Output rate) { rate = A * x; };
+    problem.start = Eigen::Vector4d(1, -2, 0.5, 3);
+    problem.end_time = 2;
+    for (const OdeMethod method : {OdeMethod::kAdams, OdeMethod::kBdf}) {
+      OdeSettings settings = Accurate(1e-10);
+      settings.method = method;
+      const OdeSolution solution = Integrate(problem, settings);
+      for (const double t : {0.3, 1.1, 2.0}) {
+        const Eigen::Vector4d growth = (rates * t).array().exp();
+        const Eigen::Vector4d exact =
+            basis * growth.asDiagonal() * (basis.inverse() * problem.start);
+        EXPECT_LT((solution.trajectory.State(t) - exact).norm(), 1e-6 * (1 + exact.norm()));
+      }
+    }
+  }
+}
+
+TEST(OdeIntegrator, TimeDependentRateAndStartTime) {
+  OdeProblem problem;
+  problem.rate = [](double t, State, Output rate) { rate[0] = 3 * t * t; };
+  problem.start = VectorXd::Constant(1, -8);
+  problem.start_time = -2;
+  problem.end_time = 3;
+  const OdeSolution solution = Integrate(problem, Accurate());
+  EXPECT_NEAR(solution.state[0], 27, 1e-8);
+  EXPECT_EQ(solution.trajectory.start_time(), -2);
+  EXPECT_NEAR(solution.trajectory.State(-1.5)[0], -3.375, 1e-8);
+}
+
+TEST(OdeIntegrator, StiffProblemNeedsFewStepsWithBdf) {
+  // Prothero & Robinson: x = cos t is a solution whatever the stiffness.
+  OdeProblem problem;
+  problem.rate = [](double t, State x, Output rate) {
+    rate[0] = -1e6 * (x[0] - std::cos(t)) - std::sin(t);
+  };
+  problem.start = VectorXd::Constant(1, 1.5);
+  problem.end_time = 10;
+  OdeSettings settings = Accurate(1e-8);
+  settings.method = OdeMethod::kBdf;
+  settings.max_steps = 5000;
+  const OdeSolution solution = Integrate(problem, settings);
+  EXPECT_NEAR(solution.state[0], std::cos(10), 1e-6);
+  EXPECT_NEAR(solution.trajectory.State(5)[0], std::cos(5), 1e-6);
+  EXPECT_LT(solution.statistics.steps, 2000);
+  settings.method = OdeMethod::kAdams;
+  EXPECT_NE(ErrorOf(problem, settings).find("steps taken"), std::string::npos);
+}
+
+TEST(OdeIntegrator, RobertsonKinetics) {
+  // Hairer & Wanner, Solving ODEs II: Robertson's reaction; reference values at t = 40.
+  OdeProblem problem;
+  problem.rate = [](double, State y, Output rate) {
+    rate[0] = -0.04 * y[0] + 1e4 * y[1] * y[2];
+    rate[2] = 3e7 * y[1] * y[1];
+    rate[1] = -rate[0] - rate[2];
+  };
+  problem.start = Eigen::Vector3d(1, 0, 0);
+  problem.end_time = 40;
+  OdeSettings settings;
+  settings.method = OdeMethod::kBdf;
+  settings.relative_tolerance = 1e-9;
+  settings.absolute_tolerances = Eigen::Vector3d(1e-10, 1e-14, 1e-10);
+  const OdeSolution solution = Integrate(problem, settings);
+  EXPECT_NEAR(solution.state[0], 0.7158270688, 1e-8);
+  EXPECT_NEAR(solution.state[1], 0.9185534765e-5, 1e-12);
+  EXPECT_NEAR(solution.state.sum(), 1, 1e-12);
+}
+
+TEST(OdeIntegrator, GuardsFireInTheirDirectionOnly) {
+  const auto value = [](double, State x, Output values) { values[0] = x[0]; };
+  const double pi = std::numbers::pi;
+  const auto crossing = [&](GuardDirection direction) {
+    return Integrate(Watching(Oscillator(20), {{direction}}, value), Accurate());
+  };
+  EXPECT_NEAR(crossing(GuardDirection::kFalling).time, pi / 2, 1e-10);
+  EXPECT_NEAR(crossing(GuardDirection::kRising).time, 3 * pi / 2, 1e-10);
+  EXPECT_NEAR(crossing(GuardDirection::kBoth).time, pi / 2, 1e-10);
+  const OdeSolution solution = crossing(GuardDirection::kFalling);
+  EXPECT_EQ(solution.end, OdeEnd::kGuard);
+  EXPECT_EQ(solution.guards, std::vector<int>{0});
+  EXPECT_EQ(solution.trajectory.end_time(), solution.time);
+  EXPECT_LE(solution.state[0], 0);
+  EXPECT_GT(solution.state[0], -1e-14);
+}
+
+TEST(OdeIntegrator, TheFirstOfManyGuardsWins) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-0.99, 0.99);
+  for (int trial = 0; trial < 100; ++trial) {
+    Eigen::VectorXd levels(5);
+    for (double& level : levels) level = uniform(random);
+    const auto values = [&levels](double, State x, Output out) {
+      out = (x[0] - levels.array()).matrix();
+    };
+    const OdeSolution solution =
+        Integrate(Watching(Oscillator(10), std::vector<OdeGuard>(5), values), Accurate());
+    Eigen::Index highest = 0;
+    EXPECT_NEAR(solution.time, std::acos(levels.maxCoeff(&highest)), 1e-9);
+    EXPECT_EQ(solution.guards.front(), highest);
+  }
+}
+
+TEST(OdeIntegrator, TwoGuardsAtOnce) {
+  const auto values = [](double t, State x, Output out) {
+    out << x[0], std::numbers::pi / 2 - t, x[0] + 0.5;
+  };
+  const OdeSolution solution = Integrate(
+      Watching(Oscillator(10), std::vector<OdeGuard>(3, {GuardDirection::kFalling}), values),
+      Accurate(1e-12));
+  EXPECT_EQ(solution.guards, (std::vector<int>{0, 1}));
+  EXPECT_NEAR(solution.time, std::numbers::pi / 2, 1e-9);
+}
+
+TEST(OdeIntegrator, GuardThatStartsAtZeroAndComesBack) {
+  // sin t falls at pi, not at 0 where it starts.
+  const auto value = [](double, State x, Output out) { out[0] = -x[1]; };
+  const OdeSolution solution =
+      Integrate(Watching(Oscillator(10), {{GuardDirection::kFalling}}, value), Accurate());
+  EXPECT_NEAR(solution.time, std::numbers::pi, 1e-10);
+}
+
+TEST(OdeIntegrator, GuardThatStartsAtZeroAndLeavesItsWay) {
+  const auto value = [](double, State x, Output out) { out[0] = x[1]; };  // -sin t
+  OdeProblem problem = Watching(Oscillator(10), {{GuardDirection::kFalling}}, value);
+  const OdeSolution at_once = Integrate(problem, Accurate());
+  EXPECT_EQ(at_once.end, OdeEnd::kGuard);
+  EXPECT_LT(at_once.time, 1e-10);
+  EXPECT_LT((at_once.state - problem.start).norm(), 1e-10);
+  problem.guards[0].fires_from_zero = false;
+  EXPECT_NEAR(Integrate(problem, Accurate()).time, 2 * std::numbers::pi, 1e-10);
+}
+
+TEST(OdeIntegrator, ShortFlightWithinTheFirstStep) {
+  // A throw of 0.2 milliseconds, over before the first step at these tolerances ends.
+  OdeProblem problem;
+  problem.rate = [](double, State x, Output rate) { rate << x[1], -10; };
+  problem.start = Eigen::Vector2d(0, 1e-3);
+  problem.end_time = 1;
+  const OdeSolution solution =
+      Integrate(Watching(problem, {{GuardDirection::kFalling}},
+                         [](double, State x, Output out) { out[0] = x[0]; }),
+                Accurate(1e-4));
+  EXPECT_EQ(solution.end, OdeEnd::kGuard);
+  EXPECT_LT(solution.time, 0.01);
+  EXPECT_LT(std::abs(solution.state[0]), 1e-11);
+}
+
+TEST(OdeIntegrator, GuardBeyondZeroFiresAfterItHasComeBack) {
+  const auto value = [](double, State x, Output out) { out[0] = x[0] - 2 + x[1] * 1.9; };
+  // cos t - 1.9 sin t - 2 starts at -1 and crosses twice per turn.
+  const OdeSolution solution =
+      Integrate(Watching(Oscillator(10), {{GuardDirection::kFalling}}, value), Accurate());
+  const double amplitude = std::hypot(1, 1.9), shift = std::atan2(1.9, 1);
+  EXPECT_NEAR(solution.time, std::acos(2 / amplitude) - shift + 2 * std::numbers::pi, 1e-9);
+}
+
+TEST(OdeIntegrator, GuardThatStaysZeroNeverFires) {
+  const auto value = [](double, State, Output out) { out[0] = 0; };
+  EXPECT_EQ(Integrate(Watching(Oscillator(3), {{GuardDirection::kBoth}}, value)).end,
+            OdeEnd::kTime);
+}
+
+TEST(OdeIntegrator, StopCallback) {
+  int asked = 0;
+  OdeSettings settings = Accurate();
+  settings.stop = [&asked] { return ++asked > 10; };
+  const OdeSolution solution = Integrate(Oscillator(1000), settings);
+  EXPECT_EQ(solution.end, OdeEnd::kStopped);
+  EXPECT_EQ(solution.statistics.steps, 10);
+  EXPECT_EQ(solution.trajectory.end_time(), solution.time);
+  EXPECT_NEAR(solution.state[0], std::cos(solution.time), 1e-9);
+  settings.stop = [] { return true; };
+  EXPECT_EQ(Integrate(Oscillator(1000), settings).time, 0);
+}
+
+TEST(OdeIntegrator, MaximumStepsNameTheTimeReached) {
+  OdeSettings settings = Accurate();
+  settings.max_steps = 20;
+  try {
+    Integrate(Oscillator(1000), settings);
+    FAIL() << "20 steps cannot be enough";
+  } catch (const OdeError& error) {
+    EXPECT_GT(error.time(), 0);
+    EXPECT_LT(error.time(), 100);
+    EXPECT_NE(std::string(error.what()).find("20 steps taken before t = 1000"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(OdeIntegrator, MaximumStepIsObeyed) {
+  OdeSettings settings;
+  settings.max_step = 0.01;
+  const std::vector<double> times = Integrate(Oscillator(1), settings).trajectory.StepTimes();
+  ASSERT_GT(times.size(), 100);
+  for (size_t i = 1; i < times.size(); ++i) EXPECT_LE(times[i] - times[i - 1], 0.01 + 1e-12);
+}
+
+TEST(OdeIntegrator, RateThatIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  OdeProblem problem = Oscillator(10);
+  problem.rate = [nan](double t, State x, Output rate) { rate << x[1], t > 1 ? nan : -x[0]; };
+  try {
+    Integrate(problem, Accurate());
+    FAIL() << "integrated NaN";
+  } catch (const OdeError& error) {
+    EXPECT_EQ(error.component(), 1);
+    EXPECT_NEAR(error.time(), 1, 0.1);
+    EXPECT_NE(std::string(error.what()).find("component 1 is not finite"), std::string::npos)
+        << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  problem.rate = [nan](double, State, Output rate) { rate << nan, 0; };
+  EXPECT_NE(ErrorOf(problem).find("component 0 is not finite"), std::string::npos);
+}
+
+TEST(OdeIntegrator, RateThatIsNotFiniteOutsideItsDomainOnly) {
+  // x' = -sqrt(x) reaches 0 at t = 2 and is NaN below: a shorter step stays in the domain.
+  OdeProblem problem;
+  problem.rate = [](double, State x, Output rate) { rate[0] = -std::sqrt(x[0]); };
+  problem.start = VectorXd::Constant(1, 1);
+  problem.end_time = 1.999;
+  EXPECT_NEAR(Integrate(problem, Accurate(1e-10)).state[0], 0.25e-6, 1e-8);
+}
+
+TEST(OdeIntegrator, GuardThatIsNotFinite) {
+  const auto value = [](double t, State, Output out) { out[0] = t > 0.5 ? NAN : 1; };
+  EXPECT_NE(ErrorOf(Watching(Oscillator(1), {OdeGuard()}, value)).find("guard 0 is not finite"),
+            std::string::npos);
+}
+
+TEST(OdeIntegrator, FiniteTimeBlowUpEndsInAnError) {
+  OdeProblem problem;
+  problem.rate = [](double, State x, Output rate) { rate << 1, x[1] * x[1]; };
+  problem.start = Eigen::Vector2d(0, 1);
+  problem.end_time = 2;
+  try {
+    Integrate(problem, Accurate());
+    FAIL() << "integrated through infinity";
+  } catch (const OdeError& error) {
+    EXPECT_NEAR(error.time(), 1, 1e-3) << error.what();
+    EXPECT_EQ(error.component(), 1) << error.what();
+  }
+}
+
+struct Unusual {
+  int value;
+};
+
+TEST(OdeIntegrator, ExceptionsPassThrough) {
+  for (const OdeMethod method : {OdeMethod::kAdams, OdeMethod::kBdf}) {
+    OdeSettings settings;
+    settings.method = method;
+    OdeProblem problem = Oscillator(10);
+    problem.rate = [](double t, State x, Output rate) {
+      if (t > 2) throw Unusual{42};
+      rate << x[1], -x[0];
+    };
+    try {
+      Integrate(problem, settings);
+      FAIL() << "the exception was lost";
+    } catch (const Unusual& unusual) {
+      EXPECT_EQ(unusual.value, 42);
+    }
+  }
+  const auto guard = [](double t, State, Output values) {
+    if (t > 1) throw Unusual{7};
+    values[0] = 1;
+  };
+  EXPECT_THROW(Integrate(Watching(Oscillator(3), {OdeGuard()}, guard)), Unusual);
+  OdeSettings settings;
+  settings.stop = []() -> bool { throw Unusual{8}; };
+  EXPECT_THROW(Integrate(Oscillator(3), settings), Unusual);
+}
+
+TEST(OdeIntegrator, NoTimeToIntegrate) {
+  const OdeSolution solution = Integrate(Oscillator(0));
+  EXPECT_EQ(solution.end, OdeEnd::kTime);
+  EXPECT_EQ(solution.state, Eigen::Vector2d(1, 0));
+  EXPECT_EQ(solution.trajectory.State(0), Eigen::Vector2d(1, 0));
+  OdeProblem rounding = Oscillator(1 + 1e-16);
+  rounding.start_time = 1;
+  EXPECT_EQ(Integrate(rounding).time, rounding.end_time);
+  rounding.end_time = std::nextafter(1.0, 2.0);
+  EXPECT_EQ(Integrate(rounding).time, rounding.end_time);
+  EXPECT_EQ(Integrate(rounding).trajectory.end_time(), rounding.end_time);
+  rounding.end_time = 1 + 1e-13;
+  EXPECT_EQ(Integrate(rounding).time, rounding.end_time);
+}
+
+TEST(OdeIntegrator, NonsenseIsRejected) {
+  const auto rejected = [](auto change) {
+    OdeProblem problem = Oscillator(1);
+    OdeSettings settings;
+    change(problem, settings);
+    EXPECT_THROW(Integrate(problem, settings), std::invalid_argument);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  rejected([](OdeProblem& p, OdeSettings&) { p.rate = nullptr; });
+  rejected([](OdeProblem& p, OdeSettings&) { p.start.resize(0); });
+  rejected([&](OdeProblem& p, OdeSettings&) { p.start[1] = nan; });
+  rejected([](OdeProblem& p, OdeSettings&) { p.end_time = -1; });
+  rejected([&](OdeProblem& p, OdeSettings&) { p.end_time = nan; });
+  rejected([](OdeProblem& p, OdeSettings&) { p.end_time = INFINITY; });
+  rejected([](OdeProblem& p, OdeSettings&) { p.guards.resize(1); });
+  rejected([](OdeProblem&, OdeSettings& s) { s.relative_tolerance = 0; });
+  rejected([](OdeProblem&, OdeSettings& s) { s.relative_tolerance = 1; });
+  rejected([&](OdeProblem&, OdeSettings& s) { s.absolute_tolerance = nan; });
+  rejected([](OdeProblem&, OdeSettings& s) { s.absolute_tolerances = VectorXd::Ones(3); });
+  rejected([](OdeProblem&, OdeSettings& s) { s.absolute_tolerances = VectorXd::Zero(2); });
+  rejected([](OdeProblem&, OdeSettings& s) { s.max_step = 0; });
+  rejected([](OdeProblem&, OdeSettings& s) { s.max_steps = 0; });
+  rejected([](OdeProblem&, OdeSettings& s) { s.guard_samples = 0; });
+  rejected([](OdeProblem&, OdeSettings& s) { s.simultaneous = -1; });
+  rejected([&](OdeProblem&, OdeSettings& s) { s.guard_zero = nan; });
+  EXPECT_THROW(Integrate(Oscillator(1)).trajectory.State(1.1), std::invalid_argument);
+  EXPECT_THROW(Integrate(Oscillator(1)).trajectory.State(-0.1), std::invalid_argument);
+}
+
+TEST(OdeIntegrator, SameProblemSameBytes) {
+  const OdeSolution first = Integrate(Oscillator(30)), second = Integrate(Oscillator(30));
+  EXPECT_EQ(first.state, second.state);
+  EXPECT_EQ(first.trajectory.StepTimes(), second.trajectory.StepTimes());
+}
+
+}  // namespace
+}  // namespace possibility::dynamics

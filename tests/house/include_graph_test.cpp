@@ -1,0 +1,60 @@
+// The rooms of docs/development.md, held against what the sources include.
+#include "tests/house/include_graph.h"
+
+#include <gtest/gtest.h>
+
+namespace possibility::house {
+namespace {
+
+const std::filesystem::path kRoot = POSSIBILITY_SOURCE_DIR;
+
+const RoomGraph& Sources() {
+  static const RoomGraph graph = IncludeGraph(kRoot);
+  return graph;
+}
+
+std::string Floor(const std::string& room) { return room.substr(0, room.find('/')); }
+
+TEST(IncludeGraphTest, TheTableListsExactlyTheIncludesOfEveryRoom) {
+  const RoomGraph documented = DocumentedGraph(kRoot / "docs" / "development.md");
+  for (const auto& [room, used] : Sources()) {
+    ASSERT_TRUE(documented.contains(room)) << room << " is not in the table of rooms";
+    EXPECT_EQ(documented.at(room), used) << room;
+  }
+  for (const auto& [room, used] : documented) {
+    EXPECT_TRUE(Sources().contains(room)) << room << " has no sources";
+  }
+}
+
+TEST(IncludeGraphTest, RoomsHaveNoCircles) { EXPECT_EQ(FindCircle(Sources()), ""); }
+
+TEST(IncludeGraphTest, NoFloorIncludesFromAFloorAbove) {
+  const std::map<std::string, std::set<std::string>> below = {
+      {"models", {"models"}},
+      {"dynamics", {"models", "dynamics"}},
+      {"collocation", {"models", "dynamics", "collocation"}},
+      {"graph", {"graph"}},
+      {"actions", {"models", "dynamics", "collocation", "graph", "actions"}},
+      {"experiments", {"models", "dynamics", "collocation", "graph", "actions", "experiments"}},
+  };
+  for (const auto& [room, used] : Sources()) {
+    for (const std::string& other : used) {
+      EXPECT_TRUE(below.at(Floor(room)).contains(Floor(other))) << room << " includes " << other;
+    }
+  }
+}
+
+TEST(IncludeGraphTest, TheVerifierUsesNothingOfThePlanner) {
+  for (const std::string& room : ReachableFrom(Sources(), "actions/verify")) {
+    EXPECT_TRUE(room == "actions/plan" || Floor(room) == "models" || Floor(room) == "dynamics")
+        << room;
+  }
+}
+
+TEST(IncludeGraphTest, CirclesAreFound) {
+  EXPECT_EQ(FindCircle({{"a", {"b"}}, {"b", {"c"}}, {"c", {}}}), "");
+  EXPECT_EQ(FindCircle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), "b -> c -> b");
+}
+
+}  // namespace
+}  // namespace possibility::house

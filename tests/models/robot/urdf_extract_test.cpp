@@ -1,0 +1,84 @@
+// What urdfdom gets to see of a URDF. It hands texts of the file to printf as formats.
+
+#include "models/robot/urdf_extract.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "models/input/file_contents.h"
+#include "models/input/input_error.h"
+#include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
+#include "models/robot/urdf_reader.h"
+#include "tests/models/temporary_folder.h"
+#include "tests/models/two_legged_robot.h"
+
+namespace possibility::models {
+namespace {
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+TEST(UrdfExtract, LegalPercentSignsLoad) {
+  std::string urdf = TwoLeggedUrdf();
+  urdf = Replaced(urdf, "<link name=\"tool\">",
+                  "<!-- 100% --><link name=\"tool\"><visual><geometry><mesh "
+                  "filename=\"%n/100%s.stl\"/></geometry></visual>");
+  urdf = Replaced(urdf, "two_legged", "two%nlegged");
+  urdf = Replaced(urdf, "l_hip", "l%hip");
+  urdf = Replaced(urdf, "l_yaw", "%n%s");
+  const std::string yaml = Replaced(TwoLeggedYaml(), "l_yaw", "'%n%s'");
+  const TemporaryFolder folder;
+  folder.Write("robot.urdf", urdf);
+  const RobotModel robot = LoadRobotModel(folder.Write("robot.yaml", yaml));
+  EXPECT_EQ(robot.joints[0].name, "%n%s");
+  EXPECT_EQ(robot.links[1].name, "l%hip");
+}
+
+// '!' sorts before '%', and what stands for '%' before '!'.
+TEST(UrdfExtract, NamesStaySorted) {
+  std::string urdf = Replaced(TwoLeggedUrdf(), "l_hip", "a%");
+  urdf = Replaced(urdf, "r_hip", "a!");
+  urdf = Replaced(urdf, "l_yaw", "b%");
+  urdf = Replaced(urdf, "r_yaw", "b!");
+  const UrdfTree tree = ParseUrdf(urdf, "robot.urdf");
+  EXPECT_EQ(tree.links[0].name, "a!");
+  EXPECT_EQ(tree.links[1].name, "a%");
+  EXPECT_EQ(tree.joints[0].name, "b!");
+  EXPECT_EQ(tree.joints[1].name, "b%");
+}
+
+TEST(UrdfExtract, WhateverTheTextThereIsNoPercentSign) {
+  const std::string tokens[] = {"%n", "%", "&#37;", "&#x25;", "%s", "&amp;#37;"};
+  const std::string urdf = TwoLeggedUrdf();
+  std::mt19937 random(5);
+  int extracted = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string text = urdf;
+    text.insert(random() % text.size(), tokens[random() % std::size(tokens)]);
+    try {
+      EXPECT_EQ(ExtractUrdf(text, "robot.urdf").find('%'), std::string::npos) << text;
+      ++extracted;
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_GT(extracted, 200);
+}
+
+TEST(UrdfExtract, TheRobotStaysTheSame) {
+  const std::filesystem::path file =
+      std::filesystem::path(POSSIBILITY_SOURCE_DIR) / "models/drchubo1/drchubo1.urdf";
+  const std::string extract = ExtractUrdf(ReadFileContents(file), file);
+  const UrdfTree tree = ParseUrdf(extract, file);
+  EXPECT_EQ(tree.links.size(), 52u);
+  EXPECT_EQ(tree.joints.size(), 51u);
+  EXPECT_EQ(ExtractUrdf(extract, file), extract);
+}
+
+}  // namespace
+}  // namespace possibility::models

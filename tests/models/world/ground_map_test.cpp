@@ -1,0 +1,257 @@
+#include "models/world/ground_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "models/input/input_error.h"
+#include "tests/models/random_geometry.h"
+
+namespace possibility::models {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::RandomGeometry;
+
+/// A box of ground whose top is centred at (x, y) at height z.
+Obstacle Ground(double x, double y, double z, double length, double width, double yaw = 0) {
+  Obstacle obstacle{"ground", Shape::Box({length, width, 0.2}), Isometry3d::Identity(), true};
+  obstacle.X_WO.translation() = Vector3d(x, y, z - 0.1);
+  obstacle.X_WO.rotate(AngleAxisd(yaw, Vector3d::UnitZ()));
+  return obstacle;
+}
+
+GroundMap Map(std::vector<Obstacle> obstacles) {
+  Environment environment;
+  environment.obstacles = std::move(obstacles);
+  return GroundMap(environment);
+}
+
+bool IsOnTop(const Obstacle& obstacle, const Vector2d& p) {
+  const Vector3d local = obstacle.X_WO.inverse() * Vector3d(p.x(), p.y(), 0);
+  return std::abs(local.x()) <= obstacle.shape.size.x() / 2 &&
+         std::abs(local.y()) <= obstacle.shape.size.y() / 2;
+}
+
+bool AnyGroundAt(const std::vector<Obstacle>& obstacles, const Vector2d& p) {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const Obstacle& obstacle) { return IsOnTop(obstacle, p); });
+}
+
+TEST(GroundMap, RectangleHasAClosedForm) {
+  const GroundMap map = Map({Ground(1, 2, 0.3, 4, 2, 0.7)});
+  RandomGeometry random(1);
+  ASSERT_EQ(map.levels().size(), 1u);
+  EXPECT_DOUBLE_EQ(map.levels()[0], 0.3);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vector2d p(random.Uniform(-3, 5), random.Uniform(-2, 6));
+    const Vector2d local = Eigen::Rotation2Dd(-0.7) * (p - Vector2d(1, 2));
+    const Eigen::Array2d outside = local.array().abs() - Eigen::Array2d(2, 1);
+    const double distance =
+        outside.maxCoeff() > 0 ? -outside.max(0).matrix().norm() : -outside.maxCoeff();
+    EXPECT_NEAR(map.Clearance(0, p), distance, 1e-6);
+  }
+}
+
+TEST(GroundMap, WhatOneFaceHoldsIsClearAllAlongTheLine) {
+  RandomGeometry random(5);
+  int held = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    const GroundMap map = Map({Ground(0, 0, 0, 4, 3, random.Uniform(-4, 4)),
+                               Ground(2.5, 0.5, 0, 2, 4, random.Uniform(-4, 4))});
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vector2d from(random.Uniform(-3, 4), random.Uniform(-3, 3));
+      const Vector2d to(random.Uniform(-3, 4), random.Uniform(-3, 3));
+      const double radius = random.Uniform(0, 0.8);
+      if (!map.OneFaceHolds(0, from, to, radius)) continue;
+      ++held;
+      for (int i = 0; i <= 10; ++i) {
+        EXPECT_GE(map.Clearance(0, from + i / 10.0 * (to - from)), radius - 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(held, 100);
+  // On a single face nothing is missed.
+  const GroundMap map = Map({Ground(0, 0, 0, 4, 2)});
+  EXPECT_TRUE(map.OneFaceHolds(0, {-1.4, 0.4}, {1.4, -0.4}, 0.59));
+  EXPECT_FALSE(map.OneFaceHolds(0, {-1.4, 0.4}, {1.4, -0.4}, 0.61));
+  EXPECT_FALSE(map.OneFaceHolds(0, {0, 0}, {std::nan(""), 0}, 0.1));
+  EXPECT_THROW(map.OneFaceHolds(1, {0, 0}, {0, 0}, 0.1), std::out_of_range);
+}
+
+/// Within the clearance of p everything is alike, and a little farther something differs.
+TEST(GroundMap, UnionsOfYawedBoxesAgreeWithPointSampling) {
+  RandomGeometry random(2);
+  int inside = 0, outside = 0, unseen = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    std::vector<Obstacle> obstacles;
+    for (int i = 1 + random.Index(15); i > 0; --i) {
+      obstacles.push_back(Ground(random.Uniform(-2, 2), random.Uniform(-2, 2), 0,
+                                 random.Uniform(0.2, 2), random.Uniform(0.2, 2),
+                                 random.Index(3) == 0 ? 0 : random.Uniform(-4, 4)));
+    }
+    const GroundMap map = Map(obstacles);
+    for (int trial = 0; trial < 60; ++trial) {
+      const Vector2d p(random.Uniform(-3, 3), random.Uniform(-3, 3));
+      const double clearance = map.Clearance(0, p);
+      const bool is_ground = AnyGroundAt(obstacles, p);
+      if (std::abs(clearance) < 1e-5) continue;
+      EXPECT_EQ(clearance > 0, is_ground);
+      (is_ground ? inside : outside) += 1;
+      EXPECT_EQ(map.LevelAt(p, 0, 0.01).has_value(), is_ground);
+      bool differs_beyond = false;
+      for (int i = 0; i < 720; ++i) {
+        const Vector2d u = Eigen::Rotation2Dd(i * M_PI / 360) * Vector2d::UnitX();
+        const double share = i % 2 == 0 ? 1 : random.Uniform(0, 1);
+        EXPECT_EQ(AnyGroundAt(obstacles, p + share * (std::abs(clearance) - 2e-6) * u), is_ground);
+        for (const double beyond : {1e-3, 3e-3, 0.01, 0.03}) {
+          differs_beyond |=
+              AnyGroundAt(obstacles, p + (std::abs(clearance) + beyond) * u) != is_ground;
+        }
+      }
+      if (!differs_beyond) ++unseen;
+    }
+  }
+  // Rings of samples miss the odd sliver of ground or hole.
+  EXPECT_LT(unseen, 20);
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 500);
+}
+
+TEST(GroundMap, IsNearIsToldByTheClearance) {
+  RandomGeometry random(6);
+  int near = 0, far = 0;
+  for (int scene = 0; scene < 40; ++scene) {
+    std::vector<Obstacle> obstacles;
+    for (int i = 1 + random.Index(8); i > 0; --i) {
+      obstacles.push_back(Ground(random.Uniform(-2, 2), random.Uniform(-2, 2), 0,
+                                 random.Uniform(0.2, 2), random.Uniform(0.2, 2),
+                                 random.Uniform(-4, 4)));
+    }
+    const GroundMap map = Map(obstacles);
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vector2d p(random.Uniform(-4, 4), random.Uniform(-4, 4));
+      const double distance = random.Index(5) == 0 ? 0 : random.Uniform(0, 1.5);
+      const double clearance = map.Clearance(0, p);
+      if (std::abs(clearance + distance) < 3e-6) continue;
+      const bool is_near = map.IsNear(0, p, distance);
+      EXPECT_EQ(is_near, clearance > -distance) << p.transpose() << ", " << distance;
+      (is_near ? near : far) += 1;
+    }
+  }
+  EXPECT_GT(near, 500);
+  EXPECT_GT(far, 500);
+  const GroundMap map = Map({Ground(0, 0, 0, 4, 2)});
+  EXPECT_FALSE(map.IsNear(0, {std::nan(""), 0}, 1));
+  EXPECT_THROW(map.IsNear(1, {0, 0}, 1), std::out_of_range);
+}
+
+TEST(GroundMap, AbuttingFacesHaveNoSeam) {
+  for (const double yaw : {0.0, 0.3, 1.1}) {
+    for (const double gap : {0.0, 1e-9, 9e-7, -1e-9, -1e-3}) {
+      std::vector<Obstacle> tiles;
+      for (int i = -2; i <= 2; ++i) {
+        for (int j = -2; j <= 2; ++j) {
+          const Vector2d centre = Eigen::Rotation2Dd(yaw) * ((1 + gap) * Vector2d(i, j));
+          tiles.push_back(Ground(centre.x(), centre.y(), 0.5, 1, 1, yaw));
+        }
+      }
+      const GroundMap map = Map(tiles);
+      ASSERT_EQ(map.levels().size(), 1u);
+      RandomGeometry random(3);
+      const double half_width = 2.5 + 2 * gap;
+      for (int trial = 0; trial < 200; ++trial) {
+        Vector2d local(random.Uniform(-2.4, 2.4), random.Uniform(-2.4, 2.4));
+        if (trial % 2 == 0) local.x() = (1 + gap) * (random.Index(4) - 1.5);
+        const double exact = half_width - local.cwiseAbs().maxCoeff();
+        EXPECT_NEAR(map.Clearance(0, Eigen::Rotation2Dd(yaw) * local), exact, 2e-6);
+      }
+    }
+  }
+}
+
+TEST(GroundMap, IdenticalFacesKeepTheirEdge) {
+  RandomGeometry random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double yaw = random.Uniform(-4, 4), x = random.Uniform(-9, 9);
+    const Obstacle face = Ground(x, 1, 0, 2, 2, yaw);
+    const GroundMap map = Map({face, face, Ground(x, 1, 0, 2, 2, yaw + M_PI / 2)});
+    EXPECT_NEAR(map.Clearance(0, {x, 1}), 1, 1e-6);
+  }
+}
+
+TEST(GroundMap, GapsAndHolesAreSeen) {
+  // A ring of four bars about a square hole of 1 m, and a slit of 1 mm beside it.
+  const GroundMap map = Map({Ground(-1, 0, 0, 1, 3), Ground(1, 0, 0, 1, 3), Ground(0, 1, 0, 1, 1),
+                             Ground(0, -1, 0, 1, 1), Ground(2.001, 0, 0, 1, 3)});
+  EXPECT_NEAR(map.Clearance(0, {0, 0}), -0.5, 1e-6);
+  EXPECT_NEAR(map.Clearance(0, {0.8, 0}), 0.3, 1e-6);
+  EXPECT_NEAR(map.Clearance(0, {0, 1.1}), 0.4, 1e-6);
+  EXPECT_NEAR(map.Clearance(0, {1.5005, 0.3}), -0.0005, 1e-6);
+  EXPECT_NEAR(map.Clearance(0, {1.3, 0}), 0.2, 1e-6);
+  EXPECT_NEAR(map.Clearance(0, {1.7, 0}), 0.199, 1e-6);
+}
+
+TEST(GroundMap, LevelsAreSortedMergedAndFound) {
+  const GroundMap map = Map({Ground(0, 0, 0.5, 2, 2), Ground(0, 0, 0, 10, 10),
+                             Ground(0.5, 0, 0.2, 4, 4), Ground(3, 0, 0.5 + 5e-7, 4, 2)});
+  ASSERT_EQ(map.levels().size(), 3u);
+  EXPECT_NEAR(map.levels()[0], 0, 1e-12);
+  EXPECT_NEAR(map.levels()[1], 0.2, 1e-12);
+  EXPECT_NEAR(map.levels()[2], 0.5, 1e-6);
+  EXPECT_NEAR(map.Clearance(2, {1, 0}), 1, 2e-6);
+  EXPECT_EQ(map.LevelAt({0, 0}, 0.19, 0.02), 1);
+  EXPECT_EQ(map.LevelAt({0, 0}, 0.3, 1), 2);
+  EXPECT_EQ(map.LevelAt({-3, 0}, 0.3, 1), 0);
+  EXPECT_EQ(map.LevelAt({0, 0}, 0.3, 0.05), std::nullopt);
+  EXPECT_EQ(map.LevelBelow({0, 0}, 0.4995), 2);
+  EXPECT_EQ(map.LevelBelow({0, 0}, 0.498), 1);
+  EXPECT_EQ(map.LevelBelow({-4, 0}, 2), 0);
+  EXPECT_EQ(map.LevelBelow({-6, 0}, 2), std::nullopt);
+  EXPECT_EQ(map.LevelBelow({0, 0}, -0.01), std::nullopt);
+  EXPECT_THROW(map.Clearance(3, {0, 0}), std::out_of_range);
+  EXPECT_THROW(map.Clearance(-1, {0, 0}), std::out_of_range);
+}
+
+TEST(GroundMap, OnlyGroundCounts) {
+  Obstacle wall = Ground(0, 0, 2, 1, 1);
+  wall.is_ground = false;
+  Obstacle ball{"ball", Shape::Sphere(1), Isometry3d::Identity(), false};
+  EXPECT_TRUE(Map({wall, ball}).levels().empty());
+  EXPECT_EQ(Map({wall, ball}).LevelBelow({0, 0}, 9), std::nullopt);
+}
+
+TEST(GroundMap, PointThatIsNotFiniteHasNoGround) {
+  const GroundMap map = Map({Ground(0, 0, 0, 1, 1)});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(map.LevelAt({nan, 0}, 0, 1), std::nullopt);
+  EXPECT_EQ(map.LevelBelow({0, nan}, 1), std::nullopt);
+}
+
+TEST(GroundMap, RefusesGroundThatIsNotAnUprightBox) {
+  Obstacle tilted = Ground(0, 0, 0, 1, 1);
+  tilted.name = "ramp";
+  tilted.X_WO.rotate(AngleAxisd(1e-3, Vector3d::UnitX()));
+  try {
+    Map({tilted});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("ramp"), std::string::npos);
+  }
+  const Obstacle drum{"drum", Shape::Cylinder(1, 1), Isometry3d::Identity(), true};
+  EXPECT_THROW(Map({drum}), InputError);
+  Obstacle lost = Ground(0, 0, 0, 1, 1);
+  lost.X_WO.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Map({lost}), InputError);
+}
+
+}  // namespace
+}  // namespace possibility::models
