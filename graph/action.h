@@ -16,15 +16,15 @@ struct PointPair {
   Point to;
 };
 
-/// Table 1 of the paper, the functions that every action engineers. Implementations are
-/// deterministic: the same arguments give the same answer.
+/// The functions that every action implements (Table 1 of the paper). They are deterministic: the
+/// same arguments give the same answer.
 class Action {
  public:
   virtual ~Action() = default;
 
   virtual std::string name() const = 0;
 
-  /// A point reached by moving from v0 towards v1 by this action; v1 itself (exactly) if it is
+  /// The point reached by moving from v0 towards v1 with this action. Returns v1 exactly if it is
   /// within one step.
   virtual Point ExtendTowards(const Point& v0, const Point& v1) const = 0;
 
@@ -37,12 +37,14 @@ class Action {
   virtual bool CS(const Point& vertex) const = 0;
   virtual bool CS(const PointPair& edge) const = 0;
 
-  /// Whether exploration may append `x`. The paper's C_N by default; actions whose confirmation
-  /// jobs decide nothing return C_S, as the paper's own experiments do (its Limitations).
+  /// Whether exploration may append the vertex or edge. By default C_N, as in the paper. Actions
+  /// whose confirmation jobs decide nothing return C_S, as the paper's experiments do (see its
+  /// Limitations).
   virtual bool Explorable(const Point& vertex) const { return CN(vertex); }
   virtual bool Explorable(const PointPair& edge) const { return CN(edge); }
 
-  /// Points after `v` of a path from v into this action's condition manifold; empty if none.
+  /// The points after `v` on a path from `v` into this action's condition manifold; empty if there
+  /// is none.
   virtual std::vector<Point> TransitionFrom(const Point& v) const = 0;
 
   /// Whether every edge of this action can also be executed in the opposite direction.
@@ -51,14 +53,15 @@ class Action {
   /// Expected execution time of an edge, s: the weight of ShortestPath.
   virtual double ExpectedDuration(const PointPair& edge) const = 0;
 
-  /// A job that finds out whether an edge that meets only C_N is truly feasible; null if this
-  /// action has none, which refutes the edge. The job may outlive the call but not the action, and
-  /// runs beside further calls to it.
+  /// A job that decides whether an edge that meets only C_N is feasible. Null if this action has no
+  /// such job; the edge is then refuted. The job may outlive the call but not the action, and runs
+  /// concurrently with further calls to the action.
   virtual std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const = 0;
 
-  /// What all conditions that one cycle of exploration asks of this action may take together, s in
-  /// the mean. On one thread, jobs and exploration divide their time by it; who takes more than
-  /// ten times as long is charged by the clock, and one seed is no longer one search.
+  /// Mean time budget, s, of all condition checks of this action in one exploration cycle. On a
+  /// single thread, jobs and exploration divide their time by it. If exploration takes more than
+  /// ten times its budget, measured time counts instead; the search then depends on the clock and
+  /// not only on the seed.
   virtual double cycle_budget() const { return 1e-3; }
 };
 
@@ -68,30 +71,29 @@ class HolonomicAction : public Action {
   virtual Point Project(const Point& v) const = 0;
 };
 
-/// An action that has to line itself up first, such as a jump: its edges lead from a launch point
-/// to a landing point. How the robot gets from a vertex to the launch point, and from the landing
-/// point to a vertex, is the affair of the other actions: such line-up edges are theirs.
+/// An action that must line up first, such as a jump. Its edges lead from a launch point to a
+/// landing point. Other actions take the robot from a vertex to the launch point and from the
+/// landing point to a vertex; these line-up edges belong to them.
 class NonholonomicAction : public Action {
  public:
-  /// The point where an edge of this action from the launch point v0 lands: v1 if that is within
-  /// reach and straight ahead, otherwise as close to it as the action gets. Whether such an edge
-  /// is possible is asked of C_N.
+  /// The point where an edge of this action from the launch point v0 lands: v1 if it is within
+  /// reach and straight ahead, otherwise the point closest to v1 that the action reaches. C_N
+  /// decides whether such an edge is possible.
   Point ExtendTowards(const Point& v0, const Point& v1) const override = 0;
 
-  /// A point from which this action arrives at the landing point v0, as close to v1 as its reach
-  /// allows.
+  /// The launch point from which this action lands at v0, as close to v1 as its reach allows.
   virtual Point ReverseExtend(const Point& v0, const Point& v1) const = 0;
 
-  /// A point close to v that is fit for ExtendTowards(point, v1), to be reached from v by another
-  /// action, or v itself (exactly); nothing if there is none.
+  /// A point close to v that is fit for ExtendTowards(point, v1): v itself (exactly), or a point
+  /// that another action reaches from v. Nothing if there is none.
   virtual std::optional<Point> FindLaunchPoint(const Point& v, const Point& v1) const = 0;
 
-  /// A point close to v that is fit for ReverseExtend(point, v1), from which another action leads
-  /// to v, or v itself (exactly); nothing if there is none.
+  /// A point close to v that is fit for ReverseExtend(point, v1): v itself (exactly), or a point
+  /// from which another action reaches v. Nothing if there is none.
   virtual std::optional<Point> FindLandingPoint(const Point& v, const Point& v1) const = 0;
 
-  /// Nothing needs to be done to get from a vertex that meets C_N (one where the action can begin
-  /// or end) into its condition manifold.
+  /// A vertex that meets C_N (the action can begin or end there) is already in the condition
+  /// manifold.
   std::vector<Point> TransitionFrom(const Point& v) const override {
     return Explorable(v) ? std::vector<Point>{v} : std::vector<Point>{};
   }

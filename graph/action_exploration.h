@@ -13,8 +13,8 @@
 
 namespace possibility::graph {
 
-/// The exploring half of the paper's Action: one action together with its own graph Gamma_a and
-/// its queue Q_Transition. How it grows depends on the kind of action.
+/// The exploring half of the paper's Action: one action with its own graph Gamma_a and its queue
+/// Q_Transition. Subclasses define how the graph grows.
 class ActionExploration {
  public:
   /// `index` is the action's number in the master graph.
@@ -23,17 +23,18 @@ class ActionExploration {
   ActionExploration(const ActionExploration&) = delete;
   ActionExploration& operator=(const ActionExploration&) = delete;
 
-  /// Start or goal: part of Gamma_a if the action accepts it, to be transitioned from if not.
+  /// Adds the start or a goal: to Gamma_a if the action accepts it, otherwise to the transition
+  /// queue.
   void AddInitialVertex(VertexId vertex);
 
-  /// Takes what another action found: its vertices to be transitioned from or, if they are offered
-  /// and the action accepts them, into Gamma_a; line-up edges of this action into Gamma_a.
+  /// Takes over what another action found. Line-up edges of this action enter Gamma_a, and so do
+  /// offered vertices that this action accepts. All other vertices enter the transition queue.
   void TakeOver(const NewElements& found_by_other);
 
-  /// Algorithm 2. Appends to Gamma_a; appending to the master graph is left to the caller.
+  /// Algorithm 2. Appends to Gamma_a; the caller appends to the master graph.
   NewElements PerformTransitions();
 
-  /// Algorithm 3 or 4. Appends to Gamma_a; appending to the master graph is left to the caller.
+  /// Algorithm 3 or 4. Appends to Gamma_a; the caller appends to the master graph.
   virtual NewElements GrowTowards(const Point& p_target) = 0;
 
   ActionGraph& action_graph() { return action_graph_; }
@@ -44,11 +45,11 @@ class ActionExploration {
   const ExplorerContext& context() const { return context_; }
 
   bool SamePoint(const Point& a, const Point& b) const;
-  /// Whether the master graph once held an edge of this action (or that of a given number) that
-  /// is to be confirmed or was refuted.
+  /// Whether an edge of this action (or of `action`) was removed from the master graph, to be
+  /// confirmed or because it was refuted.
   bool WasRemoved(VertexId from, VertexId to) const { return WasRemoved(index_, from, to); }
   bool WasRemoved(int action, VertexId from, VertexId to) const;
-  /// The counter "<action>: <what>", which lives as long as the context.
+  /// The counter "<action>: <what>". Valid as long as the context.
   std::int64_t* Counter(const std::string& what) const;
 
  private:
@@ -64,8 +65,8 @@ class ActionExploration {
   std::int64_t* transitions_failed_;
 };
 
-/// The exploration that suits the kind of `action`.
-/// @throws std::invalid_argument if its kind is unknown.
+/// Makes the exploration for the kind of `action`.
+/// @throws std::invalid_argument if the kind is unknown.
 std::unique_ptr<ActionExploration> MakeActionExploration(const Action& action, int index,
                                                          const ExplorerContext& context);
 

@@ -8,11 +8,11 @@
 
 namespace possibility::graph {
 
-/// Vertices of one action that its own edges join together, whatever their direction.
+/// Vertices of one action that its own edges connect, in either direction.
 using SubGraph = std::vector<VertexId>;
 
-/// Gamma_a: the vertices and edges of one action, as a set of subgraphs. Edges that were removed
-/// from the master graph hold no subgraph together.
+/// Gamma_a: the vertices and edges of one action, as a set of subgraphs. Edges removed from the
+/// master graph do not connect a subgraph.
 class ActionGraph {
  public:
   /// `master` must outlive this.
@@ -27,11 +27,12 @@ class ActionGraph {
 
   const std::vector<SubGraph>& SubGraphs();
 
-  /// The closest vertex of all; nothing if there is none.
+  /// The closest vertex; nothing if the graph is empty.
   std::optional<VertexId> FindClosestVertexTo(const Point& p) const { return nearest_.Closest(p); }
-  /// Any of all; nothing if there is none.
+  /// A random vertex; nothing if the graph is empty.
   std::optional<VertexId> RandomVertex(RandomGenerator* generator) const;
-  /// The closest one of another subgraph than `v`'s that `admits`.
+  /// The closest vertex that `admits` and that is not in the subgraph of `v`; nothing if there is
+  /// none.
   std::optional<VertexId> FindClosestVertexTo(const Point& p, VertexId v,
                                               const NearestVertices::Filter& admits);
 

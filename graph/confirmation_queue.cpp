@@ -12,7 +12,7 @@ using Clock = QueuedJob::Clock;
 using Seconds = std::chrono::duration<double>;
 using State = QueuedJob::State;
 
-/// Longer than any wait; waiting for infinity itself would overflow the clock.
+/// Longer than any wait. Waiting for infinity would overflow the clock.
 constexpr double kForever = 1e6;  // s
 
 }  // namespace

@@ -18,17 +18,17 @@
 
 namespace possibility::graph {
 
-/// Q_Confirmation: runs jobs in rotation, a slice of time each, so that easy ones finish promptly
-/// and difficult ones hold up nobody. Every job that has begun has a thread; the queue pauses and
-/// resumes them so that no more run than it has workers.
+/// Q_Confirmation: runs jobs in rotation, one time slice each, so that easy jobs finish promptly
+/// and difficult ones do not block them. Every job that has begun has a thread. The queue pauses
+/// and resumes the threads so that no more jobs run than it has workers.
 ///
-/// Who runs next: the jobs rank by the number of turns they have had, then by their cost, the
-/// cheaper the sooner. The first few rotate. One slice in `slices_per_fair_slice` goes instead to
-/// the job that has waited longest, whatever its rank, so that nothing starves.
+/// Order: jobs rank by the number of turns they have had, then by cost, cheapest first. The first
+/// few rotate. One slice in `slices_per_fair_slice` goes to the job that has waited longest,
+/// whatever its rank, so that no job starves.
 ///
-/// With workers (LaunchThreads), all this happens beside the calling thread. Without, RunTurn
-/// gives one job one turn while the calling thread waits. Such a turn is measured in checkpoints
-/// instead of time: in which turn a job ends does not depend on the machine.
+/// With workers (LaunchThreads), all this happens beside the calling thread. Without workers,
+/// RunTurn gives one job one turn while the calling thread waits. Such a turn is measured in
+/// checkpoints instead of time, so the turn in which a job ends does not depend on the machine.
 ///
 /// All functions are called from one thread.
 class ConfirmationQueue {
@@ -42,19 +42,19 @@ class ConfirmationQueue {
   ConfirmationQueue(const ConfirmationQueue&) = delete;
   ConfirmationQueue& operator=(const ConfirmationQueue&) = delete;
 
-  /// Lets at most `workers` jobs run at once from now on; to be called once at most. (A cancelled
-  /// job returns without waiting for its turn.)
+  /// Lets at most `workers` jobs run at once from now on. Call at most once. (A cancelled job
+  /// returns without waiting for its turn.)
   void LaunchThreads(int workers);
 
-  /// `cost` says how much the job's answer is worth: that of the cheapest route that needs it.
+  /// `cost`: the cost of the cheapest route that needs the job's answer. Cheaper jobs run first.
   void Insert(int tag, std::unique_ptr<ConfirmationJob> job, double cost);
   void SetCost(int tag, double cost);
 
-  /// Ends a job whose answer is of no more use; its result, kCancelled with this reason, can be
-  /// drained once it has ended. Nothing happens if it ended already.
+  /// Cancels a job whose answer is no longer needed. Its result, kCancelled with this reason, can
+  /// be drained once the job has ended. No effect if it has ended already.
   void Cancel(int tag, const std::string& reason);
 
-  /// Jobs inserted and not yet drained.
+  /// Number of jobs inserted and not yet drained.
   int num_open() const { return num_open_; }
 
   /// Takes the results of the jobs that ended since the last call, in the order they ended.
@@ -63,18 +63,18 @@ class ConfirmationQueue {
   /// Waits until a result can be drained, at most `limit`. For queues with workers.
   void WaitForResult(std::chrono::milliseconds limit);
 
-  /// Lets the job that is next run until it ends, its turn is over, or the deadline passes; false
-  /// if it did not end. True if there is no job. The turn is `length` times as long as the settings
-  /// say. For queues without workers.
+  /// Runs the next job until it ends, its turn is over, or the deadline passes. False if the job
+  /// did not end; true if it ended or there is no job. The turn is `length` times as long as in the
+  /// settings. For queues without workers.
   bool RunTurn(const Deadline& deadline, int length = 1);
 
-  /// Cancels all jobs and waits for their threads: as long as the slowest of them takes to return.
+  /// Cancels all jobs and waits for their threads, as long as the slowest job takes to return.
   void CancelAll(const std::string& reason);
 
  private:
   void RunJob(QueuedJob* job);
   void OnHeld(QueuedJob* job);
-  // The rest is called under mutex_.
+  // The functions below are called under mutex_.
   void Dispatch(const std::stop_token& stop, std::unique_lock<std::mutex>* lock);
   void EndSlices();
   void EndSlice(QueuedJob* job);
@@ -90,7 +90,7 @@ class ConfirmationQueue {
   int num_open_ = 0;
 
   mutable std::mutex mutex_;
-  std::condition_variable_any event_;   ///< for the dispatcher, or RunTurn: something happened
+  std::condition_variable_any event_;   ///< for the dispatcher and RunTurn: something happened
   std::condition_variable_any result_;  ///< a result can be drained
   // Under mutex_:
   bool news_ = false;

@@ -9,17 +9,17 @@ namespace possibility::graph {
 enum class JobOutcome {
   kConfirmed,
   kRefuted,
-  kFailed,     ///< the job threw, took too long or could not tell: nothing is known of its edge
-  kCancelled,  ///< the job was ended because its answer was of no more use
+  kFailed,     ///< the job threw, took too long or could not tell: the edge stays undecided
+  kCancelled,  ///< the job was ended because its answer was no longer needed
 };
 
-/// What became of one confirmation job.
+/// The outcome of one confirmation job.
 struct ConfirmationReport {
-  int action = 0;  ///< whose job it was
+  int action = 0;  ///< the action that spawned the job
   PointPair points;
   JobOutcome outcome = JobOutcome::kFailed;
-  std::string reason;  ///< the job's own if refuted or undecided, what it threw if it threw
-  double seconds = 0;  ///< time it ran, pauses left out
+  std::string reason;  ///< the job's own if refuted or undecided; the exception's text if it threw
+  double seconds = 0;  ///< running time, without pauses
 };
 
 }  // namespace possibility::graph

@@ -5,10 +5,10 @@
 namespace possibility::graph {
 namespace {
 
-/// What a turn of length 1 takes: 1000 checkpoints some milliseconds apart, s.
+/// Work of a turn of length 1: 1000 checkpoints a few milliseconds apart, s.
 constexpr double kWorkOfTurn = 3;
 
-/// A turn as many times as long is nearly what a job is given at all.
+/// A turn of this length takes nearly a job's whole time limit.
 constexpr int kLongestTurn = 8;
 
 }  // namespace

@@ -5,20 +5,20 @@
 
 namespace possibility::graph {
 
-/// A stretch of time that began with the object. Cheap enough to be asked in every loop.
+/// A time limit that starts at construction. Cheap enough to query in every loop.
 class Deadline {
  public:
   /// `limit` in s; may be infinite.
   explicit Deadline(double limit) : limit_(limit) {}
 
-  /// Time since the beginning, s.
+  /// Time since construction, s.
   double Elapsed() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   }
 
   bool Passed() const { return Elapsed() >= limit_; }
 
-  /// Time to the end, s; 0 once it passed.
+  /// Remaining time, s; 0 once the deadline has passed.
   double Remaining() const { return std::max(limit_ - Elapsed(), 0.0); }
 
  private:

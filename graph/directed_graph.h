@@ -8,8 +8,8 @@ namespace possibility::graph {
 using VertexId = int;
 using EdgeId = int;
 
-/// Who is joined to whom. A removed edge keeps its number and its place, so that it can come
-/// back, and so that it is known to have been there.
+/// The topology of a graph. A removed edge keeps its number and its place, so that it can be
+/// reinserted and its earlier presence stays known.
 class DirectedGraph {
  public:
   VertexId AddVertex();
@@ -25,7 +25,7 @@ class DirectedGraph {
   VertexId to(EdgeId edge) const { return to_[edge]; }
   bool removed(EdgeId edge) const { return removed_[edge]; }
 
-  /// Edges at a vertex, removed ones among them, in the order they were added.
+  /// Edges at a vertex, including removed ones, in the order they were added.
   const std::vector<EdgeId>& outgoing(VertexId vertex) const { return outgoing_[vertex]; }
   const std::vector<EdgeId>& incoming(VertexId vertex) const { return incoming_[vertex]; }
 

@@ -6,8 +6,8 @@
 namespace possibility::graph {
 namespace {
 
-/// Sanitizers and busy machines stay below it, so that no search depends on the clock that keeps
-/// to its budgets.
+/// Sanitizers and busy machines stay below this factor, so a search that keeps to its budgets does
+/// not depend on the clock.
 constexpr double kToleratedSlowness = 10;
 
 }  // namespace

@@ -9,15 +9,15 @@
 
 namespace possibility::graph {
 
-/// The explorers of one search, and whose turn it is.
+/// The explorers of one search. Gives them their turns.
 class Exploration {
  public:
-  /// `confirmation` must outlive this, as everything in `context`.
+  /// `confirmation` and everything in `context` must outlive this.
   Exploration(const ExplorerContext& context, const std::vector<ExplorerFactory>& explorers,
               PathConfirmation* confirmation);
 
-  /// One cycle: every explorer that takes part has a turn, in their order, up to the first that
-  /// leads on, or comes to its end: then it is time to think.
+  /// One cycle: every explorer that takes part has a turn, in order. The cycle ends early after an
+  /// explorer that leads on or has nothing left, so that its findings are confirmed first.
   void Explore(SearchStage stage);
 
   /// Whether no explorer that takes part has anything left to explore.
@@ -30,17 +30,18 @@ class Exploration {
   void OnRefuted();
   void OnRoute(const std::vector<PathEdge>& route, double duration);
 
-  /// A route that `found_by` proposes, as Findings::route.
+  /// Appends a route that `found_by` proposes, see Findings::route.
   void AppendRoute(const std::vector<PathEdge>& route, const std::string& found_by);
 
-  /// Who found an edge of Gamma_PG.
+  /// Name of the explorer that found an edge of Gamma_PG.
   const std::string& found_by(EdgeId edge) const { return names_[found_by_[edge]]; }
 
-  /// What all turns took so far as their authors declare it, s. If they took more than ten times
-  /// as long, what they took: a condition that is slow and does not say so keeps no job waiting.
+  /// Work of all turns so far, s: the sum of their declared work_of_turn. If the turns took more
+  /// than ten times as long, the measured time, so that a slow condition that does not declare its
+  /// cost keeps no job waiting.
   double work() const;
 
-  /// The greatest of all explorers, s.
+  /// The greatest lower bound of all explorers, s.
   double lower_bound() const;
 
  private:
@@ -51,7 +52,8 @@ class Exploration {
 
   bool IsWaiting(const Seat& seat, SearchStage stage) const;
   void TakeTurn(Seat* seat);
-  /// The edge's possibility is asked of C_S at once; false if the action does not accept it.
+  /// Appends an edge and asks C_S at once whether it is possible. False if the action does not
+  /// accept the edge.
   bool AppendEdge(int action, VertexId from, VertexId to);
   void LabelNewEdges(const std::string& name);
 

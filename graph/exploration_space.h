@@ -5,14 +5,14 @@
 
 namespace possibility::graph {
 
-/// A point of the possibility exploration space E: whatever the actions make of its numbers
-/// (for a humanoid the SE(3) pose of its pelvis; for the stick figure of Fig. 3, x and z). At
-/// most 8 numbers, so that points live without the heap.
+/// A point of the possibility exploration space E. The actions define the meaning of its
+/// coordinates (for a humanoid the SE(3) pose of its pelvis; for the stick figure of Fig. 3, x and
+/// z). At most 8 coordinates, so that points need no heap memory.
 using Point = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;
 
 using RandomGenerator = std::mt19937_64;
 
-/// E itself: where random targets come from and how far apart points are.
+/// The space E: random targets and the distance between points.
 class ExplorationSpace {
  public:
   virtual ~ExplorationSpace() = default;

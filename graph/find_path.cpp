@@ -18,10 +18,10 @@
 namespace possibility::graph {
 namespace {
 
-/// Durations are added up in different orders, s.
+/// Tolerance for durations that are summed in different orders, s.
 constexpr double kSameDuration = 1e-9;
 
-/// For jobs that may lead to a quicker path than a confirmed one, s.
+/// Extra wait for jobs that may improve a confirmed path, s.
 constexpr double kPatience = 0.1;
 
 std::vector<ExplorerFactory> ExplorersOf(const FindPathSettings& settings) {
@@ -29,7 +29,7 @@ std::vector<ExplorerFactory> ExplorersOf(const FindPathSettings& settings) {
                                     : settings.explorers;
 }
 
-/// Algorithm 1 at work.
+/// Algorithm 1.
 class PathFinder {
  public:
   PathFinder(const Point& start, const std::vector<Point>& goals,
@@ -53,7 +53,7 @@ class PathFinder {
                       .counters = &result_.counters},
                      ExplorersOf(settings), &confirmation_) {}
 
-  /// A path that is known already, as GoStraight leaves it.
+  /// Starts with a known path, as GoStraight returns it.
   void StartWith(const PathResult& known) {
     exploration_.AppendRoute(known.path, known.found_by.front());
     FindConfirmedPath();
@@ -99,8 +99,8 @@ class PathFinder {
     }
   }
 
-  /// Follows the shortest paths to the goals until the shortest of all is confirmed: then it is the
-  /// answer so far. Edges of those that are not are out of the graph, in the hands of jobs.
+  /// Tries to confirm the shortest path to any goal, until one is confirmed: it is the best answer
+  /// so far. Edges that fail are out of the graph and handed to jobs.
   void FindConfirmedPath() {
     while (!deadline_.Passed()) {
       std::optional<Incumbent> shortest = ShortestPathToAnyGoal();
@@ -161,8 +161,8 @@ class PathFinder {
            exploration_.IsOver(stage());
   }
 
-  /// Jobs that are open when nothing is left to explore get one turn more, or as much time as the
-  /// first path has taken: nobody waits long for what may be a little quicker.
+  /// When nothing is left to explore, open jobs get one more turn, or as much time as the first
+  /// path took. A small improvement is not worth a long wait.
   bool ImprovementIsOver() const {
     if (!best_) return false;
     if (ImprovementTime() <= 0) return true;
@@ -173,7 +173,7 @@ class PathFinder {
                : last_turn_is_over_;
   }
 
-  /// What is left of its share, s.
+  /// Time left for improvement, s.
   double ImprovementTime() const {
     const double share = settings_.improvement_share * settings_.time_limit;
     return result_.first_path_seconds + share - deadline_.Elapsed();
@@ -190,7 +190,7 @@ class PathFinder {
     last_turn_is_over_ = is_last;
   }
 
-  /// Whether the oracle, if it is its time, ends the search.
+  /// Asks the oracle if it is due. True if its answer ends the search.
   bool Answered() {
     if (oracle_asked_ || best_ || !settings_.oracle || !OracleIsDue()) {
       return false;
@@ -214,7 +214,7 @@ class PathFinder {
            (exploration_.SomebodyIsThrough(stage()) && q_confirmation_.num_open() == 0);
   }
 
-  /// Without threads no result can come while we wait.
+  /// Without threads no result can arrive during a wait.
   std::chrono::milliseconds MaxWait() const {
     return std::chrono::milliseconds(settings_.confirmation_threads > 0 ? 10 : 0);
   }
@@ -288,8 +288,8 @@ class PathFinder {
 
 }  // namespace
 
-// What a straight answer runs through is kept together ([[gnu::hot]]), and apart from the search:
-// cold code would cost more than the answer (docs/performance.md).
+// [[gnu::hot]] keeps the code of a straight answer together and apart from the search: cold code
+// would take longer than the answer itself (docs/performance.md).
 [[gnu::hot]] PathResult FindPath(const Point& start, const std::vector<Point>& goals,
                                  const std::vector<std::shared_ptr<const Action>>& actions,
                                  const ExplorationSpace& space, const FindPathSettings& settings) {

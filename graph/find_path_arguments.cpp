@@ -12,7 +12,7 @@ bool IsPoint(const Point& point, Eigen::Index size) {
   return point.size() == size && size > 0 && point.allFinite();
 }
 
-// Complaints are put together out of line: arguments are checked on the way to answers that take a
+// Error messages are built out of line: the checks are on the path of answers that take a
 // microsecond.
 
 [[noreturn, gnu::cold]] void Throw(const std::string& complaint) {

@@ -8,8 +8,8 @@
 
 namespace possibility::graph {
 
-/// @throws std::invalid_argument that says which argument of FindPath is wrong and what is
-/// expected of it.
+/// Checks the arguments of FindPath.
+/// @throws std::invalid_argument that names the wrong argument and what is expected of it.
 void CheckFindPathArguments(const Point& start, const std::vector<Point>& goals,
                             const std::vector<std::shared_ptr<const Action>>& actions,
                             const FindPathSettings& settings);

@@ -5,9 +5,9 @@
 namespace possibility::graph {
 namespace {
 
-/// Growth that begins at a random vertex, not the closest one, once there are so many. When rooms
-/// are full of vertices, the closest ones are so close that growth is short, and turns every way;
-/// it takes long ways to thread narrow passages.
+/// Share of growths that begin at a random vertex instead of the closest one, once there are
+/// kManyVertices. In rooms full of vertices the closest one is so close that growth is short and
+/// goes in every direction; narrow passages need long growths.
 constexpr double kShareFromAfar = 0.5;
 constexpr int kManyVertices = 200;
 
@@ -46,7 +46,7 @@ std::optional<VertexId> HolonomicExploration::ChooseRoot(const Point& p_target) 
                    : action_graph().FindClosestVertexTo(p_target);
 }
 
-/// Not if it would join the goal's side to itself, or the start's.
+/// False if the connection would join the goal's side with itself, or the start's side with itself.
 bool HolonomicExploration::IsWorthJoining(VertexId v_0, VertexId v_1) const {
   const PossibilityGraph& master = *context().master;
   if (master.UpstreamFromGoal(v_0)) {

@@ -15,11 +15,11 @@ class HolonomicExploration : public ActionExploration {
   NewElements GrowTowards(const Point& p_target) override;
 
  private:
-  /// Which way edges point in relation to the growth that finds them. Matters only to actions
+  /// Direction of the new edges relative to the growth that finds them. Matters only for actions
   /// that are not reversible.
   enum class Execution { kWithGrowth, kAgainstGrowth };
 
-  /// Where Connect grows to: a point of E, perhaps that of a vertex.
+  /// The point that Connect grows to, with its vertex if it is one.
   struct Target {
     Point point;
     std::optional<VertexId> vertex;
@@ -31,7 +31,7 @@ class HolonomicExploration : public ActionExploration {
   };
 
   Connection Connect(VertexId v_start, const Target& target, Execution execution);
-  /// Extends the connection to the point v_p; false if there is no getting there.
+  /// Extends the connection to the point v_p; false if that is not possible.
   bool AppendEdge(const Point& v_p, Execution execution, Connection* connection);
 
   std::optional<VertexId> ChooseRoot(const Point& p_target);

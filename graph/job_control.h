@@ -11,45 +11,46 @@
 
 namespace possibility::graph {
 
-/// How a routine with a handle of its own is paused, resumed and cancelled from another thread.
-/// Each function returns at once, throws nothing and asks nothing of the JobControl. `cancel`
-/// also ends a pause. All three must be there.
+/// How a routine with its own handle is paused, resumed and cancelled from another thread. Each
+/// function returns at once, does not throw and does not call the JobControl. `cancel` also ends a
+/// pause. All three must be set.
 struct JobSteering {
   std::function<void()> pause;
   std::function<void()> resume;
   std::function<void()> cancel;
 };
 
-/// What joins a running confirmation job to whoever runs it: a ConfirmationQueue, or a test.
-/// Thread-safe: the job calls the first group of functions, other threads the second.
+/// Links a running confirmation job with its runner: a ConfirmationQueue or a test. Thread-safe:
+/// the job calls the first group of functions, other threads the second.
 class JobControl {
  public:
-  /// Not paused. `on_held` (optional) is called by the job's thread when a pause begins to hold it.
+  /// Starts unpaused. The job's thread calls `on_held` (optional) when a pause begins to hold it.
   explicit JobControl(std::function<void()> on_held = {}) : on_held_(std::move(on_held)) {}
   JobControl(const JobControl&) = delete;
   JobControl& operator=(const JobControl&) = delete;
 
-  /// To be called by the job every few milliseconds (at least every 20): sleeps while the job is
-  /// paused. False once it is cancelled: Run then returns without delay. Costs two atomic loads
-  /// while nothing is asked of the job.
+  /// The job calls this every few milliseconds (at least every 20 ms). Sleeps while the job is
+  /// paused. False once the job is cancelled: Run then returns without delay. Costs two atomic
+  /// loads while no pause, cancellation or ration is pending.
   bool Checkpoint();
   bool cancelled() const { return cancelled_.load(std::memory_order_acquire); }
 
-  /// Runs `routine`, steered through its own handle meanwhile, and returns Checkpoint(). What
-  /// `routine` throws passes through. Does not nest. Where turns are counted in checkpoints
-  /// (Ration), a routine that is not charged for what it does gets to its end in one.
+  /// Runs `routine`, steered through its own handle meanwhile, and returns Checkpoint(). Exceptions
+  /// of `routine` pass through. Does not nest. If turns are counted in checkpoints (Ration), a
+  /// routine that never calls Charge runs to its end within one turn.
   bool RunSteered(const JobSteering& steering, const std::function<void()>& routine);
-  /// Counts what a steered routine has done as so many checkpoints. For whatever thread runs it.
+  /// Counts work of a steered routine as this many checkpoints. May be called on any thread.
   void Charge(std::int64_t checkpoints);
 
-  /// Asks the job to pause; true if that holds it at once: a steered routine counts as held as soon
-  /// as it is told. False if `on_held` tells, or told, when it is.
+  /// Asks the job to pause. True if that holds it at once: a steered routine counts as held as soon
+  /// as it is told. Otherwise false: `on_held` reports when the job is held, or has reported it
+  /// already, or the job is cancelled.
   bool Pause();
   void Resume();
-  /// The job is to pause by itself at the last of so many checkpoints from here: always at the same
-  /// place, as an order from outside is not. For jobs that are held or have not begun.
+  /// Makes the job pause by itself at the last of this many checkpoints from here: always at the
+  /// same place, unlike Pause. For jobs that are held or have not begun.
   void Ration(std::int64_t checkpoints);
-  /// Sticky.
+  /// Cannot be undone.
   void Cancel();
 
  private:

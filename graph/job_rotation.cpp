@@ -8,7 +8,7 @@ namespace {
 using Jobs = std::vector<std::unique_ptr<QueuedJob>>;
 using State = QueuedJob::State;
 
-/// Lets the slowest of the jobs that had their turn give way, unless another is about to.
+/// Overrules the slowest paused job that has had its turn, unless an overruled job is about to end.
 void MakeRoom(const Jobs& jobs, const RotationSettings& settings) {
   QueuedJob* slowest = nullptr;
   for (const auto& job : jobs) {

@@ -16,11 +16,11 @@ struct RotationSettings {
   int rotating_jobs_per_worker = 2;
   int slices_per_fair_slice = 8;
   int max_threads = 32;        ///< jobs begun and not ended; the slowest gives way to new ones
-  double job_time_limit = 30;  ///< s of its own time, after which a job has failed
+  double job_time_limit = 30;  ///< s of its own running time, after which a job has failed
 };
 
-/// Who of the jobs of a ConfirmationQueue, which says how, runs next; null: nobody can. `grants`:
-/// slices granted so far. Where new jobs find no thread left, one that was slow is overruled.
+/// Picks the next job by the queue's policy (see ConfirmationQueue); null if none is runnable.
+/// `grants`: slices granted so far. If new jobs find no free thread, a slow job is overruled.
 QueuedJob* PickNext(const std::vector<std::unique_ptr<QueuedJob>>& jobs,
                     const RotationSettings& settings, int num_rotating, std::int64_t grants);
 

@@ -8,18 +8,19 @@
 namespace possibility::graph {
 namespace {
 
-/// Of so many vertices, spread evenly, pivots are chosen.
+/// Pivots are chosen among at most this many evenly spaced vertices.
 constexpr std::size_t kCandidates = 256;
 
-/// Distances in the table are rounded to this share of themselves at most, twice over.
+/// Bound of the relative rounding error of tabulated distances (float), with a factor of at least
+/// two to spare.
 constexpr double kRounding = 2.5e-7;
 
 }  // namespace
 
-/// Of a search: what was found so far, and what bounds the rest.
+/// State of one search: the best vertex so far, and the data of the bounds.
 struct NearestVertices::Best {
   const Point* target;
-  std::array<float, kPivots> from_pivot = {};  ///< of the target
+  std::array<float, kPivots> from_pivot = {};  ///< distances of the target from the pivots
   double margin = 0;                           ///< what rounding may add to a bound
   double distance = std::numeric_limits<double>::infinity();
   std::optional<VertexId> vertex = {};
@@ -36,7 +37,7 @@ void NearestVertices::Insert(VertexId vertex, const Point& point) {
   }
 }
 
-/// Each pivot is as far from those before it as a candidate can be.
+/// Each pivot is the candidate farthest from all pivots before it.
 void NearestVertices::ChoosePivots() {
   pivots_.clear();
   blocks_.clear();
@@ -80,7 +81,7 @@ std::optional<VertexId> NearestVertices::Closest(const Point& p, const Filter& a
   const std::size_t first = block * kBlock;
   const std::size_t last = std::min(first + kBlock, points_.size());
   for (std::size_t i = first; i < last; ++i) {
-    // A bound in doubt by its own rounding is no bound.
+    // Subtract what rounding may have added to the bound.
     const double sure = bound[i - first] * (1 - kRounding) - best->margin;
     if (sure >= best->distance || (admits && !admits(vertices_[i]))) continue;
     const double distance = space_->Distance(points_[i], *best->target);

@@ -9,8 +9,8 @@
 
 namespace possibility::graph {
 
-/// Finds the vertex closest to a point, in any metric. Every vertex keeps its distances from a few
-/// pivots: by the triangle inequality they say, without measuring, that most are not the closest.
+/// Finds the vertex closest to a point, in any metric. Every vertex stores its distances to a few
+/// pivots. The triangle inequality then rules out most vertices without measuring their distance.
 class NearestVertices {
  public:
   /// `space` must outlive this.
@@ -18,17 +18,17 @@ class NearestVertices {
 
   void Insert(VertexId vertex, const Point& point);
 
-  /// In the order of their insertion.
+  /// In insertion order.
   const std::vector<VertexId>& vertices() const { return vertices_; }
 
-  /// The closest of those vertices that `admits` (all if it is empty), the first inserted if there
-  /// are several; nothing if there is none.
+  /// The closest vertex that `admits` (any vertex if it is empty); the first inserted if several
+  /// are equally close; nothing if there is none.
   using Filter = std::function<bool(VertexId)>;
   std::optional<VertexId> Closest(const Point& p, const Filter& admits = {}) const;
 
  private:
   static constexpr std::size_t kPivots = 6;
-  static constexpr std::size_t kBlock = 64;  ///< vertices that are looked through together
+  static constexpr std::size_t kBlock = 64;            ///< vertices that are searched together
   using Block = Eigen::Array<float, kBlock, kPivots>;  ///< distances of vertices (rows) from pivots
   struct Best;
 
@@ -41,7 +41,7 @@ class NearestVertices {
   std::vector<Point> points_;
   std::vector<Point> pivots_;
   std::vector<Block> blocks_;
-  std::size_t next_choice_ = 64;  ///< so many vertices have the pivots chosen again
+  std::size_t next_choice_ = 64;  ///< number of vertices at which the pivots are chosen again
 };
 
 }  // namespace possibility::graph

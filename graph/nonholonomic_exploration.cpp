@@ -5,11 +5,11 @@
 namespace possibility::graph {
 namespace {
 
-/// Every landing is a subgraph of its own that may launch again, and each of those another: what
-/// one growth adds must not depend on how many there are.
+/// Limit of launches, and of landings, per growth. Every landing starts a subgraph that may launch
+/// again; without a limit the work of one growth would rise with the number of subgraphs.
 constexpr int kMostPerGrowth = 3;
 
-/// For v and all vertices upstream or downstream from it.
+/// Sets v and all vertices upstream or downstream from it to false.
 void SetToFalse(const DirectedGraph& topology, VertexId v, Reachability::Direction direction,
                 std::vector<bool>* useful) {
   const bool upstream = direction == Reachability::Direction::kUpstream;

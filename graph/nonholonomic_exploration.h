@@ -8,8 +8,8 @@
 
 namespace possibility::graph {
 
-/// Algorithm 4: grows the graph of a nonholonomic action, from launch points close to vertices
-/// that lead to no goal and to landing points close to vertices that the start does not lead to.
+/// Algorithm 4: grows the graph of a nonholonomic action. Launches near vertices that are not
+/// upstream from a goal, and lands near vertices that are not downstream from the start.
 class NonholonomicExploration : public ActionExploration {
  public:
   NonholonomicExploration(const NonholonomicAction& action, int index,
@@ -18,10 +18,10 @@ class NonholonomicExploration : public ActionExploration {
   NewElements GrowTowards(const Point& p_target) override;
 
  private:
-  /// Which of the vertices are still worth trying in one growth.
+  /// Per vertex: still worth trying in this growth.
   using Useful = std::vector<bool>;
 
-  /// Both are true if they found an edge, whether or not it was there before.
+  /// Both return true if they found an edge, even one that existed before.
   bool LaunchFrom(VertexId v, const Point& p_target, NewElements* found);
   bool LandAt(VertexId v, const Point& p_target, NewElements* found);
 

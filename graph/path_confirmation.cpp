@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kCounterOf[] = {"jobs confirmed", "jobs refuted", "jobs failed",
                                       "jobs cancelled"};
 
-/// Two passes over the whole graph are too much for every cycle.
+/// An update takes two passes over the whole graph, too much for every cycle.
 constexpr int kCollectionsPerRevaluation = 50;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -56,7 +56,7 @@ void PathConfirmation::OnSufficientConditions(int action, VertexId from, VertexI
 }
 
 bool PathConfirmation::Confirm(EdgeId edge, double route_duration) {
-  // The opposite of an edge earlier on the same path may have been removed with it.
+  // The edge may have been removed as the opposite of an edge earlier on the same path.
   if (master_->possibility(edge) != Possibility::kUnexamined) {
     return master_->possibility(edge) == Possibility::kPossible;
   }

@@ -13,7 +13,8 @@
 
 namespace possibility::graph {
 
-/// ConfirmPath of Algorithm 1, and what becomes of the edges it hands to confirmation jobs.
+/// ConfirmPath of Algorithm 1, and the further course of the edges that it hands to confirmation
+/// jobs.
 class PathConfirmation {
  public:
   /// Everything pointed to must outlive this.
@@ -21,19 +22,19 @@ class PathConfirmation {
                    PossibilityGraph* master, ConfirmationQueue* queue, const Deadline* deadline,
                    Counters* counters);
 
-  /// Whether every edge of a path is possible. Edges that meet no sufficient conditions are
-  /// removed from the graph and handed to a confirmation job. Gives up, false, at the deadline.
+  /// Whether every edge of a path is possible. Edges that meet no sufficient conditions are removed
+  /// from the graph and handed to a confirmation job. Gives up at the deadline and returns false.
   bool ConfirmPath(const std::vector<EdgeId>& path);
 
-  /// An unexamined edge of `action` is known to meet its sufficient conditions.
+  /// Marks an unexamined edge of `action` as possible because it meets its sufficient conditions.
   void OnSufficientConditions(int action, VertexId from, VertexId to);
 
-  /// Puts edges that were confirmed since the last call back into the graph. Now and then also
-  /// revalues the jobs that are under way, by the graph as it is now.
+  /// Puts edges that were confirmed since the last call back into the graph. From time to time also
+  /// updates the costs of the open jobs from the current graph.
   void CollectResults();
 
-  /// A path of this expected duration is confirmed: jobs whose answer cannot lead to a quicker one
-  /// are cancelled, now and whenever jobs are revalued.
+  /// Sets the expected duration of the confirmed path. Jobs that cannot lead to a quicker path are
+  /// cancelled, now and whenever costs are updated.
   void SetBound(double duration);
 
   /// Ends all jobs.
@@ -41,22 +42,22 @@ class PathConfirmation {
 
   int num_jobs() const { return num_jobs_; }
 
-  /// Jobs that refuted their edges.
+  /// Number of jobs that refuted their edges.
   int num_refuted() const { return num_refuted_; }
 
-  /// Takes what the jobs found out so far.
+  /// Takes the reports of the jobs that ended so far.
   std::vector<ConfirmationReport> TakeReports() { return std::exchange(reports_, {}); }
 
  private:
-  /// One edge on its way through the actions that might confirm it.
+  /// The examination of one edge by the actions that might confirm it.
   struct Examination {
     EdgeId edge = 0;
-    int next = 0;            ///< position in the order of actions of who is asked next
+    int next = 0;            ///< position of the action that is asked next, see ActionAt
     int asked = 0;           ///< the action whose job is under way
     bool undecided = false;  ///< some job failed
     bool open = false;       ///< a job is in the queue
-    /// Expected duration of the quickest route through the edge, were all edges confirmed that
-    /// jobs examine, s.
+    /// Expected duration of the quickest route through the edge, assuming that all open jobs
+    /// confirm their edges, s.
     double route_duration = 0;
   };
 
@@ -64,16 +65,16 @@ class PathConfirmation {
   bool MeetsSufficientConditions(EdgeId edge);
   void SpawnConfirmationJob(int examination);
   void OnConfirmed(EdgeId edge, int action);
-  /// Takes the queue's results into the counters and reports.
+  /// Moves the queue's results into the counters and reports.
   std::vector<JobResult> Report();
   void RevalueJobs();
-  /// Whether confirmed edges lead from one end of each open direction to the other as quickly.
+  /// Whether confirmed edges connect the same vertices as quickly, in each direction still open.
   bool IsOutdone(EdgeId edge) const;
-  /// Of all actions the one that found the edge comes first.
+  /// The order in which actions are asked: first the action that found the edge, then the others.
   int ActionAt(EdgeId edge, int position) const;
-  /// The edge as `action` is asked for it.
+  /// The points of the edge as `action` is asked for them.
   PointPair PointsFor(EdgeId edge, int action) const;
-  /// The edge, and its opposite unless that is known to be possible.
+  /// The edge, and its opposite unless that is already confirmed.
   std::vector<EdgeId> OpenPair(EdgeId edge) const;
 
   std::vector<std::shared_ptr<const Action>> actions_;

@@ -5,7 +5,7 @@
 
 namespace possibility::graph {
 
-/// One edge of a path: by which action, between which points.
+/// One edge of a path: its action and its points.
 struct PathEdge {
   int action = 0;
   PointPair points;

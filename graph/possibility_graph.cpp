@@ -12,7 +12,7 @@
 namespace possibility::graph {
 namespace {
 
-/// Vertices in the order of the expected duration of the way to them.
+/// Vertices by the expected duration of the way to them, quickest first.
 using Visit = std::pair<double, VertexId>;
 using VisitQueue = std::priority_queue<Visit, std::vector<Visit>, std::greater<>>;
 

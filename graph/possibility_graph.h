@@ -13,25 +13,25 @@
 
 namespace possibility::graph {
 
-/// What is known of an edge beyond that exploration accepted it.
+/// What is known about an edge that exploration accepted.
 enum class Possibility {
-  kUnexamined,     ///< not yet on a path that was to be confirmed
-  kIndeterminate,  ///< meets no sufficient conditions; a confirmation job has to tell, or failed to
+  kUnexamined,     ///< not yet part of a path to confirm
+  kIndeterminate,  ///< meets no sufficient conditions; a confirmation job must decide, or failed to
   kPossible,       ///< meets sufficient conditions, or its job confirmed it
   kImpossible,     ///< no action can confirm it
 };
 
-/// An edge found by exploration, on its way into the graphs.
+/// An edge found by exploration, not yet in the graphs.
 struct NewEdge {
   VertexId from = 0;
   VertexId to = 0;
-  bool reversible = false;  ///< stands for the edge from `to` to `from` as well
+  bool reversible = false;  ///< also stands for the edge from `to` to `from`
 };
 
-/// An edge found by a nonholonomic action that belongs to another: the way to a launch point or
-/// from a landing point.
+/// An edge that a nonholonomic action found for another action: the way to a launch point or from a
+/// landing point.
 struct LineUpEdge {
-  int action = 0;  ///< whose edge it is
+  int action = 0;  ///< the action that the edge belongs to
   NewEdge edge;
 };
 
@@ -40,7 +40,7 @@ struct NewElements {
   std::vector<VertexId> vertices = {};
   std::vector<NewEdge> edges = {};
 
-  /// Those of `vertices` that other actions adopt if they accept them: the launch and landing
+  /// Subset of `vertices` that other actions adopt if they accept them: the launch and landing
   /// points of nonholonomic actions.
   std::vector<VertexId> offered = {};
   std::vector<LineUpEdge> line_ups = {};
@@ -48,12 +48,12 @@ struct NewElements {
   void Append(const NewElements& other);
 };
 
-/// Gamma_PG: the master graph that combines what all actions found. Knows at any time which
-/// vertices are upstream from a goal and which are downstream from the start.
+/// Gamma_PG: the master graph that combines what all actions found. Always knows which vertices are
+/// upstream from a goal and which are downstream from the start.
 class PossibilityGraph {
  public:
-  /// The graph of `start` and `goals` alone. A goal that is the same point as another vertex
-  /// shares its vertex. `space` must outlive this.
+  /// The graph of `start` and `goals` alone. A goal at the same point as another vertex shares its
+  /// vertex. `space` must outlive this.
   PossibilityGraph(const std::vector<std::shared_ptr<const Action>>& actions,
                    const ExplorationSpace* space, const Point& start,
                    const std::vector<Point>& goals);
@@ -65,18 +65,18 @@ class PossibilityGraph {
 
   /// The vertex at `point`, if there is one.
   std::optional<VertexId> FindVertexAt(const Point& point) const { return index_.Find(point); }
-  /// The vertex at `point`, which is created if there is none.
+  /// The vertex at `point`; created if there is none.
   VertexId VertexAt(const Point& point);
 
-  /// Adds the edges that `action` found; edges it has already are left as they are.
-  /// @throws std::invalid_argument if the action's expected duration of one is negative or not
+  /// Adds the edges that `action` found. Existing edges stay unchanged.
+  /// @throws std::invalid_argument if the action's expected duration of an edge is negative or not
   /// finite.
   void Append(int action, const std::vector<NewEdge>& edges);
 
-  /// The edge of `action` between two vertices, if it was ever added, removed or not.
+  /// The edge of `action` between two vertices if it was ever added, even if removed since.
   std::optional<EdgeId> FindEdge(int action, VertexId from, VertexId to) const;
 
-  /// Takes an edge out of the graph and keeps it in mind.
+  /// Takes an edge out of the graph but remembers it.
   void Remove(EdgeId edge);
   /// Puts a removed edge back.
   void Reinsert(EdgeId edge);
@@ -90,16 +90,16 @@ class PossibilityGraph {
   /// there is no path.
   std::optional<std::vector<EdgeId>> ShortestPath(VertexId from, VertexId to) const;
 
-  /// Per vertex: least expected duration of the ways from any of `roots` along edges that
-  /// `include` lets pass, removed or not; infinite if there is none. Upstream, of the ways to any
-  /// of them.
+  /// Per vertex: least expected duration from any of `roots` along edges that pass `include`,
+  /// removed or not; infinite if there is no way. With Direction::kUpstream: least expected
+  /// duration to any of `roots`.
   using EdgeFilter = std::function<bool(EdgeId)>;
   std::vector<double> LeastDurations(const std::vector<VertexId>& roots,
                                      Reachability::Direction direction,
                                      const EdgeFilter& include) const;
 
-  /// Whether edges that `include` lets pass lead from one vertex to another within an expected
-  /// duration of `limit`.
+  /// Whether edges that pass `include` lead from one vertex to another within an expected duration
+  /// of `limit`, s.
   bool LeadsWithin(VertexId from, VertexId to, double limit, const EdgeFilter& include) const;
 
   const ExplorationSpace& space() const { return *space_; }
@@ -109,7 +109,7 @@ class PossibilityGraph {
   int action(EdgeId edge) const { return edges_[edge].action; }
   /// Expected duration, s.
   double duration(EdgeId edge) const { return edges_[edge].duration; }
-  /// The same edge in the opposite direction if its action is reversible.
+  /// The same edge in the opposite direction, if the action is reversible.
   std::optional<EdgeId> opposite(EdgeId edge) const { return edges_[edge].opposite; }
 
   Possibility possibility(EdgeId edge) const { return edges_[edge].possibility; }
@@ -118,7 +118,7 @@ class PossibilityGraph {
   void SetPossibility(EdgeId edge, Possibility possibility);
   void SetPossible(EdgeId edge, int confirmed_by);
 
-  /// How often an edge of `action` was removed or put back.
+  /// Number of times an edge of `action` was removed or put back.
   int num_changes(int action) const { return num_changes_[action]; }
 
  private:

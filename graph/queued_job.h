@@ -18,15 +18,16 @@ struct JobResult {
   int tag = 0;  ///< as given to ConfirmationQueue::Insert
   JobOutcome outcome = JobOutcome::kFailed;
   std::string reason;  ///< as in ConfirmationReport
-  double seconds = 0;  ///< time it ran, pauses left out
+  double seconds = 0;  ///< running time, without pauses
 };
 
-/// A job of a ConfirmationQueue and, once it has begun, its thread. All under the queue's mutex.
+/// A job of a ConfirmationQueue and, once it has begun, its thread. All members are guarded by the
+/// queue's mutex.
 struct QueuedJob {
   using Clock = std::chrono::steady_clock;
   enum class State { kWaiting, kRunning, kPausing, kPaused, kEnded };
 
-  /// A verdict of the queue that overrules whatever the job may still say.
+  /// A verdict of the queue that replaces the job's own.
   struct Overruling {
     JobOutcome outcome = JobOutcome::kCancelled;
     std::string reason;
@@ -37,11 +38,11 @@ struct QueuedJob {
             std::function<void(QueuedJob*)> on_held);
 
   bool HasThread() const { return thread.joinable(); }
-  /// Adds what has passed of its slice to its seconds.
+  /// Adds the elapsed time of the current slice to `seconds`.
   void AddUp();
-  /// Cancels it, unless it has ended or was overruled before.
+  /// Cancels the job, unless it has ended or was overruled before.
   void Overrule(JobOutcome outcome, const std::string& reason);
-  /// Of a job that has ended; waits for its thread.
+  /// Only for a job that has ended; waits for its thread.
   JobResult TakeResult();
 
   int tag;
@@ -53,15 +54,16 @@ struct QueuedJob {
   JobResult result;
   std::int64_t slices = 0;
   double seconds = 0;
-  std::int64_t last_served = 0;  ///< when it was inserted or last ran, on the clock of grants
+  std::int64_t last_served = 0;  ///< grants counter when it was inserted or last resumed
   Clock::time_point slice_begin;
   std::thread thread;
 };
 
-/// Runs a job to its end: its verdict, or why there is none. (In the job's thread, without mutex.)
+/// Runs a job to its end and returns its verdict, or why there is none. Runs on the job's thread,
+/// without the mutex.
 JobResult Examine(ConfirmationJob* job, JobControl* control);
 
-/// "no verdict after 30 s" and `why`.
+/// "no verdict after 30 s", followed by `why`.
 std::string NoVerdictAfter(double seconds, const std::string& why);
 
 }  // namespace possibility::graph

@@ -5,7 +5,7 @@
 namespace possibility::graph {
 
 std::uint64_t UniformIndex(std::uint64_t count, RandomGenerator* generator) {
-  // Numbers beyond the last whole multiple of `count` would favour the small indices.
+  // Numbers beyond the last whole multiple of `count` would favour small indices.
   constexpr std::uint64_t kMax = std::numeric_limits<std::uint64_t>::max();
   const std::uint64_t limit = kMax - kMax % count;
   std::uint64_t number = (*generator)();

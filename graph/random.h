@@ -6,8 +6,8 @@
 
 namespace possibility::graph {
 
-/// Uniform integer in [0, count), the same on every platform (the standard's distributions are
-/// not). `count` >= 1.
+/// Uniform integer in [0, count), the same on every platform (unlike the standard's distributions).
+/// `count` >= 1.
 std::uint64_t UniformIndex(std::uint64_t count, RandomGenerator* generator);
 
 /// Uniform number in [low, high), the same on every platform.

@@ -36,7 +36,6 @@ class RandomExplorer : public Explorer {
   double work_of_turn_ = 0;
 };
 
-/// Makes a RandomExplorer.
 ExplorerFactory RandomExploration();
 
 }  // namespace possibility::graph

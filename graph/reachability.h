@@ -6,9 +6,9 @@
 
 namespace possibility::graph {
 
-/// Which vertices a set of roots reaches along (or against) the edges of a graph, kept up to date
-/// while edges come and go. Holds a forest that spans the reached vertices: a new edge costs what
-/// it newly reaches, a removed one only the subtree that hung on it.
+/// The vertices that a set of roots reaches along (or against) the edges of a graph, updated as
+/// edges come and go. Holds a spanning forest of the reached vertices: a new edge costs what it
+/// newly reaches, a removed edge only the subtree below it.
 class Reachability {
  public:
   enum class Direction {
@@ -26,9 +26,9 @@ class Reachability {
     return vertex < static_cast<int>(parent_.size()) && parent_[vertex] != kUnreached;
   }
 
-  /// To be called after an edge was added to or put back into the graph.
+  /// Call after an edge was added to or put back into the graph.
   void OnInserted(EdgeId edge);
-  /// To be called after an edge was removed from the graph.
+  /// Call after an edge was removed from the graph.
   void OnRemoved(EdgeId edge);
 
  private:

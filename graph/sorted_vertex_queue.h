@@ -9,7 +9,7 @@
 
 namespace possibility::graph {
 
-/// Vertices in the order of a distance; equal distances in the order of their numbers.
+/// Vertices in ascending order of distance; equal distances in the order of vertex number.
 class SortedVertexQueue {
  public:
   void Insert(double distance, VertexId vertex) { queue_.emplace(distance, vertex); }

@@ -6,7 +6,7 @@
 namespace possibility::graph {
 namespace {
 
-/// The first action that C_S lets go along `edge`; nothing if none is sure or time is up.
+/// The first action that C_S lets move along `edge`; nothing if there is none or time is up.
 std::optional<int> FirstSure(const PointPair& edge,
                              const std::vector<std::shared_ptr<const Action>>& actions,
                              const Deadline& deadline) {

@@ -9,12 +9,12 @@
 
 namespace possibility::graph {
 
-/// By which reports name it.
+/// Name of this explorer in reports.
 inline constexpr const char* kStraightExplorer = "straight";
 
-/// Asks every action in turn whether C_S lets it go straight from `start` to a goal. If one does,
-/// the quickest of these paths of one edge goes into `result`, an empty one, as the answer to
-/// everything; true then. False if none does, time is up, or a goal is where the start is.
+/// Asks every action in turn whether C_S lets it go straight from `start` to a goal. If so, writes
+/// the quickest of these one-edge paths, as a complete answer, into `result` (which must be empty)
+/// and returns true. False if no action can, time is up, or a goal equals the start.
 bool GoStraight(const Point& start, const std::vector<Point>& goals,
                 const std::vector<std::shared_ptr<const Action>>& actions, const Deadline& deadline,
                 PathResult* result);

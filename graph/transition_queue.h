@@ -8,13 +8,13 @@
 
 namespace possibility::graph {
 
-/// Q_Transition: vertices of other actions from which one action has yet to try a transition.
+/// Q_Transition: vertices of other actions from which one action has not yet tried a transition.
 class TransitionQueue {
  public:
-  /// Queues a vertex, unless it was ever queued before.
+  /// Queues a vertex unless it was queued before.
   void Insert(VertexId vertex);
 
-  /// Takes out a vertex, each with equal chance; nothing if the queue is empty.
+  /// Takes out a random vertex, all with equal chance; nothing if the queue is empty.
   std::optional<VertexId> PopRandom(RandomGenerator* generator);
 
   int size() const { return static_cast<int>(waiting_.size()); }

@@ -7,7 +7,7 @@ void VertexIndex::Insert(VertexId vertex, const Point& point) {
 }
 
 std::optional<VertexId> VertexIndex::Find(const Point& point) const {
-  // Twice the tolerance, and a little more for large distances: rounding must lose nobody.
+  // Twice the tolerance, and a little more for large distances: rounding must not hide a vertex.
   const double distance = space_->Distance(pivot_, point);
   const double margin = 2 * kSamePointDistance + 1e-14 * distance;
   std::optional<VertexId> found;

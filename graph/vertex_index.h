@@ -9,12 +9,12 @@
 
 namespace possibility::graph {
 
-/// Points closer than this are one point of E.
+/// Points closer than this are the same point of E.
 inline constexpr double kSamePointDistance = 1e-9;
 
-/// Finds the vertex that lies at a given point. Vertices are ordered by their distance from a
-/// fixed pivot: by the triangle inequality only those at nearly the same distance from it can be
-/// the same point, so a look-up measures few distances, whatever the metric.
+/// Finds the vertex at a given point. Vertices are sorted by their distance from a fixed pivot. By
+/// the triangle inequality only vertices at nearly the same distance can be at the same point, so a
+/// look-up measures few distances, in any metric.
 class VertexIndex {
  public:
   /// `space` must outlive this.
