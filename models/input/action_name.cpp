@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLongest = 64;
 
-/// Of ASCII, whatever the locale.
+/// ASCII only, in any locale.
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }

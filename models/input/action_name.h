@@ -7,15 +7,15 @@ namespace possibility::models {
 
 class YamlNode;
 
-/// What an action's name has to be, for messages.
+/// The rule for action names, for messages.
 inline constexpr const char* kActionNameRule =
     "a name of at most 64 letters, digits, '_' and '-' that begins with a letter";
 
-/// Whether gaits, jumps and manoeuvres may be called so: names that neither a terminal nor a page,
-/// a path or "a->b" takes for something else.
+/// Whether a gait, jump or manoeuvre may have this name. Such names are safe in terminals, web
+/// pages, paths and "a->b".
 bool IsActionName(std::string_view name);
 
-/// The text of a node. @throws InputError at it unless it may be an action's name.
+/// Reads an action's name. @throws InputError at the node if the text may not be one.
 std::string ReadActionName(const YamlNode& node);
 
 }  // namespace possibility::models

@@ -28,7 +28,7 @@ bool Names(const fs::path& path, int descriptor) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Removes an unfinished file if nobody holds its lock.
+/// Removes an unfinished file unless a writer holds its lock.
 void RemoveIfLeft(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return;
@@ -81,7 +81,7 @@ void AtomicFile::OpenUnfinished() {
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno == EEXIST) continue;
     if (descriptor_ < 0) Fail();
-    // Somebody else may lock and remove it first. Where there are no locks nobody removes it.
+    // Another writer may lock and remove the file first. Without file locks, no writer removes it.
     ::flock(descriptor_, LOCK_EX);
     if (Names(path, descriptor_)) {
       unfinished_ = std::move(path);
@@ -116,8 +116,8 @@ void AtomicFile::Flush() {
 
 void AtomicFile::Commit() {
   Flush();
-  // Network file systems tell of a full disk when a descriptor is closed. The other one holds the
-  // lock until the file has its name, so that nobody takes it for one that was left.
+  // Network file systems report a full disk when a descriptor is closed. The other descriptor holds
+  // the lock until the file has its name, so that no writer takes it for a leftover.
   const int copy = ::dup(descriptor_);
   if (copy < 0 || ::close(copy) != 0) Fail();
   if (!unfinished_.empty() && ::rename(unfinished_.c_str(), file_.c_str()) != 0) Fail();

@@ -6,15 +6,15 @@
 
 namespace possibility::models {
 
-/// A file that is complete or absent: it is written under another name in the same folder and takes
-/// its own with Commit. Its writer holds a lock on it (flock), so whoever writes next into the
-/// folder removes what writers that were killed left there. Links stay links; devices and pipes are
-/// written directly.
+/// A file that is either complete or absent: it is written under a temporary name in the same
+/// folder, and Commit renames it. The writer holds a lock on it (flock), so the next writer in the
+/// folder recognises and removes files that killed writers left there. Links stay links; devices
+/// and pipes are written directly.
 class AtomicFile {
  public:
-  /// @throws InputError naming the file if none can be made there.
+  /// @throws InputError naming the file if it cannot be created.
   explicit AtomicFile(std::filesystem::path file);
-  /// Without Commit nothing stays.
+  /// Discards the file unless Commit was called.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -22,7 +22,7 @@ class AtomicFile {
   /// Appends. @throws InputError if the disk is full or fails.
   void Write(std::string_view text);
 
-  /// Replaces what was there. Once only, and last. @throws InputError as Write.
+  /// Replaces the previous file. Call once, as the last step. @throws InputError like Write.
   void Commit();
 
  private:
@@ -31,12 +31,12 @@ class AtomicFile {
   [[noreturn]] void Fail() const;
 
   std::filesystem::path file_;
-  std::filesystem::path unfinished_;  ///< empty: there is none
+  std::filesystem::path unfinished_;  ///< empty if there is none
   int descriptor_ = -1;
   std::string buffer_;
 };
 
-/// The whole file at once. @throws InputError as AtomicFile.
+/// Writes a whole file at once. @throws InputError like AtomicFile.
 void WriteAtomically(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace possibility::models

@@ -19,7 +19,7 @@ std::string Hexadecimal(const XXH128_hash_t& hash) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// The lowest first, on any machine.
+/// Lowest byte first on any machine.
 std::string EightBytes(std::uint64_t number) {
   std::string bytes;
   for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(number >> shift & 0xff);

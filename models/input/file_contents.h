@@ -14,8 +14,9 @@ std::string ReadFileContents(const std::filesystem::path& file);
 /// XXH3 (128 bits, seed 0) of the bytes, as 32 lower-case hexadecimal digits.
 std::string ContentHash(std::string_view bytes);
 
-/// The same of several texts: of their number, then the length and the bytes of each; numbers as
-/// eight bytes, the lowest first. Bytes that move from one part to the next change it.
+/// Hash of several texts: ContentHash of their number, then the length and the bytes of each
+/// (numbers as eight bytes, lowest first). Bytes that move from one part to the next change the
+/// hash.
 std::string HashOfParts(const std::vector<std::string_view>& parts);
 
 }  // namespace possibility::models

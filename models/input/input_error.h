@@ -5,9 +5,9 @@
 
 namespace possibility {
 
-/// Thrown for anything a user handed us and can mend: a malformed file, an unknown key, a
-/// number out of range, a start in collision. The message is one line that names the file, the
-/// line or key, what is wrong and what was expected; the program prints it and exits with 1.
+/// Thrown for input errors that the user can fix: a malformed file, an unknown key, a number out of
+/// range, a start in collision. The message is one line that names the file, the line or key, the
+/// error and what was expected. The program prints it and exits with 1.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}

@@ -13,13 +13,13 @@
 namespace possibility::models {
 namespace {
 
-/// A key as it may stand in a one-line message.
+/// A key, fit for a one-line message.
 std::string Printable(const std::string& key) {
   const nlohmann::json json(key.substr(0, 40));
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-/// Refuses a key that an object holds twice.
+/// Rejects duplicate keys of an object.
 class DuplicateKeyGuard {
  public:
   explicit DuplicateKeyGuard(const std::filesystem::path& file) : file_(&file) {}

@@ -9,25 +9,25 @@
 
 namespace possibility::models {
 
-/// A JSON document. `kind` says what was expected, in messages: "a FORMAT file".
-/// @throws InputError if the text is not JSON, or an object holds a key twice (of which the parser
-/// alone would keep the last).
+/// Parses a JSON document. `kind`: what was expected, for messages, such as "a FORMAT file".
+/// @throws InputError if the text is not JSON, or an object has a key twice (the parser alone would
+/// keep the last one).
 nlohmann::json ParseJson(const std::string& text, const std::filesystem::path& file,
                          std::string_view kind);
 
-/// A place in a JSON document that knows its way from the root, so that whatever is wrong there
-/// can be reported with file and path. The path is only spelled out when something is wrong.
+/// A position in a JSON document that knows its path from the root, so that errors there are
+/// reported with file and path. The path is only built when an error occurs.
 /// A cursor must not outlive the cursor it came from.
 class JsonCursor {
  public:
-  /// The root. `file` is only named in messages.
+  /// The root. `file` is only used in messages.
   JsonCursor(const nlohmann::json& value, const std::filesystem::path& file)
       : value_(&value), file_(&file) {}
 
-  /// @throws InputError unless this is an object whose "format" is this.
+  /// @throws InputError unless this is an object whose "format" is `format`.
   void ExpectFormat(std::string_view format) const;
 
-  /// @throws InputError unless this is an object with all of `keys` and none but them and
+  /// @throws InputError unless this is an object with all of `keys` and no others except
   /// `optional`, in any order.
   void ExpectKeys(std::initializer_list<std::string_view> keys,
                   std::initializer_list<std::string_view> optional = {}) const;

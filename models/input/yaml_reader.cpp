@@ -22,7 +22,7 @@ bool IsPrintable(const std::string& text) {
                       [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
-// Messages are one line, whatever the file holds.
+// Messages are one line, whatever the file contains.
 std::string Printable(std::string text) {
   constexpr std::size_t kLongest = 60;
   if (text.size() > kLongest) text.replace(kLongest, std::string::npos, "...");
@@ -32,7 +32,7 @@ std::string Printable(std::string text) {
   return text;
 }
 
-// Lengths, angles and forces beyond this are slips of the pen and would overflow when squared.
+// Lengths, angles and forces beyond this are typing errors and would overflow when squared.
 constexpr double kLargestNumber = 1e6;
 
 // Ignores what a parser finds.
@@ -52,8 +52,8 @@ class NullHandler : public YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-// YAML::Load stops after the first document without a word, and YAML::LoadAll never returns for a
-// text that goes on with a stray comma or bracket.
+// YAML::Load silently stops after the first document. YAML::LoadAll never returns for a text that
+// goes on with a stray comma or bracket.
 bool IsSingleDocument(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
@@ -131,7 +131,7 @@ std::vector<std::pair<YamlNode, YamlNode>> YamlNode::KeysAndValues() const {
     if (!seen.insert(key_node.Scalar()).second) {
       key.Fail(fmt::format("the key '{}' appears twice", name));
     }
-    // An absent value's own mark lies wherever the next token starts.
+    // The mark of an absent value is where the next token starts.
     const int line = value_node.IsNull() ? key_line : value_node.Mark().line;
     pairs.emplace_back(key, Child(value_node, line, path_.empty() ? name : path_ + "." + name));
   }

@@ -15,8 +15,8 @@ class Node;
 
 namespace possibility::models {
 
-/// A value of a YAML file that knows where it stands. Every reader throws InputError
-/// "file:line: path.to.key: expected this, got that"; nothing is converted or defaulted silently.
+/// A value of a YAML file with its file, line and path. Every reader throws InputError "file:line:
+/// path.to.key: expected this, got that"; nothing is converted or defaulted silently.
 class YamlNode {
  public:
   /// The single document of `text`; `file` is for messages only.
@@ -27,7 +27,7 @@ class YamlNode {
   /// Fail with "expected `expected`, got <this value>".
   [[noreturn]] void FailExpected(const std::string& expected) const;
 
-  /// This value as a map with no other keys than `known`, each at most once.
+  /// This value as a map with no keys other than `known`, each at most once.
   const YamlNode& MapOf(const std::vector<std::string>& known) const;
   /// A required key of a map.
   YamlNode At(const std::string& key) const;
@@ -58,9 +58,9 @@ class YamlNode {
   YamlNode Child(const YAML::Node& node, int line, std::string path) const;
   /// Keys as nodes at this value's path, and their values; each key once.
   std::vector<std::pair<YamlNode, YamlNode>> KeysAndValues() const;
-  /// The numbers of a list of `count`, nullopt unless all are numbers in range.
+  /// The `count` numbers of a list; nullopt unless all are numbers in range.
   std::optional<std::vector<double>> FiniteNumbers(std::size_t count, std::string* got) const;
-  /// The scalar as a double (inf and nan included), nullopt if it is none.
+  /// The scalar as a double (inf and nan included); nullopt if it is not a number.
   std::optional<double> ParsedNumber() const;
   std::string Described() const;
 

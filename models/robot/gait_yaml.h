@@ -8,14 +8,14 @@
 namespace possibility::models {
 
 /// Reads the `gaits` list of a robot YAML (docs/file_formats.md). Links, joints and contacts of
-/// `robot` are complete. Nominal postures are checked: joints within limits, contacts on z = 0.
+/// `robot` must be complete. Checks nominal postures: joints within limits, contacts on z = 0.
 /// @throws InputError for anything malformed or inconsistent.
 std::vector<Gait> ReadGaits(const YamlNode& list, const RobotModel& robot);
 
-/// Reads the `transitions` list; the gaits of `robot` are complete.
+/// Reads the `transitions` list. The gaits of `robot` must be complete.
 std::vector<Transition> ReadTransitions(const YamlNode& list, const RobotModel& robot);
 
-/// Reads the `jumps` list; the gaits of `robot` are complete.
+/// Reads the `jumps` list. The gaits of `robot` must be complete.
 std::vector<Jump> ReadJumps(const YamlNode& list, const RobotModel& robot);
 
 }  // namespace possibility::models

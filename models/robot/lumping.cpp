@@ -38,7 +38,7 @@ class TreeBuilder {
  private:
   [[noreturn]] void Fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
-  // Adds the URDF link to the kept link `kept`, posed there at X_KL, and goes on below it.
+  // Adds the URDF link to the kept link `kept`, posed there at X_KL, and continues below it.
   void Attach(const std::string& name, int kept, const Eigen::Isometry3d& X_KL) {
     const UrdfLink& source = *links_.at(name);
     Link& target = robot_->links[kept];

@@ -8,7 +8,7 @@
 
 namespace possibility::models {
 
-/// `body` moved by X_PL and added to `total`, both rigidly attached to P (parallel-axis theorem).
+/// Adds `body`, moved by X_PL, to `total`; both are rigidly attached to P (parallel-axis theorem).
 Inertial Combined(const Inertial& total, const Inertial& body, const Eigen::Isometry3d& X_PL);
 
 /// Fills `robot->links` and `robot->joints` from the tree: depth first from the root, children in

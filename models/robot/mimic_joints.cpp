@@ -90,7 +90,8 @@ class Coupler {
     return mimic;
   }
 
-  /// Of a master: whether some interval of its positions suits it and all its mimics.
+  /// Checks that some interval of a master's positions is within its limits and those of all its
+  /// mimics.
   void CheckLimits(int master) const {
     double lower = robot_->joints[master].lower;
     double upper = robot_->joints[master].upper;

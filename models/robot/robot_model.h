@@ -14,7 +14,7 @@ namespace possibility::models {
 
 enum class JointType { kRevolute, kContinuous, kPrismatic };
 
-/// Mass properties of one link, everything that is fixed to it lumped in.
+/// Mass properties of one link, including everything fixed to it.
 struct Inertial {
   double mass = 0;                                 ///< kg
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  ///< centre of mass in the link frame, m
@@ -27,10 +27,10 @@ struct Link {
   std::vector<PosedShape> shapes;  ///< collision shapes, posed in the link frame
 };
 
-/// Couples a joint to another one: q = multiplier * q[joint] + offset. The master is no mimic
+/// Couples a joint to another one: q = multiplier * q[joint] + offset. The master is never a mimic
 /// itself: chains are composed when the robot is read.
 struct Mimic {
-  int joint = 0;          ///< index of the master, anywhere in the order
+  int joint = 0;          ///< index of the master; may be higher than the mimic's
   double multiplier = 1;  ///< finite, not 0; units of this joint per unit of the master
   double offset = 0;      ///< rad or m
 };
@@ -45,12 +45,13 @@ struct Joint {
   double lower = 0;                                        ///< rad or m; -inf if continuous
   double upper = 0;
   double velocity = 0;  ///< rad/s or m/s
-  double effort = 0;    ///< N m or N; of a mimic joint: infinite, its master's counts
+  double effort = 0;    ///< N m or N; infinite for a mimic joint, whose master's limit counts
   std::optional<Mimic> mimic;
 };
 
-/// Where the robot may bear on the ground: the corner points of a sole, or the tip of a peg.
-/// Forces act at the points; the outward normal (from the robot into the ground) is `normal_L`.
+/// A part of the robot that may bear on the ground: the corner points of a sole, or the tip of a
+/// peg. Forces act at the points; the outward normal (from the robot into the ground) is
+/// `normal_L`.
 struct ContactPatch {
   std::string name;
   int link = 0;
@@ -73,17 +74,17 @@ struct GaitLimb {
   std::vector<int> joints;       ///< as many as rows; every other joint keeps its nominal value
 };
 
-/// Bounds of one stride: every limb once, from one nominal stance to the next. A displacement
-/// (dx, dy, dyaw) in the frame of the stance is allowed while
-/// |dx|/forward + |dy|/lateral + |dyaw|/turn <= 1.
+/// Bounds of one stride: each limb swings once, from one nominal stance to the next. A displacement
+/// (dx, dy, dyaw) in the frame of the stance is allowed while |dx|/forward + |dy|/lateral +
+/// |dyaw|/turn <= 1.
 struct GaitParameters {
-  double forward = 0;             ///< m
-  double lateral = 0;             ///< m
-  double turn = 0;                ///< rad
-  double clearance = 0;           ///< m, height of the swing above the ground at mid-swing
-  double com_margin = 0;          ///< m, wanted distance of the com from the support polygon's edge
-  double swing_time = 0;          ///< s, one limb's swing
-  double com_acceleration = 0;    ///< m/s^2, peak, sets the time of weight shifts
+  double forward = 0;           ///< m
+  double lateral = 0;           ///< m
+  double turn = 0;              ///< rad
+  double clearance = 0;         ///< m, height of the swing above the ground at mid-swing
+  double com_margin = 0;        ///< m, desired distance of the com from the support polygon's edge
+  double swing_time = 0;        ///< s, duration of one limb's swing
+  double com_acceleration = 0;  ///< m/s^2, peak; sets the duration of weight shifts
   double minimum_shift_time = 0;  ///< s
 };
 
@@ -95,8 +96,9 @@ struct Gait {
   GaitParameters parameters;
 };
 
-/// Between the nominal stances of two gaits: patches that both use do not move, and `to` bears on
-/// all that `from` bears on. The reverse transition is the same motion backwards in time.
+/// A transition between the nominal stances of two gaits. Patches that both gaits use do not move,
+/// and `to` bears on every patch that `from` bears on. The reverse transition is the same motion
+/// backwards in time.
 struct Transition {
   std::string from;
   std::string to;
@@ -104,16 +106,16 @@ struct Transition {
 
 /// A standing long jump from the nominal stance of one gait to that of another, straight ahead.
 struct Jump {
-  std::string name;  ///< the action it is: "jump"
+  std::string name;  ///< the action's name: "jump"
   std::string from;
   std::string to;
 };
 
 /// Immutable description of a robot: URDF + robot YAML (docs/file_formats.md).
 ///
-/// Mimic joints have their entries in q, v, a and torques like all others; those of q, v and a
-/// follow from their masters'. Their torques act through the master: its effort limit is that of
-/// the sum of its own torque and multiplier * torque of each of its mimics.
+/// Mimic joints have entries in q, v, a and torques like all other joints. Their q, v and a follow
+/// from their masters'. Their torques act through the master: its effort limit applies to its own
+/// torque plus the sum of multiplier * torque over its mimics.
 ///
 /// Configuration q (nq = 7 + num_joints): root orientation quaternion (w, x, y, z), root position
 /// (m, world), joints. Velocity v (nv = 6 + num_joints): root angular velocity, root linear
@@ -121,7 +123,7 @@ struct Jump {
 struct RobotModel {
   std::string name;
   std::filesystem::path file;  ///< the YAML
-  std::string content_hash;    ///< of YAML and URDF bytes
+  std::string content_hash;    ///< of the YAML and URDF bytes
   std::vector<Link> links;     ///< links[0] is the root
   std::vector<Joint> joints;   ///< parents before children
   std::vector<ContactPatch> contacts;
@@ -140,7 +142,7 @@ struct RobotModel {
   double TotalMass() const;
   /// Whether the joint mimics another one or is mimicked.
   bool IsCoupled(int joint) const;
-  /// Index by name; throws InputError naming the nearest known name.
+  /// Index by name. @throws InputError naming the nearest known name.
   int LinkIndex(const std::string& name) const;
   int JointIndex(const std::string& name) const;
   int ContactIndex(const std::string& name) const;

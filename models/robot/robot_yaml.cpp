@@ -138,7 +138,7 @@ const std::vector<std::string> kRobotKeys = {
     "friction",    "effort", "shapes",         "contacts",          "gaits",
     "transitions", "jumps",  "sagittal_pairs", "ignored_collisions"};
 
-/// Everything but the tree itself.
+/// Reads everything but the tree.
 void ReadDescription(const YamlNode& root, RobotModel* robot) {
   robot->pelvis_shape_link = IndexOfNamed(root.At("pelvis_link"), robot->links, "link");
   robot->friction = root.At("friction").Positive();

@@ -7,8 +7,8 @@
 
 namespace possibility::models {
 
-/// Reads a robot YAML and the URDF it names. Links that fixed joints or the YAML's `lump` list
-/// attach are lumped into their parents (mass properties and shapes).
+/// Reads a robot YAML and the URDF it names. Links attached by fixed joints or by joints of the
+/// YAML's `lump` list are lumped into their parents (mass properties and shapes).
 /// @throws InputError for anything malformed, unknown, missing, NaN or physically impossible.
 RobotModel LoadRobotModel(const std::filesystem::path& yaml_file);
 

@@ -12,12 +12,12 @@
 namespace possibility::models {
 namespace {
 
-constexpr char kPercent = '\x1a';  // XML 1.0 allows no control characters but blanks
+constexpr char kPercent = '\x1a';  // XML 1.0 forbids control characters except white space
 constexpr int kMostElements = 2000;
 
-/// An element that is copied, with the attributes and children that are copied with it.
+/// An element to copy, with the attributes and children to copy with it.
 struct Element {
-  std::string_view name;  ///< empty: any
+  std::string_view name;  ///< empty: any name
   std::vector<const char*> names;
   std::vector<const char*> values;
   std::vector<Element> children;
@@ -117,7 +117,8 @@ class Extraction {
       Fail(source.GetLineNum(), fmt::format("expected at most {} links and joints", kMostElements));
     }
     if (found->name != "mesh") return Copy(source, *found);
-    // Refused once it is known whose it is; its file may be called anything.
+    // ParseUrdf rejects the mesh later, with the name of its link. The mesh's own file name is not
+    // copied, since it may contain anything.
     printer_.OpenElement("mesh", true);
     printer_.PushAttribute("filename", "file");
     printer_.CloseElement(true);

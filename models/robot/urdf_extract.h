@@ -5,16 +5,16 @@
 
 namespace possibility::models {
 
-/// What we use of a URDF, as a URDF of its own: links with mass properties and collision shapes,
-/// joints with origin, axis, limits and mimic. Nothing else is copied.
+/// Copies the parts of a URDF that we use into a URDF of their own: links with mass properties and
+/// collision shapes, joints with origin, axis, limits and mimic. Nothing else is copied.
 ///
-/// urdfdom 3 hands texts of the file to printf as formats, so no '%' may get there, and no element
-/// nested deeper than its parser's stack. The extract holds no '%': in names, where it is legal, a
-/// byte that XML forbids stands for it; elsewhere it is an error.
-/// @throws InputError if the text is not XML, or something we use cannot be in any URDF.
+/// urdfdom 3 passes texts of the file to printf as formats, and deeply nested elements overflow its
+/// parser's stack. The extract therefore has no '%' and no deep nesting. In names, where '%' is
+/// legal, a byte that XML forbids replaces it; elsewhere '%' is an error.
+/// @throws InputError if the text is not XML, or a part that we use is not valid in any URDF.
 std::string ExtractUrdf(const std::string& text, const std::filesystem::path& file);
 
-/// A name of the extract, or a message about it, as in the file.
+/// Restores the '%' in a name of the extract, or in a message about it.
 std::string DecodeUrdfName(std::string name);
 
 }  // namespace possibility::models

@@ -16,7 +16,7 @@
 namespace possibility::models {
 namespace {
 
-// urdfdom reports to a process-wide handler only; keeps the first errors in place of printing.
+// urdfdom reports only to a process-wide handler. Keeps the first errors instead of printing them.
 class ErrorCapture : public console_bridge::OutputHandler {
  public:
   ErrorCapture() : lock_(Mutex()) { console_bridge::useOutputHandler(this); }
@@ -26,7 +26,7 @@ class ErrorCapture : public console_bridge::OutputHandler {
     if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR || ++count_ > kKept) return;
     errors_ += (errors_.empty() ? "" : "; ") + text;
   }
-  // The first says what is wrong, the second where.
+  // The first error says what is wrong, the second where.
   const std::string& errors() const { return errors_; }
 
  private:
@@ -62,7 +62,7 @@ class UrdfConverter {
     UrdfTree tree;
     for (const auto& [name, link] : model_.links_) tree.links.push_back(ConvertLink(*link));
     for (const auto& [name, joint] : model_.joints_) tree.joints.push_back(ConvertJoint(*joint));
-    // urdfdom sorts by the extract's names, in which a byte stands for each '%'.
+    // urdfdom sorts by the names of the extract, in which another byte replaces each '%'.
     std::ranges::sort(tree.links, {}, &UrdfLink::name);
     std::ranges::sort(tree.joints, {}, &UrdfJoint::name);
     tree.root = Root(tree);
@@ -86,7 +86,7 @@ class UrdfConverter {
     return X;
   }
 
-  // Larger numbers than any robot has would overflow when squared.
+  // Numbers larger than those of any robot would overflow when squared.
   void CheckMagnitude(const std::vector<double>& values, const std::string& owner,
                       const std::string& what) const {
     for (const double value : values) {
@@ -225,7 +225,8 @@ class UrdfConverter {
     return root;
   }
 
-  // With one parent each and one root, what the root does not reach hangs on a cycle.
+  // Every link but the root has one parent, so a link that the root does not reach hangs on a
+  // cycle.
   void CheckReachable(const UrdfTree& tree) const {
     std::multimap<std::string, std::string> children;
     for (const UrdfJoint& joint : tree.joints) children.emplace(joint.parent, joint.child);
@@ -252,7 +253,8 @@ urdf::ModelInterfaceSharedPtr ParseWithUrdfdom(const std::string& text, const st
   std::string reason;
   try {
     auto model = urdf::parseURDF(text);
-    // It also goes on without the collision or inertial element that it could not read.
+    // urdfdom also returns a model without the collision or inertial elements that it could not
+    // read.
     if (model && capture.errors().empty()) return model;
     reason = DecodeUrdfName(capture.errors());
   } catch (const std::exception& error) {

@@ -6,8 +6,9 @@
 namespace possibility::models {
 namespace {
 
-/// An item that reaches over more than this part of a node has a leaf of its own beside all others:
-/// below it, every node on the way down would be as large. (A floor under ten thousand obstacles.)
+/// An item that spans more than this part of a node gets its own leaf beside all others. Otherwise
+/// every node on the path down to it would be as large. (Example: a floor under ten thousand
+/// obstacles.)
 constexpr double kLargePart = 0.5;
 
 }  // namespace

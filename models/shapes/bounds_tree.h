@@ -14,26 +14,26 @@ class BoundsTree {
   explicit BoundsTree(std::vector<Eigen::AlignedBox3d> items);
 
   /// Calls `visit(item)` for every item whose box comes within `limit` (m, >= 0) of `bounds`, near
-  /// subtrees first. It returns the limit from then on; a negative one ends the search.
+  /// subtrees first. `visit` returns the limit from then on; a negative limit ends the search.
   template <typename Visitor>
   void VisitNear(const Eigen::AlignedBox3d& bounds, double limit, const Visitor& visit) const;
 
  private:
   struct Node {
     Eigen::AlignedBox3d bounds;
-    int item = -1;  ///< of leaves
+    int item = -1;  ///< leaves only
     std::array<int, 2> children = {-1, -1};
   };
-  /// On a way down, so many splits at most set apart a single item.
+  /// Most splits on a path from the root that set apart a single item.
   static constexpr int kMaxSetApart = 16;
-  /// Half the items lie on either side of every other split, so depth stays below 32 + kMaxSetApart
-  /// for any int count.
+  /// All other splits halve the items, so the depth stays below 32 + kMaxSetApart for any int
+  /// count.
   static constexpr int kMaxDepth = 64;
 
   int Build(std::vector<int>::iterator first, std::vector<int>::iterator last, int set_apart,
             const std::vector<Eigen::AlignedBox3d>& items);
 
-  std::vector<Node> nodes_;  ///< the root is the first
+  std::vector<Node> nodes_;  ///< nodes_[0] is the root
 };
 
 template <typename Visitor>

@@ -76,7 +76,7 @@ Eigen::Quaterniond FromRollPitchYaw(const Eigen::Vector3d& rpy) {
 
 PosedShape ReadPosedShape(const YamlNode& node) {
   PosedShape posed{ReadShape(node), Eigen::Isometry3d::Identity()};
-  // The vertices of a convex shape already say where it is.
+  // The vertices of a convex shape already place it, so its position is optional.
   if (posed.shape.type != ShapeType::kConvexMesh || node.Find("position")) {
     posed.X_PS.translation() = node.At("position").Vector3();
   }

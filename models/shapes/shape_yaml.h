@@ -12,7 +12,7 @@ namespace possibility::models {
 extern const std::vector<std::string> kShapeKeys;
 
 /// Reads `shape`, its dimensions, `position` and `rpy_deg` of a map. The caller checks the map's
-/// keys against kShapeKeys and its own; dimensions of another kind of shape are refused here.
+/// keys against kShapeKeys and its own keys. Dimensions of another kind of shape are rejected here.
 /// @throws InputError for anything missing or malformed.
 PosedShape ReadPosedShape(const YamlNode& node);
 

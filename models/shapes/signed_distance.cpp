@@ -16,17 +16,17 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// An answer of Bullet's is taken when its own estimate and the proven bound agree this well, m.
+/// Bullet's answer is accepted when its own estimate and the proven bound agree this well, m.
 constexpr double kAgreement = 1e-6;
 
-/// How far cores that touch are moved apart, m.
+/// Distance by which touching cores are moved apart, m.
 constexpr double kShift = 1e-5;
 
-/// The cross product of two edges with a smaller sine is no direction of its own: the faces'
-/// normals stand in for it.
+/// If its sine is smaller, the cross product of two edges is not a direction of its own: the face
+/// normals replace it.
 constexpr double kParallelSine = 1e-6;
 
-/// The cores of two shapes, seen from the first one.
+/// The cores of two shapes, in the frame of the first one.
 struct Cores {
   const PreparedShape& A;
   const PreparedShape& B;
@@ -71,8 +71,8 @@ Separation SeparateByFaces(const Cores& cores) {
   return best;
 }
 
-/// Goes on with the cross products of the boxes' edges. Together with the faces these are all
-/// face normals of the Minkowski difference, so that of overlapping boxes the gap is exact.
+/// Continues with the cross products of the boxes' edges. Together with the faces these are all
+/// face normals of the Minkowski difference, so the gap of overlapping boxes is exact.
 void SeparateByEdges(const Cores& cores, Separation* best) {
   const Eigen::Matrix3d R = cores.X_AB.linear();
   const Vector3d p = cores.X_AB.translation();
@@ -138,7 +138,7 @@ struct Estimate {
   Vector3d n_A = Vector3d::UnitX();
 };
 
-/// GJK, and EPA where the cores overlap; none if they give up.
+/// GJK, or EPA if the cores overlap; none if they give up.
 std::optional<Estimate> AskBullet(const Cores& cores, const btTransform& X_AB,
                                   const Vector3d& guess) {
   using Solver = btGjkEpaSolver2;
@@ -158,7 +158,7 @@ std::optional<Estimate> AskBullet(const Cores& cores, const btTransform& X_AB,
 }
 
 /// Takes Bullet's directions from several starts until an estimate agrees with the bound that its
-/// direction proves: GJK and EPA stall now and then, depending on where they start.
+/// direction proves. GJK and EPA sometimes stall, depending on the start.
 bool ImproveByBullet(const Cores& cores, Separation* best) {
   const btTransform X_AB = ToBullet(cores.X_AB);
   const Eigen::Matrix3d R = cores.X_AB.linear();
@@ -186,9 +186,9 @@ bool ImproveByBullet(const Cores& cores, Separation* best) {
   return false;
 }
 
-/// Neither GJK nor EPA manages cores that just touch. Moved apart along the line of their centres
-/// they come clear of each other, and the direction found there proves a bound for the cores in
-/// place that is off by at most twice the shift.
+/// GJK and EPA both fail for cores that just touch. The cores are moved apart along the line of
+/// their centres; the direction found there proves a bound for the original cores that is off by at
+/// most twice the shift.
 void ImproveTouching(const Cores& cores, Separation* best) {
   Cores apart = cores;
   const double distance = cores.X_AB.translation().norm();

@@ -6,13 +6,13 @@
 
 namespace possibility::models {
 
-/// Signed distance between two convex shapes, m: how far apart they are, or minus the length of
-/// the shortest translation that separates them. `X_WA`, `X_WB`: poses of their core frames C.
+/// Signed distance between two convex shapes, m: their distance, or minus the length of the
+/// shortest translation that separates them. `X_WA`, `X_WB`: poses of their core frames C.
 ///
-/// The value is a lower bound that some separating direction proves, so it errs only towards
-/// smaller; for shapes of up to tens of metres by well under 0.05 mm. If the distance is `enough`
-/// or more, any proven value of at least `enough` may be returned, which is faster. A pose that is
-/// not finite yields minus infinity.
+/// The value is a lower bound that a separating direction proves. It is never too large; for shapes
+/// of up to tens of metres it is too small by well under 0.05 mm. If the distance is `enough` or
+/// more, any proven value of at least `enough` may be returned, which is faster. Minus infinity if
+/// a pose is not finite.
 double SignedDistance(const PreparedShape& A, const Eigen::Isometry3d& X_WA, const PreparedShape& B,
                       const Eigen::Isometry3d& X_WB, double enough);
 

@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 /// Largest tilt of a box that counts as upright, rad: less than a micrometre over a hundred metres.
 constexpr double kMaxTilt = 1e-8;
 
-/// Sides of `b` against those of `a`, both ways round: the separating axes of two rectangles are
-/// the normals of their sides.
+/// Whether an axis of `a` separates the rectangles seen from above by at least `gap`. Call both
+/// ways round: the separating axes of two rectangles are the normals of their sides.
 bool SidesSeparate(const Prism& a, const Prism& b, const Vector2d& from_a_to_b, double cosine,
                    double sine, double gap) {
   const double along = std::abs(from_a_to_b.dot(a.x_axis));

@@ -21,7 +21,7 @@ constexpr double kRounding = 1e-8;
 
 struct PosedBody {
   PreparedShape shape;
-  Isometry3d X_PC;  ///< of the core, in the link or in the world
+  Isometry3d X_PC;  ///< pose of the core in the link or in the world
 };
 
 std::vector<PosedBody> PrepareLink(const Link& link) {
@@ -50,15 +50,15 @@ std::vector<std::pair<int, int>> SelfPairs(const RobotModel& robot) {
   return pairs;
 }
 
-/// Farther apart than this, boxes around shapes rule the shapes out; negative thresholds ask for
-/// overlap, which needs overlapping boxes.
+/// Shapes whose bounding boxes are farther apart than this are ruled out. A negative threshold asks
+/// for overlap, which needs overlapping boxes.
 double Reach(double threshold) { return std::max(threshold, 0.0) + kRounding; }
 
 bool FartherThan(const AlignedBox3d& a, const AlignedBox3d& b, double reach) {
   return a.squaredExteriorDistance(b) > reach * reach;
 }
 
-/// Nothing if one of them is not finite.
+/// Nothing if a prism is not finite.
 std::optional<AlignedBox3d> BoundsOf(const std::vector<Prism>& prisms) {
   AlignedBox3d bounds;
   for (const Prism& prism : prisms) {
@@ -96,7 +96,7 @@ struct CollisionChecker::Impl {
     }
   }
 
-  /// The nearest obstacle's distance, `at_most` at most; anything below `stop_below` ends the
+  /// Distance of the nearest obstacle, at most `at_most`. A distance below `stop_below` ends the
   /// search.
   double Nearest(const PreparedShape& shape, const Isometry3d& X_WS, double at_most,
                  double stop_below) const {
@@ -113,7 +113,8 @@ struct CollisionChecker::Impl {
     return nearest;
   }
 
-  /// Whether one of the boxes that its prism does not tell from the obstacle is nearer than 0.
+  /// Whether a box is nearer than 0 to the obstacle. Skips boxes that their prisms separate from
+  /// it.
   bool Meets(const UprightBoxes& boxes, const std::vector<Prism>& posed, const Isometry3d& X_WS,
              int obstacle) const {
     for (size_t i = 0; i < posed.size(); ++i) {

@@ -20,7 +20,7 @@ struct Obstacle {
 /// A static world. Immutable once loaded.
 struct Environment {
   std::vector<Obstacle> obstacles;
-  /// Where the pelvis may be at a stance: x and y, m.
+  /// Allowed pelvis positions at a stance: x and y, m.
   Eigen::AlignedBox2d bounds;
 };
 

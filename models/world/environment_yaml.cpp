@@ -8,8 +8,8 @@
 namespace possibility::models {
 namespace {
 
-/// m. Doubles are 1.5e-11 m apart there, and jumps between places so far out verify as they do at
-/// the origin; what is farther was not tried.
+/// m. Doubles are 1.5e-11 m apart there, and jumps that far out verify as they do at the origin.
+/// Larger distances were not tried.
 constexpr double kFarthest = 1e5;
 
 void RequireNear(const YamlNode& node, double coordinate) {

@@ -20,11 +20,11 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Every face grows by this on all sides, so that faces which abut overlap, and distances shrink
-/// by it again. Two of these exceed the gap that may lie between abutting faces.
+/// Every face grows by this on all sides, so that abutting faces overlap; distances then shrink by
+/// it again. Twice this exceeds the gap allowed between abutting faces.
 constexpr double kGrowth = 0.6 * GroundMap::kAbutting;
 
-/// An edge counts as inside another face only if it lies this deep in it, m: where edges of two
+/// An edge counts as inside another face only if it lies this deep in it, m. Where edges of two
 /// faces coincide, rounding must not make each cover the other.
 constexpr double kCoverDepth = 1e-9;
 
@@ -109,7 +109,7 @@ std::pair<double, double> CoveredPart(const Segment& segment, const Face& face) 
   return {first, second};
 }
 
-/// What is left of an edge where other faces do not cover it: pieces of the union's boundary.
+/// The parts of an edge that other faces do not cover: pieces of the union's boundary.
 std::vector<Segment> UncoveredParts(const Segment& edge,
                                     std::vector<std::pair<double, double>> covered) {
   std::sort(covered.begin(), covered.end());
@@ -155,7 +155,7 @@ class Level {
     boundary_tree_ = FlatTree(boundary_);
   }
 
-  /// Faces are convex: a line is nowhere closer to their sides than at its ends.
+  /// Faces are convex, so a line is closest to their sides at one of its ends.
   bool OneFaceHolds(const Vector2d& from, const Vector2d& to, double radius) const {
     const double needed = radius + kGrowth;
     bool holds = false;
@@ -208,7 +208,7 @@ class Level {
     return inside;
   }
 
-  /// `at_most` if nothing of it is nearer.
+  /// Distance to the boundary, at most `at_most`.
   double DistanceToBoundary(const Vector2d& p, double at_most) const {
     double nearest = at_most;
     boundary_tree_.VisitNear(FlatBounds(p), nearest, [&](int segment) {

@@ -85,7 +85,7 @@ PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   return settings;
 }
 
-/// What is wrong with the robot is for LoadRobotModel to say.
+/// Empty if the robot's files are wrong: LoadRobotModel reports the error.
 std::string HashOfRobot(const std::filesystem::path& file) {
   try {
     return RobotContentHash(file);

@@ -20,13 +20,13 @@ struct Stance {
 };
 
 struct PlannerSettings {
-  double step = 0.25;                 ///< longest ExtendTowards, weighted metric, m
-  double rotation_weight = 0.137;     ///< of an angle (rad) beside 1 - weight for a metre
+  double step = 0.25;                 ///< longest step of ExtendTowards, weighted metric, m
+  double rotation_weight = 0.137;     ///< weight of an angle (rad); 1 - weight for a metre
   int max_transitions_per_cycle = 5;  ///< Algorithm 2
   int flood_after_cycles = 200;       ///< exploration cycles before asking whether a route exists
-  /// Of the time limit, for the search for a quicker route than the first.
+  /// Share of the time limit for the search for a quicker route than the first.
   double improvement_share = 0.1;
-  double flood_resolution = 0.1;  ///< m, cell of that flood
+  double flood_resolution = 0.1;  ///< m, cell size of the flood that checks this
   double skip_jumps = 0.9;        ///< probability that a cycle does not grow jumps (paper: 0.9)
 };
 
@@ -41,7 +41,7 @@ struct Scenario {
   Environment environment;
   Stance start;
   std::vector<Stance> goals;
-  std::vector<std::string> actions;  ///< in the order in which they are explored
+  std::vector<std::string> actions;  ///< in the order of exploration
   PlannerSettings planner;
   double time_limit = 60;  ///< s
   std::uint64_t seed = 1;
@@ -50,15 +50,15 @@ struct Scenario {
 /// @throws InputError for anything malformed (see docs/file_formats.md).
 Scenario LoadScenario(const std::filesystem::path& yaml_file);
 
-/// Checks what only the robot can tell: it is the one that the scenario names (unless the
-/// robot_hash is empty); every action of the scenario is a gait of the robot or a jump between two
-/// gaits that are among the actions as well, or one of `further`, which others than the robot bring
-/// along; start and goals are gaits.
+/// Checks a scenario against its robot. The robot is the one that the scenario names (unless
+/// robot_hash is empty). Every action is a gait of the robot, a jump between two gaits that are
+/// also among the actions, or one of `further`, actions that do not come from the robot. Start and
+/// goals are gaits.
 /// @throws InputError naming the scenario, and the action and the nearest known name.
 void CheckScenarioAgainstRobot(const Scenario& scenario, const RobotModel& robot,
                                const std::vector<std::string>& further = {});
 
-/// The part of it about a list of actions. `where`: begins the message.
+/// The part of that check on a list of actions. `where`: prefix of the message.
 /// @throws InputError.
 void CheckActionsOfRobot(const std::vector<std::string>& actions, const RobotModel& robot,
                          const std::string& where, const std::vector<std::string>& further = {});
