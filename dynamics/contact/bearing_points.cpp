@@ -19,11 +19,11 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// As fractions: of the inverse inertia, what makes the dual strictly convex where points share
-// loads; of the greatest motion, below which a point is at rest.
+// kRegularisation: fraction of the inverse inertia that makes the dual strictly convex if points
+// share loads. kAtRest: fraction of the greatest motion below which a point is at rest.
 constexpr double kRegularisation = 1e-9;
 constexpr double kAtRest = 1e-6;
-// Sets of more points are not searched exhaustively.
+// Larger sets are not searched exhaustively.
 constexpr int kMostSearched = 10;
 
 void Check(const UnilateralContacts& contacts) {
@@ -111,7 +111,7 @@ class Selection {
     return best;
   }
 
-  /// Holds whatever would enter the ground, pulling or not.
+  /// Holds every point that would enter the ground, pulling or not.
   BearingPoints Jam(std::vector<bool> bears) const {
     for (bool has_changed = true; has_changed;) {
       const VectorXd motion = AlongNormals(HoldingForces(Indices(bears)), Indices(bears));
@@ -136,7 +136,7 @@ class Selection {
     return rows;
   }
 
-  /// Of all points along their normals, under forces on those in `set`.
+  /// Motion of all points along their normals, under forces on those in `set`.
   VectorXd AlongNormals(const VectorXd& forces, const std::vector<int>& set) const {
     VectorXd motion = unconstrained_;
     if (!set.empty()) motion += inverse_inertia_(Eigen::all, Rows(set)) * forces;
@@ -149,7 +149,7 @@ class Selection {
     return AlongNormals(set.empty() ? VectorXd() : PushingForces(Rows(set)), set);
   }
 
-  /// What holds all points of `set`, least norm.
+  /// Forces of least norm that hold all points of `set`.
   VectorXd HoldingForces(const std::vector<int>& set) const {
     if (set.empty()) return {};
     const std::vector<int> rows = Rows(set);
@@ -158,12 +158,12 @@ class Selection {
     return -gram.ldlt().solve(unconstrained_(rows));
   }
 
-  /// What keeps them from entering the ground and from sliding, without pulling.
+  /// Forces that keep the points from entering the ground and from sliding, without pulling.
   VectorXd PushingForces(const std::vector<int>& rows) const {
     const Eigen::Index size = static_cast<Eigen::Index>(rows.size());
     QuadraticProgram program;
     program.H = inverse_inertia_(rows, rows);
-    // In units in which the motion is about 1 and so are the forces.
+    // Scaled so that the motion and the forces are about 1.
     const double inertia = program.H.diagonal().mean();
     const double scale = std::max(unconstrained_.lpNorm<Eigen::Infinity>(), 1e-300);
     program.H = program.H / inertia + kRegularisation * MatrixXd::Identity(size, size);

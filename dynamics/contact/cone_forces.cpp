@@ -17,13 +17,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Weight of the bounded quantities (as fractions of their bounds) beside the forces: small, so
-// that the load is shared first.
+// Weight of the bounded quantities (as fractions of their bounds) relative to the forces: small, so
+// that sharing the load comes first.
 constexpr double kBoundedWeight = 0.01;
-// Below this slope a pyramid's sides no longer say with any precision that the force pushes.
+// Below this slope the sides of a pyramid no longer ensure accurately that the force pushes.
 constexpr double kSteep = 1e-3;
 
-/// Two unit vectors across `normal`; x and y if it points up.
+/// Two unit vectors perpendicular to `normal`; x and y if it points up.
 Eigen::Matrix<double, 3, 2> Tangents(const Vector3d& normal) {
   const bool steep = std::abs(normal.x()) > 0.9;
   const Vector3d reference = steep ? Vector3d::UnitZ() : Vector3d::UnitX();
@@ -48,7 +48,7 @@ void WriteCost(const ConeForceProblem& problem, QuadraticProgram* program) {
 
 /// A regular polygon inscribed in the circle of radius slope * (normal force - reserve): half
 /// planes at cos(pi / edges) of the radius. Together they imply a normal force >= the reserve,
-/// unless the slope is next to nothing.
+/// unless the slope is almost zero.
 int WriteCones(const ConeForceProblem& problem, QuadraticProgram* program) {
   const double slope = problem.slope * std::cos(std::numbers::pi / problem.cone_edges);
   int row = 0;
@@ -82,7 +82,7 @@ void WriteBounds(const ConeForceProblem& problem, int row, QuadraticProgram* pro
   }
 }
 
-/// Takes off what rounding put outside the true cones.
+/// Removes what rounding put outside the true cones.
 void MoveIntoCones(const ConeForceProblem& problem, VectorXd* x) {
   for (std::size_t i = 0; i < problem.normals.size(); ++i) {
     const Vector3d& normal = problem.normals[i];

@@ -12,7 +12,7 @@ namespace possibility::dynamics {
 /// Each cone is replaced by the pyramid inside it whose edges lie on the cone.
 struct ConeForceProblem {
   std::vector<Eigen::Vector3d> normals;  ///< unit, out of the ground, one per point
-  double slope = 0;                      ///< tangential over normal force that may be reached
+  double slope = 0;                      ///< greatest ratio of tangential to normal force
   int cone_edges = 8;
   /// Normal force at which every cone starts.
   double normal_reserve = 0;
@@ -24,8 +24,8 @@ struct ConeForceProblem {
   Eigen::VectorXd bounds;  ///< may be infinite
 };
 
-/// The one of least square norm, to which the squares of (bounded_required - bounded_loads x) /
-/// bounds are added with a small weight; none if there are no such forces.
+/// The forces of least square norm, where the squares of (bounded_required - bounded_loads x) /
+/// bounds are added with a small weight; none if no forces meet the constraints.
 std::optional<Eigen::VectorXd> SolveConeForces(const ConeForceProblem& problem);
 
 }  // namespace possibility::dynamics

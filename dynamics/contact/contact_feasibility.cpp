@@ -21,17 +21,17 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kConeEdges = 32;
-// Directions of the Jacobian below this fraction of the largest one are taken for rounding.
+// Directions of the Jacobian below this fraction of the largest one count as rounding.
 constexpr double kRank = 1e-10;
-// More friction than that is a pull.
+// A larger friction coefficient counts as a pull.
 constexpr double kMostFriction = 1e3;
-// Cost of an impulse beside that of a pull.
+// Cost of an impulse relative to that of a pull.
 constexpr double kImpulseWeight = 1e-6;
-// Of the greatest impulse: less is rounding.
+// Fraction of the greatest impulse; a smaller pull is rounding.
 constexpr double kPull = 1e-9;
 
-/// The least t in (lower, upper] of which `attempt` succeeds, to kMarginPrecision; it succeeds at
-/// `upper` and, where it succeeds, says what fraction would have been enough.
+/// The least t in (lower, upper] for which `attempt` succeeds, to kMarginPrecision. It must succeed
+/// at `upper`. Where it succeeds, it returns the fraction that would have been enough.
 template <typename Attempt>
 double LeastFraction(double lower, double upper, const Attempt& attempt) {
   while (upper - lower > kMarginPrecision * std::max(1.0, upper)) {
@@ -46,7 +46,7 @@ double LeastFraction(double lower, double upper, const Attempt& attempt) {
   return upper;
 }
 
-/// All impulses that act on the robot as given ones do, as fractions of their size.
+/// All impulses with the same effect on the robot as the given ones, as fractions of their size.
 class ImpulseProblem {
  public:
   ImpulseProblem(const Eigen::Ref<const MatrixXd>& jacobian,
@@ -54,7 +54,8 @@ class ImpulseProblem {
                  const std::vector<ContactPoint>& points, double friction)
       : points_(points), friction_(friction), unit_(impulses.cwiseAbs().maxCoeff()) {
     if (!(unit_ > 0)) unit_ = 1;
-    // J'x = J'x0 says that x and x0 agree in the range of J, of which Q is an orthonormal basis.
+    // J'x = J'x0 holds if x and x0 agree in the range of J; Q is an orthonormal basis of that
+    // range.
     Eigen::ColPivHouseholderQR<MatrixXd> factors;
     factors.setThreshold(kRank);
     factors.compute(jacobian);
@@ -104,7 +105,7 @@ class ImpulseProblem {
     return friction_ > 0 ? std::min(fraction, used / friction_) : 0;
   }
 
-  /// Least squares of the pulls p: n'x + p >= 0, p >= 0.
+  /// Least squares of the pulls p, with n'x + p >= 0, p >= 0.
   ImpulseFeasibility WithLeastPull() const {
     const Index count = static_cast<Index>(points_.size());
     const Index n = 4 * count;

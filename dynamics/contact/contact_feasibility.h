@@ -9,52 +9,53 @@
 
 namespace possibility::dynamics {
 
-/// Whether the ground can give the impulses of an impact.
+/// Whether the ground can provide the impulses of an impact.
 struct ImpulseFeasibility {
   bool feasible = false;  ///< friction_fraction <= 1
-  /// The least fraction of the friction coefficient at which impulses in the cones do it; above 1
-  /// the contacts would slip; infinite if no friction is enough: some point would have to pull, or
-  /// there is no friction at all.
+  /// Least fraction of the friction coefficient at which impulses in the friction cones suffice.
+  /// Above 1 the contacts would slip. Infinite if no friction suffices: some point would have to
+  /// pull, or there is no friction at all.
   double friction_fraction = 0;
-  /// 3 x points, on the robot, world axes, N s: they act on the robot exactly as those of the
-  /// impact do, in the cones of friction_fraction if that is finite, and else with the least pull.
+  /// 3 x points, on the robot, world axes, N s. They have the same effect on the robot as those of
+  /// the impact. They lie in the cones of friction_fraction if that is finite, and otherwise have
+  /// the least pull.
   Eigen::Matrix3Xd impulses;
-  /// The point that pulls hardest, where some point must.
+  /// The point that pulls hardest, if a point must pull.
   std::optional<int> pulling_point;
 };
 
-/// Impulses that differ but act alike on the robot are alike to a rigid body: searches among all
-/// of them. `jacobian`: of the points, stacked, 3 points x nv.
-/// @throws std::invalid_argument if sizes disagree, a number is not finite, a normal is no unit
+/// Searches all impulses that have the same effect on the robot as `impulses`; a rigid body cannot
+/// tell them apart. `jacobian`: of the points, stacked, 3 points x nv.
+/// @throws std::invalid_argument if sizes disagree, a number is not finite, a normal is not a unit
 /// vector or `friction` is negative.
 ImpulseFeasibility CheckImpulses(const Eigen::Ref<const Eigen::MatrixXd>& jacobian,
                                  const Eigen::Ref<const Eigen::Matrix3Xd>& impulses,
                                  const std::vector<ContactPoint>& points, double friction);
 
-/// The same for an impact of `dynamics` at the state set, as ForwardDynamics::Hit returned it.
+/// The same for an impact of `dynamics` at its current state, as returned by ForwardDynamics::Hit.
 ImpulseFeasibility CheckImpact(ForwardDynamics* dynamics, const Impact& impact,
                                const std::vector<ContactPoint>& points, double friction);
 
-/// How much of friction and motors a motion needs at the least.
+/// Least fractions of friction and motor effort that a motion needs.
 struct ContactMargins {
-  /// Least fraction of friction with which forces in the cones realise the motion, torques within
-  /// settings.torque_margin.
+  /// Least fraction of friction at which forces in the cones realise the motion, with torques
+  /// within settings.torque_margin.
   double friction_fraction = 0;
-  /// Least fraction of the effort limits, forces within settings.friction_margin; each of the two
-  /// may need forces of its own.
+  /// Least fraction of the effort limits, with forces within settings.friction_margin. The two
+  /// fractions may need different forces.
   double effort_fraction = 0;
 };
 
-/// At the state and acceleration set; none if DistributeContactForces finds no forces under
-/// `settings`. Exact to kMarginPrecision above the least fraction of the pyramids inside the
-/// cones, which is 1 / cos(pi / cone_edges) of the cones' own at most: use 32 edges for margins
-/// true to half a per cent. Joints without a limit and those of limit 0 need no fraction.
+/// Margins at the state and acceleration set; none if DistributeContactForces finds no forces under
+/// `settings`. Exact to kMarginPrecision for the pyramids inside the cones. Their least fraction is
+/// at most 1 / cos(pi / cone_edges) times that of the cones: use 32 edges for margins accurate to
+/// half a per cent. Joints without a limit and those of limit 0 need no fraction.
 /// @throws std::invalid_argument as DistributeContactForces.
 std::optional<ContactMargins> ComputeContactMargins(MultibodyDynamics* dynamics,
                                                     const std::vector<ContactPoint>& points,
                                                     const ContactForceSettings& settings);
 
-/// Of the fractions above.
+/// Precision of these fractions.
 inline constexpr double kMarginPrecision = 1e-6;
 
 }  // namespace possibility::dynamics

@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr const char* kCaller = "DistributeContactForces";
-// Limits are drawn in by this, so that rounding cannot carry a force over the true one.
+// Limits are tightened by this factor, so that rounding cannot push a force over the true limit.
 constexpr double kInside = 1 - 1e-9;
-// Base wrench left over, as a fraction of the weight (times a metre).
+// Tolerated residual of the base wrench, as a fraction of the weight (times a metre).
 constexpr double kResidual = 1e-11;
 
 void CheckSettings(const ContactForceSettings& settings) {
@@ -37,8 +37,8 @@ void CheckSettings(const ContactForceSettings& settings) {
   }
 }
 
-/// What a motion needs and what points can give: generalised forces `required` (base first) and
-/// the Jacobian of every point, in the same velocities.
+/// The balance of a motion: the required generalised forces (base first) and the Jacobian of every
+/// point, in the same velocities.
 struct Balance {
   VectorXd required;
   MatrixXd jacobians;  // 3 points x nv
@@ -48,7 +48,7 @@ struct Balance {
 };
 
 void CheckFinite(const Balance& balance) {
-  // Squares of these numbers are taken further down.
+  // The numbers are squared below.
   if (std::isfinite(balance.required.squaredNorm() + balance.jacobians.squaredNorm())) return;
   throw std::invalid_argument(fmt::format(
       "{}: q, v, the acceleration or a point is so large that the forces are not finite", kCaller));

@@ -16,9 +16,9 @@ struct ContactForceSettings {
   double friction_margin = 0.9;  ///< fraction of `friction` that may be used
   double torque_margin = 0.95;   ///< fraction of each joint's effort limit that may be used
   /// N: every point's cone starts at this normal force, so that a force that turns out smaller by
-  /// less than it still lies in the cone.
+  /// less than this still lies in the cone.
   double normal_reserve = 0;
-  /// Of the pyramid inside the cone, at least 3: with n edges it reaches cos(pi / n) of the
+  /// Edges of the pyramid inside the cone, at least 3. With n edges it reaches cos(pi / n) of the
   /// friction in every direction.
   int cone_edges = 8;
 };
@@ -26,20 +26,20 @@ struct ContactForceSettings {
 struct ContactForces {
   Eigen::Matrix3Xd forces;  ///< 3 x points, on the robot, world axes, N
   Eigen::VectorXd torques;  ///< by (independent) joint
-  /// Greatest tangential force over friction * normal force (without the margin); 0 at points
-  /// that bear nothing.
+  /// Greatest ratio of tangential force to friction * normal force (without the margin); 0 at
+  /// points that bear nothing.
   double friction_utilisation = 0;
   /// Greatest |torque| over effort limit (without the margin).
   double torque_utilisation = 0;
 };
 
 /// Forces in the friction cones and joint torques within limits that realise acceleration `a` at
-/// the state held by `kinematics` (SetPosition and SetVelocity done): the smallest forces and
-/// torques in a weighted square norm, so a smooth function of the state while the active set
-/// stays. None if no such forces exist. Without points: the torques of free flight, if `a` is
-/// one that a flying robot can have. Every joint is taken to have a motor of its own.
-/// @throws std::invalid_argument if `a` has a wrong size or is not finite, a point names no link
-/// or is not finite, a normal is no unit vector, or a setting is out of range.
+/// the state held by `kinematics` (SetPosition and SetVelocity done). They are the smallest in a
+/// weighted square norm, hence a smooth function of the state while the active set stays the same.
+/// None if no such forces exist. Without points: the torques of free flight, if a flying robot can
+/// have the acceleration `a`. Every joint is assumed to have its own motor.
+/// @throws std::invalid_argument if `a` has a wrong size or is not finite, a point names no link or
+/// is not finite, a normal is not a unit vector, or a setting is out of range.
 std::optional<ContactForces> DistributeContactForces(TreeKinematics* kinematics,
                                                      const Eigen::Ref<const Eigen::VectorXd>& a,
                                                      const std::vector<ContactPoint>& points,

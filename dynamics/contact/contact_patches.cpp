@@ -13,7 +13,7 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// m: points nearer to an edge than this are on it.
+// m: points closer to an edge than this are on it.
 constexpr double kOnEdge = 1e-6;
 
 void AddEdge(const VectorXd& distances, std::vector<TippingEdge>* edges) {
@@ -28,8 +28,8 @@ VectorXd Distances(const Matrix3Xd& points, const Vector3d& origin, const Vector
   return (inward.transpose() * (points.colwise() - origin)).transpose();
 }
 
-/// Lines through two points that have all others on one side; the ends of a segment if all points
-/// lie on one line.
+/// Lines through two points with all other points on one side. If all points lie on one line, the
+/// ends of their segment.
 std::vector<TippingEdge> Edges(const Matrix3Xd& points, const Vector3d& normal) {
   const Eigen::Index count = points.cols();
   std::vector<TippingEdge> edges;

@@ -5,32 +5,34 @@
 
 namespace possibility::dynamics {
 
-/// A held point as the balance of its patch sees it.
+/// A held point, for the balance of its patch.
 struct PatchPoint {
   int link = 0;
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< unit, out of the ground
 };
 
-/// An edge of the polygon that a patch's points span, about which it may tip. The moment of the
-/// normal forces about it is the same however points that a rigid body cannot tell apart share
-/// them; while the moments about all edges are positive, shares exist that only push.
+/// An edge of the polygon that a patch's points span, about which the patch may tip. Points of a
+/// rigid body may share a load in many ways; the moment of the normal forces about the edge is the
+/// same for all of them. While the moments about all edges are positive, there is a way in which
+/// all points push.
 struct TippingEdge {
-  /// By point of the patch: distance from the edge over the greatest of them; 0 on the edge.
+  /// By point of the patch: distance from the edge, divided by the greatest such distance; 0 on the
+  /// edge.
   Eigen::VectorXd levers;
 };
 
-/// Points of one link on ground of one normal.
+/// Points of one link on ground with one normal.
 struct ContactPatchBalance {
-  std::vector<int> points;  ///< indices into what MakePatches was given
+  std::vector<int> points;  ///< indices into the argument of MakePatches
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
   std::vector<TippingEdge> edges;
 
-  /// Moment over the greatest lever, N. `forces`: 3 x all points.
+  /// Moment about the edge divided by the greatest lever, N. `forces`: 3 x all points.
   double Moment(const TippingEdge& edge, const Eigen::Matrix3Xd& forces) const;
   Eigen::Vector3d Resultant(const Eigen::Matrix3Xd& forces) const;
-  /// Tangential over normal part of the resultant over `friction`; 0 if it vanishes, infinite if
-  /// it pulls.
+  /// Ratio of tangential to normal part of the resultant, divided by `friction`; 0 if the resultant
+  /// vanishes, infinite if it pulls.
   double FrictionUtilisation(const Eigen::Matrix3Xd& forces, double friction) const;
 };
 

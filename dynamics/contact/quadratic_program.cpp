@@ -62,7 +62,8 @@ class WorkingSet {
   const std::vector<int>& rows() const { return rows_; }
   const std::vector<double>& multipliers() const { return multipliers_; }
 
-  /// Splits the steps that a new normal asks for; true if it is independent of the active ones.
+  /// Computes the primal and dual steps for a new normal. True if it is independent of the active
+  /// ones.
   bool Consider(const VectorXd& normal) {
     projected_.noalias() = J_.transpose() * normal;
     const Index q = size();
@@ -138,8 +139,8 @@ class WorkingSet {
     R_.col(q - 1).setZero();
   }
 
-  /// x and the multipliers afresh from the factors, so that rounding of the steps is forgotten:
-  /// with x = J s, the active rows read R's = b and the rest of s minimises the cost.
+  /// Recomputes x and the multipliers from the factors, which removes the rounding of the steps.
+  /// With x = J s, the active rows read R's = b and the rest of s minimises the cost.
   void Polish() {
     const Index q = size();
     const auto R = R_.topLeftCorner(q, q).triangularView<Eigen::Upper>();
@@ -188,7 +189,7 @@ class Solver {
   }
 
  private:
-  /// False if they contradict each other. Dependent rows are left out.
+  /// Adds the equalities. False if they contradict each other. Dependent rows are left out.
   bool AddEqualities() {
     for (Index i = 0; i < program_.e.size(); ++i) {
       const VectorXd normal = program_.E.row(i);
@@ -250,8 +251,8 @@ class Solver {
     return worst;
   }
 
-  /// Makes a violated row active, dropping those that get in its way. False if there is no
-  /// point that satisfies it with the equalities and active rows, or at the iteration limit.
+  /// Makes a violated row active and drops rows that block it. False if no point satisfies it
+  /// together with the equalities and active rows, or at the iteration limit.
   bool Activate(int row, double violation, int limit, int* iterations) {
     normal_ = -program_.C.row(row);
     double multiplier = 0;
@@ -294,7 +295,7 @@ class Solver {
   VectorXd norms_;
   VectorXd excess_;
   VectorXd normal_;
-  double size_;  // of x, the largest so far: what tolerances are relative to
+  double size_;  // largest size of x so far; tolerances are relative to it
   Index equalities_ = 0;
 };
 

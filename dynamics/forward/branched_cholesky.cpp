@@ -7,7 +7,7 @@ namespace possibility::dynamics {
 
 namespace {
 
-// A pivot below this fraction of its diagonal entry is rounding.
+// A pivot below this fraction of its diagonal entry counts as rounding.
 constexpr double kPivot = 1e-13;
 
 }  // namespace

@@ -6,8 +6,8 @@
 namespace possibility::dynamics {
 
 /// The factorisation M = L'L (L lower triangular) of a symmetric positive definite matrix whose
-/// zeros are known beforehand. For the mass matrix of a tree, numbered from the root outward, no
-/// zero fills in (Featherstone 2008, section 6.5), so a branch costs only its own depth.
+/// zeros are known beforehand. For the mass matrix of a tree, numbered from the root outward, there
+/// is no fill-in (Featherstone 2008, section 6.5), so a branch costs only its own depth.
 /// Nothing is allocated after construction.
 class BranchedCholesky {
  public:

@@ -15,12 +15,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Of a constraint, as a fraction of what it balances: what may stay unmet, and what makes the
-// solver take the slower and more exact way.
+// Fractions of what a constraint balances: the residual that is tolerated, and the residual above
+// which the slower, more exact solver is used.
 constexpr double kUnmet = 1e-8;
 constexpr double kRefine = 1e-12;
 
-/// Per joint, the independent velocities that move its link: exactly these share mass.
+/// Per joint, the independent velocities that move its link: only these share mass.
 std::vector<std::vector<int>> VelocityCliques(const MultibodyModel& model) {
   const std::vector<models::Joint>& joints = model.tree().joints;
   std::vector<std::vector<int>> cliques(1 + joints.size());

@@ -14,25 +14,26 @@ namespace possibility::dynamics {
 /// A point of the robot held where it is: it neither slides nor leaves the ground.
 struct HeldPoint {
   ContactPoint point;
-  /// Where it is held, world, m. Drift from there is fed back (ForwardDynamicsSettings).
+  /// Position at which it is held, world, m. Drift from there is fed back
+  /// (ForwardDynamicsSettings).
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();
 };
 
 struct ForwardDynamicsSettings {
-  /// s: drift of a held point dies out like a critically damped oscillator of this time constant
-  /// (Baumgarte 1972); infinite: no feedback, anchors are not looked at.
+  /// s: drift of a held point decays like a critically damped oscillator of this time constant
+  /// (Baumgarte 1972). Infinite: no feedback, anchors are ignored.
   double drift_time = 0.02;
 };
 
-/// How a robot moves under given forces while points of it are held.
+/// The motion of a robot under given forces while points of it are held.
 struct ConstrainedMotion {
   Eigen::VectorXd acceleration;  ///< nv
-  /// 3 x points, on the robot, world axes, N. Where points share what a rigid body cannot tell
-  /// apart, the forces of least square norm.
+  /// 3 x points, on the robot, world axes, N. The forces of least square norm if a rigid body does
+  /// not determine how points share a load.
   Eigen::Matrix3Xd forces;
 };
 
-/// An inelastic impact: the velocity after it and the impulses that make it so.
+/// An inelastic impact: the velocity after it and its impulses.
 struct Impact {
   Eigen::VectorXd velocity;   ///< nv, after
   Eigen::Matrix3Xd impulses;  ///< 3 x points, on the robot, world axes, N s, least square norm
@@ -40,27 +41,27 @@ struct Impact {
 };
 
 /// Forward dynamics of a MultibodyModel from its mass matrix (composite rigid bodies) and a
-/// Cholesky factorisation; held points by Lagrange multipliers. One workspace per thread.
+/// Cholesky factorisation, with Lagrange multipliers for held points. One workspace per thread.
 /// @throws std::invalid_argument that names a bad argument (size, not finite, no such link, so
 /// large that the result is not finite); std::runtime_error if the mass matrix is not positive
-/// definite (which joint) or the held points cannot be held (which point): no acceleration meets
-/// the constraints.
+/// definite (names the joint) or no acceleration meets the constraints of the held points (names
+/// the point).
 class ForwardDynamics {
  public:
   explicit ForwardDynamics(std::shared_ptr<const MultibodyModel> model,
                            const ForwardDynamicsSettings& settings = {});
 
-  /// At the state set; only SetState of this class may change that.
+  /// The dynamics at the current state. Only SetState of this class may change that state.
   MultibodyDynamics* dynamics() { return &dynamics_; }
   const MultibodyModel& model() const { return dynamics_.model(); }
 
   void SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
                 const Eigen::Ref<const Eigen::VectorXd>& v);
-  /// Acceleration under generalised forces (nv, gravity not among them); nv.
+  /// Acceleration under generalised forces (nv, without gravity); nv.
   const Eigen::VectorXd& Free(const Eigen::Ref<const Eigen::VectorXd>& forces);
   const ConstrainedMotion& Held(const Eigen::Ref<const Eigen::VectorXd>& forces,
                                 const std::vector<HeldPoint>& points);
-  /// Inelastic, all points at once: they are at rest afterwards.
+  /// Inelastic impact of all points at once: they are at rest afterwards.
   const Impact& Hit(const std::vector<ContactPoint>& points);
 
  private:
@@ -68,12 +69,13 @@ class ForwardDynamics {
   void CheckPoint(std::size_t index, const ContactPoint& point) const;
   std::string Described(std::size_t index, const ContactPoint& point) const;
   void RequireState() const;
-  /// Factorises the mass matrix unless this was done at this state.
+  /// Factorises the mass matrix unless done already at this state.
   void Factor();
   void AccelerateFreely(const Eigen::Ref<const Eigen::VectorXd>& forces);
   /// Row block i of the constraints: the Jacobian of a point, from which Y = L^-T J' follows.
   void Constrain(std::size_t index, const ContactPoint& point);
-  /// The multipliers of least norm with Y'Y lambda = required; `scale` is what is compared.
+  /// The multipliers of least norm with Y'Y lambda = required. `scale`: magnitude that the residual
+  /// is compared with.
   template <typename Points>
   void SolveMultipliers(const Points& points, double scale, const char* unit);
 

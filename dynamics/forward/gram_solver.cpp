@@ -9,11 +9,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Proximal weight as a fraction of the greatest diagonal entry: a direction that the Gram matrix
-// has in this proportion converges by a half in each step, the usual ones by 1e-3 or faster.
+// Proximal weight as a fraction of the greatest diagonal entry. A direction that has this
+// proportion in the Gram matrix converges by a half in each step, usual directions by 1e-3 or
+// faster.
 constexpr double kProximal = 1e-7;
 constexpr int kMaxSteps = 12;
-// Directions of Y below this fraction of the largest one are taken for rounding.
+// Directions of Y below this fraction of the largest one count as rounding.
 constexpr double kRank = 1e-11;
 
 }  // namespace
@@ -49,7 +50,8 @@ void GramSolver::Solve(const Eigen::Ref<const VectorXd>& r, double tolerance, Ve
   if (size > tolerance) SolveOrthogonally(r, x, residual);
 }
 
-/// From Y P = Q [T 0; 0 0] Z: keeps directions whose squares drown in the Gram matrix.
+/// Uses Y P = Q [T 0; 0 0] Z. Keeps directions whose squares are lost to rounding in the Gram
+/// matrix.
 void GramSolver::SolveOrthogonally(const Eigen::Ref<const VectorXd>& r, VectorXd* x,
                                    VectorXd* residual) const {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;

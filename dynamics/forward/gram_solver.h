@@ -5,13 +5,14 @@
 
 namespace possibility::dynamics {
 
-/// Solves Y'Y x = r for the x of least square norm, Y (n x m) of any rank, r in the range of Y'.
+/// Solves Y'Y x = r for the x of least square norm. Y (n x m) may have any rank; r must be in the
+/// range of Y'.
 class GramSolver {
  public:
   void Factor(const Eigen::Ref<const Eigen::MatrixXd>& Y);
 
-  /// Overwrites `x` (m) and `residual` (m): r - Y'Y x, about rounding where r lies in the range,
-  /// never NaN for finite arguments that do not overflow.
+  /// Overwrites `x` (m) and `residual` (m): r - Y'Y x. The residual is about rounding if r lies in
+  /// the range, and never NaN for finite arguments that do not overflow.
   void Solve(const Eigen::Ref<const Eigen::VectorXd>& r, double tolerance, Eigen::VectorXd* x,
              Eigen::VectorXd* residual) const;
 

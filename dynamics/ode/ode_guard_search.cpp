@@ -51,8 +51,8 @@ bool GuardSearch::Watched(int guard, double from_side) const {
   return from_side != 0;
 }
 
-/// A guard that was zero at the start is not at `end`. Which side it left to first tells a guard
-/// that has crossed since from one that moved off in the direction watched.
+/// Handles a guard that was zero at the start and is not zero at `end`. The side to which it left
+/// first tells whether it has crossed since or moved off in the watched direction.
 std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdePiece& piece, double begin,
                                                            double end, int guard) {
   const double side = Sign(ValueAt(piece, end, guard));
@@ -96,7 +96,7 @@ double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
   if (low == high) return high;
   double at_low = bracket.side * ValueAt(piece, low, bracket.guard);
   double at_high = bracket.side * ValueAt(piece, high, bracket.guard);
-  // Neighbouring pieces agree to the local error only: this one may begin beyond zero.
+  // Neighbouring pieces agree only to the local error, so this one may begin beyond zero.
   if (at_low <= 0) return low;
   const double resolution =
       4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));

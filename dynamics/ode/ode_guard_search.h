@@ -15,14 +15,14 @@ struct GuardCrossing {
 };
 
 /// Follows the guards of an OdeProblem along the pieces of its trajectory and finds their first
-/// crossing in the watched direction. Each guard has a side (the sign it last had); it fires when
-/// it reaches zero from the side its direction names.
+/// crossing in the watched direction. Each guard has a side (the sign it last had). It fires when
+/// it reaches zero from the side that its direction names.
 class GuardSearch {
  public:
   /// Both must outlive the search.
   GuardSearch(const OdeProblem& problem, const OdeSettings& settings);
 
-  /// The first crossing in [begin, piece.end], where the last call ended.
+  /// The first crossing in [begin, piece.end]. `begin`: the end of the previous call.
   /// @throws OdeError if a guard is not finite.
   std::optional<GuardCrossing> Search(const OdePiece& piece, double begin);
 
@@ -46,7 +46,7 @@ class GuardSearch {
   const OdeProblem& problem_;
   const OdeSettings& settings_;
   Eigen::VectorXd values_;
-  std::vector<double> sides_;  ///< -1, 1; 0: at zero since the start
+  std::vector<double> sides_;  ///< -1 or 1; 0: at zero since the start
   long evaluations_ = 0;
 };
 

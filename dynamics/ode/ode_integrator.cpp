@@ -31,7 +31,7 @@ std::string Number(double value) {
   return text;
 }
 
-/// -1 if all are finite.
+/// Index of the first component that is not finite; -1 if all are finite.
 int FirstNotFinite(const Eigen::Ref<const Eigen::VectorXd>& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i])) return static_cast<int>(i);
@@ -158,7 +158,7 @@ class Stepper {
     return statistics;
   }
 
-  /// Names what is to blame: a rate that is not finite just ahead, or else the component with the
+  /// Names the cause: a rate that is not finite just ahead, otherwise the component with the
   /// greatest error.
   [[noreturn]] void Fail(const std::string& why) {
     std::string message = "ODE integration gave up at t = " + Number(time_) + " s: " + why;
@@ -174,7 +174,7 @@ class Stepper {
     throw OdeError(message, time_, component);
   }
 
-  /// The component with the greatest weighted error estimate; -1 if none can be told.
+  /// The component with the greatest weighted error estimate; -1 if unknown.
   int GreatestError() {
     const Owned<N_Vector> errors = NewVector(problem_.start);
     const Owned<N_Vector> weights = NewVector(problem_.start);
@@ -243,7 +243,7 @@ class Stepper {
     Fail(why);
   }
 
-  // C calls these three: nothing may be thrown through it.
+  // These three are called from C: no exception may pass through it.
   static int EvaluateRate(double time, N_Vector state, N_Vector rate, void* self) noexcept {
     return static_cast<Stepper*>(self)->Evaluate(time, state, rate);
   }
@@ -280,7 +280,7 @@ class Stepper {
 
   const OdeProblem& problem_;
   double time_;
-  Owned<SUNContext> context_;  // first in, last out
+  Owned<SUNContext> context_;  // created first, destroyed last
   Owned<N_Vector> state_, scratch_;
   Owned<SUNMatrix> matrix_;
   Owned<SUNLinearSolver> linear_;
@@ -293,7 +293,7 @@ class Stepper {
   long rate_evaluations_ = 0;
 };
 
-/// Too short a time for a step.
+/// True if the time span is too short for a step.
 bool IsRounding(const OdeProblem& problem) {
   const double magnitude = std::max(std::abs(problem.start_time), std::abs(problem.end_time));
   return problem.end_time - problem.start_time <=

@@ -24,14 +24,14 @@ enum class GuardDirection { kFalling, kRising, kBoth };
 
 struct OdeGuard {
   GuardDirection direction = GuardDirection::kFalling;
-  /// Whether a guard that starts at zero and leaves it in its direction fires at the start. A
-  /// guard that starts beyond zero fires only after it has come back.
+  /// Whether a guard that starts at zero and leaves it in its direction fires at the start. A guard
+  /// that starts beyond zero fires only after it has come back.
   bool fires_from_zero = true;
 };
 
 enum class OdeMethod {
-  kAdams,  ///< orders 1 to 12, fixed-point iteration: systems that are not stiff
-  kBdf     ///< orders 1 to 5, Newton iteration with a dense Jacobian by differences: stiff ones
+  kAdams,  ///< orders 1 to 12, fixed-point iteration: non-stiff systems
+  kBdf     ///< orders 1 to 5, Newton iteration with a dense Jacobian by differences: stiff systems
 };
 
 struct OdeProblem {
@@ -51,14 +51,14 @@ struct OdeSettings {
   Eigen::VectorXd absolute_tolerances;
   double max_step = std::numeric_limits<double>::infinity();  ///< s
   int max_steps = 100'000;
-  /// Guards are looked at this many times in each step: a pair of crossings nearer to each other
-  /// than max_step / guard_samples may be missed.
+  /// Guards are evaluated this many times in each step. Two crossings closer than max_step /
+  /// guard_samples may be missed.
   int guard_samples = 2;
   /// |guard| up to this counts as zero at the start.
   double guard_zero = 1e-11;
   /// s: guards that cross within this time after the first fire together with it.
   double simultaneous = 1e-9;
-  /// Asked before every step; true ends the integration (OdeEnd::kStopped).
+  /// Called before every step; true ends the integration (OdeEnd::kStopped).
   std::function<bool()> stop;
 };
 
@@ -66,7 +66,7 @@ enum class OdeEnd { kTime, kGuard, kStopped };
 
 struct OdeStatistics {
   long steps = 0;
-  long rate_evaluations = 0;  ///< those for Jacobians included
+  long rate_evaluations = 0;  ///< including those for Jacobians
   long guard_evaluations = 0;
   long error_test_failures = 0;
 };
@@ -80,25 +80,25 @@ struct OdeSolution {
   OdeStatistics statistics;
 };
 
-/// The integrator gave up. The message is one line: the time reached, why, and which component of
-/// the state has the greatest error estimate.
+/// The integrator gave up. The message is one line: the time reached, the reason, and the component
+/// of the state with the greatest error estimate.
 class POSSIBILITY_ODE_API OdeError : public std::runtime_error {
  public:
   OdeError(const std::string& message, double time, int component);
   ~OdeError() override;
   double time() const { return time_; }
-  int component() const { return component_; }  ///< -1 where none is to blame
+  int component() const { return component_; }  ///< -1 if no component is to blame
 
  private:
   double time_;
   int component_;
 };
 
-/// Integrates with CVODE (SUNDIALS: Hindmarsh et al. 2005), whose local error estimates stay
-/// within the tolerances, until the end time, a guard or the stop callback. Reentrant.
-/// @throws std::invalid_argument for sizes, tolerances or numbers that make no sense, OdeError
-/// if the integrator gives up or a guard is not finite; whatever `rate`, `guard_values` or `stop`
-/// throw passes through.
+/// Integrates with CVODE (SUNDIALS: Hindmarsh et al. 2005), whose local error estimates stay within
+/// the tolerances, until the end time, a guard or the stop callback. Reentrant.
+/// @throws std::invalid_argument for invalid sizes, tolerances or numbers; OdeError if the
+/// integrator gives up or a guard is not finite. Exceptions of `rate`, `guard_values` and `stop`
+/// pass through.
 POSSIBILITY_ODE_API OdeSolution Integrate(const OdeProblem& problem,
                                           const OdeSettings& settings = {});
 

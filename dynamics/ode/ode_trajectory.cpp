@@ -51,7 +51,7 @@ void OdeTrajectory::Append(OdePiece piece) {
   if (!(piece.end >= end_time())) {
     throw std::invalid_argument("OdeTrajectory: a piece ends before its predecessor");
   }
-  // The point a trajectory starts with stands for it only until there is a step.
+  // The initial point represents the trajectory only until there is a step.
   if (pieces_.size() == 1 && pieces_.front().coefficients.cols() == 1 &&
       pieces_.front().end == start_time_) {
     pieces_.clear();

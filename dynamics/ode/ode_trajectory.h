@@ -7,24 +7,24 @@
 
 namespace possibility::dynamics {
 
-/// One integration step: the polynomial that the integrator itself interpolates with,
+/// One integration step: the integrator's own interpolation polynomial,
 /// x(t) = sum of column k times ((t - origin) / length)^k.
 struct OdePiece {
   double origin = 0;             ///< s, end of the integrator's step
   double length = 1;             ///< s
-  double end = 0;                ///< s; before `origin` where a guard cut the step
+  double end = 0;                ///< s; before `origin` if a guard cut the step
   Eigen::MatrixXd coefficients;  ///< n x (order + 1)
 
   POSSIBILITY_ODE_API Eigen::VectorXd State(double time) const;  ///< n
   POSSIBILITY_ODE_API Eigen::VectorXd Rate(double time) const;   ///< n, dx/dt
 };
 
-/// A solution over its whole time, as accurate as the integration: neighbouring pieces agree to
-/// the local error of a step.
+/// A solution over its whole time span, as accurate as the integration: neighbouring pieces agree
+/// to the local error of a step.
 class POSSIBILITY_ODE_API OdeTrajectory {
  public:
   OdeTrajectory() = default;
-  /// A trajectory that starts, and so far ends, at `time`.
+  /// A trajectory that starts and ends at `time`, until pieces are appended.
   OdeTrajectory(double time, const Eigen::Ref<const Eigen::VectorXd>& state);
 
   double start_time() const { return start_time_; }

@@ -28,7 +28,7 @@ void Check(const MultibodyModel& model, const Eigen::Ref<const VectorXd>& postur
   }
 }
 
-/// The most loaded joint, in words; empty if none comes to its limit.
+/// The most loaded joint, in words; empty if no joint reaches its limit.
 std::string Saturation(const MultibodyModel& model, const VectorXd& utilisation) {
   Eigen::Index joint = -1;
   if (utilisation.size() == 0 || utilisation.maxCoeff(&joint) < 1) return "";

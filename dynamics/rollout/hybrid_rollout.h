@@ -13,24 +13,24 @@ namespace possibility::dynamics {
 
 struct HybridMode;
 
-/// What ends a mode.
+/// The event that ends a mode.
 struct HybridEvent {
   double time = 0;          ///< s
-  int segment = 0;          ///< index of the segment that it ends
-  std::vector<int> guards;  ///< ascending: those of the segment's mode that fired
+  int segment = 0;          ///< index of the segment that the event ends
+  std::vector<int> guards;  ///< ascending: the guards of the segment's mode that fired
   Eigen::VectorXd before;
-  Eigen::VectorXd after;  ///< what the reset made of it; empty while the reset is asked
+  Eigen::VectorXd after;  ///< the state after the reset; empty while the reset is called
 };
 
-/// What a reset map says: how things go on.
+/// Result of a reset map: how the rollout continues.
 struct HybridTransition {
   std::shared_ptr<const HybridMode> mode;  ///< null: the rollout ends here
-  Eigen::VectorXd state;                   ///< after the event; any size that suits `mode`
-  std::string reason;                      ///< why the rollout ends; in words
+  Eigen::VectorXd state;                   ///< after the event; its size must suit `mode`
+  std::string reason;                      ///< why the rollout ends, in words
 };
 
-/// One mode of a hybrid system: a flow, the guards that end it, and what follows. Modes are made
-/// when they are needed: there may be any number of them.
+/// One mode of a hybrid system: a flow, the guards that end it, and its reset map. Modes are made
+/// on demand; there may be any number of them.
 struct HybridMode {
   std::string name;
   OdeRate rate;
@@ -45,7 +45,7 @@ struct HybridSettings {
   /// Zeno behaviour: this many events within this many seconds.
   int zeno_events = 40;
   double zeno_time = 1e-3;  ///< s
-  /// True: such a rollout ends (HybridEnd::kZeno); false: it throws OdeError.
+  /// True: a Zeno rollout ends (HybridEnd::kZeno). False: it throws OdeError.
   bool end_at_zeno = false;
 };
 
@@ -65,14 +65,15 @@ struct HybridRollout {
   std::vector<HybridEvent> events;
   OdeStatistics statistics;
 
-  /// State at a time of the rollout; at an event: after it, or before it if it was the last.
-  /// @throws std::invalid_argument outside.
+  /// State at a time of the rollout. At an event: the state after it, or before it if it was the
+  /// last event.
+  /// @throws std::invalid_argument outside the rollout.
   Eigen::VectorXd State(double t) const;
   const HybridSegment& SegmentAt(double t) const;
 };
 
 /// Runs a hybrid system from a mode and state until a time, a reset that ends it or the stop
-/// callback. A reset that changes neither mode nor state has merely watched its guard, which then
+/// callback. A reset that changes neither mode nor state has only observed its guard, which then
 /// fires again only after it has come back.
 /// @throws what Integrate throws; std::invalid_argument for an inconsistent mode or transition.
 HybridRollout RollOut(std::shared_ptr<const HybridMode> mode,

@@ -8,24 +8,24 @@
 
 namespace possibility::dynamics {
 
-/// What the joints are asked for at one time; num_joints each.
+/// The joint commands at one time; num_joints each.
 struct JointCommand {
   Eigen::VectorXd position;  ///< rad or m
   Eigen::VectorXd velocity;
   Eigen::VectorXd torque;  ///< feed-forward, N m or N
 };
 
-/// Joint torques: feed-forward + stiffness (position - q) + damping (velocity - v), gravity
-/// compensation if wanted, clamped to the model's effort limits.
+/// Joint torques: feed-forward + stiffness (position - q) + damping (velocity - v), plus gravity
+/// compensation if enabled, clamped to the model's effort limits.
 struct JointControl {
-  /// Fills a command that comes in with zeros; none: zeros.
+  /// Fills in a command that is initialised with zeros. If empty, the command stays zero.
   std::function<void(double t, JointCommand* command)> command;
   Eigen::VectorXd stiffness;  ///< num_joints, N m/rad or N/m; empty: none
   Eigen::VectorXd damping;    ///< num_joints, N m s/rad or N s/m; empty: none
   /// Adds the torques that would keep the joints from accelerating at rest if the points of
-  /// `gravity_support` were held: those of a static stance where they can carry the robot. From the
-  /// first contact of a rollout on they do not ask which points are held: torques that jumped with
-  /// every contact could make a contact that bears exactly when it does not.
+  /// `gravity_support` were held: those of a static stance if these points can carry the robot.
+  /// From the first contact of a rollout on, the torques do not depend on which points are held. If
+  /// they jumped with every contact, a contact could bear exactly when it is taken not to bear.
   bool compensates_gravity = false;
   std::vector<ContactPoint> gravity_support;
 };
@@ -37,8 +37,8 @@ class JointTorques {
   /// point of the support names no link.
   JointTorques(const MultibodyModel& model, JointControl control);
 
-  /// At the state held by `dynamics` (q and v are that state); num_joints. Gravity is compensated
-  /// only if `is_supported`.
+  /// Torques at the state held by `dynamics` (q and v are that state); num_joints. Gravity is
+  /// compensated only if `is_supported`.
   /// @throws std::invalid_argument if the command has a wrong size or is not finite.
   const Eigen::VectorXd& Evaluate(double t, const Eigen::Ref<const Eigen::VectorXd>& q,
                                   const Eigen::Ref<const Eigen::VectorXd>& v, bool is_supported,

@@ -49,7 +49,7 @@ void CheckSettings(const RobotRolloutSettings& settings) {
 }  // namespace
 
 RobotRolloutSettings::RobotRolloutSettings() {
-  // Feedback on light links is stiff (docs/dynamics.md has what was measured).
+  // Feedback on light links is stiff (measurements: docs/dynamics.md).
   hybrid.integration.method = OdeMethod::kBdf;
   hybrid.integration.relative_tolerance = 1e-8;
   hybrid.integration.absolute_tolerance = 1e-8;
@@ -166,7 +166,7 @@ class RobotSimulator::Impl {
 
   RolloutDynamics robot_;
   RobotRolloutSettings settings_;
-  RobotRollout rollout_;  ///< the one under way; empty in between
+  RobotRollout rollout_;  ///< the current rollout; empty in between
   RolloutEvents events_;
   RolloutModes modes_;
 };

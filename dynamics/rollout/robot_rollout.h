@@ -20,8 +20,9 @@ struct RolloutContact {
   double offset = 0;   ///< m
   double friction = 0.7;
   /// For walkers without knees, whose swing foot passes through the ground: whether the contact
-  /// lands at configuration q. Asked when it comes down to its plane and, if it is held, when
-  /// another contact lands: no means that it goes through, or leaves. None: it always lands.
+  /// lands at configuration q. Called when the contact comes down to its plane and, while it is
+  /// held, when another contact lands. False: it passes through the plane, or leaves it. If empty,
+  /// it always lands.
   std::function<bool(const Eigen::VectorXd& q)> lands;
 };
 
@@ -30,15 +31,15 @@ struct RobotRolloutSettings {
 
   HybridSettings hybrid;  ///< default: BDF, tolerances 1e-8, steps of 0.02 s at most
   ForwardDynamicsSettings dynamics;
-  /// m: a point this near to its plane touches it; deeper at the start is an error.
+  /// m: a point this close to its plane touches it. A deeper point at the start is an error.
   double touching = 1e-6;
-  /// m/s: points that would leave the ground more slowly than this after an impact stay. It ends
+  /// m/s: after an impact, points that would leave the ground more slowly than this stay. This ends
   /// the endless sequence of ever smaller impacts of a rocking foot.
   double rest_speed = 1e-3;
   /// True: a patch whose resultant leaves its friction cone ends the rollout
-  /// (RobotRolloutEnd::kSlip). False: it sticks, and the utilisation is reported.
+  /// (RobotRolloutEnd::kSlip). False: the patch sticks, and its utilisation is reported.
   bool ends_at_slip = false;
-  /// J: the rollout ends (kAtRest) when the kinetic energy has been below this for rest_time; 0:
+  /// J: the rollout ends (kAtRest) when the kinetic energy has been below this for rest_time. 0:
   /// never.
   double rest_energy = 0;
   double rest_time = 0.1;  ///< s
@@ -46,19 +47,19 @@ struct RobotRolloutSettings {
 
 enum class RobotRolloutEnd { kTime, kAtRest, kSlip, kStopped, kZeno };
 
-/// A touchdown, a release, or both; the first may be at the start: what stands on the ground
-/// there. Indices are of contacts.
+/// A touchdown, a release, or both. The first event may be at the start, for the points that stand
+/// on the ground there. Indices are of contacts.
 struct RobotContactEvent {
   double time = 0;                  ///< s
-  std::vector<int> touched;         ///< came down
-  std::vector<int> released;        ///< were held before, and no longer are
-  std::vector<int> held;            ///< from now on
-  std::vector<int> jammed;          ///< of those: friction alone keeps them (BearingPoints)
+  std::vector<int> touched;         ///< contacts that came down
+  std::vector<int> released;        ///< contacts that were held before and no longer are
+  std::vector<int> held;            ///< contacts held from now on
+  std::vector<int> jammed;          ///< subset of `held` that only friction keeps (BearingPoints)
   Eigen::VectorXd v_before;         ///< nv
   Eigen::VectorXd v_after;          ///< nv; equal to v_before without an impact
   Eigen::Matrix3Xd impulses;        ///< 3 x contacts, N s, on the robot, world axes
   double energy_lost = 0;           ///< J
-  double friction_utilisation = 0;  ///< greatest of the impulses'
+  double friction_utilisation = 0;  ///< greatest one of the impulses
 };
 
 /// Everything at one time of a rollout.
@@ -74,11 +75,12 @@ struct RobotRollout {
   double time = 0;     ///< s
   Eigen::VectorXd q, v;
   std::vector<RobotContactEvent> events;
-  /// By contact: greatest tangential over normal force over friction of the resultant of its patch
-  /// (the held points of its link on its plane) at the ends of the integration steps; impacts are
-  /// in the events. Torsion about the normal is not in it.
+  /// By contact: greatest (tangential / normal force) / friction of the resultant of its patch (the
+  /// held points of its link on its plane) at the ends of the integration steps. Impacts are in the
+  /// events. Torsion about the normal is not included.
   Eigen::VectorXd friction_utilisation;
-  /// By joint: greatest |torque| over effort limit, likewise; 0 where there is no limit.
+  /// By joint: greatest |torque| over effort limit, at the same times; 0 for joints without a
+  /// limit.
   Eigen::VectorXd torque_utilisation;
   HybridRollout hybrid;  ///< the trajectory of (q, v)
 
@@ -88,26 +90,28 @@ struct RobotRollout {
 };
 
 /// Simulates a robot under joint control over ground planes. Points that bear are held: they
-/// neither slide nor leave. A mode is a set of held points; touchdown of a free point and tipping
-/// of a patch about one of its edges end it; then Gauss's principle of least constraint says which
-/// points bear (SelectBearingPoints), first for the velocities (inelastic impact), then for the
-/// accelerations. Joint stops and other collisions are not simulated. One per thread.
+/// neither slide nor leave. A mode is a set of held points. It ends when a free point touches down
+/// or a patch tips about one of its edges. Gauss's principle of least constraint
+/// (SelectBearingPoints) then selects the points that bear, first for the velocities (inelastic
+/// impact), then for the accelerations. Joint stops and other collisions are not simulated. One
+/// simulator per thread.
 class RobotSimulator {
  public:
-  /// @throws std::invalid_argument for contacts, gains or settings that make no sense.
+  /// @throws std::invalid_argument for invalid contacts, gains or settings.
   RobotSimulator(std::shared_ptr<const MultibodyModel> model, std::vector<RolloutContact> contacts,
                  JointControl control, const RobotRolloutSettings& settings = {});
   ~RobotSimulator();
   RobotSimulator(RobotSimulator&&) noexcept;
 
-  /// Points on the ground at the start are held if they bear; those that move into it hit it.
+  /// Points on the ground at the start are held if they bear. Points that move into the ground hit
+  /// it.
   /// @throws std::invalid_argument for a state of wrong size, that is not finite or has a point
   /// below the ground; OdeError if the integrator gives up; std::runtime_error if the dynamics have
-  /// no answer (ForwardDynamics, SelectBearingPoints).
+  /// no solution (ForwardDynamics, SelectBearingPoints).
   RobotRollout Run(const Eigen::Ref<const Eigen::VectorXd>& q,
                    const Eigen::Ref<const Eigen::VectorXd>& v, double start_time, double end_time);
 
-  /// At a time of the last rollout.
+  /// Motion at a time of the last rollout.
   RobotMotion MotionAt(const RobotRollout& rollout, double t);
 
  private:

@@ -13,9 +13,9 @@
 
 namespace possibility::dynamics {
 
-/// The robot of a rollout: how it moves under its joint control, by which of its contacts are held.
-/// States are (q, v), nq + nv. Holds a state: that of the last SetState, Accelerate or MotionAt;
-/// what has no state as an argument is asked there. One workspace per thread.
+/// The robot of a rollout: its motion under joint control while some of its contacts are held.
+/// States are (q, v), nq + nv. Keeps the state of the last SetState, Accelerate or MotionAt;
+/// functions without a state argument use it. One workspace per thread.
 /// @throws what ForwardDynamics and JointTorques throw.
 class RolloutDynamics {
  public:
@@ -27,7 +27,7 @@ class RolloutDynamics {
   int nv() const { return model().nv(); }
   int num_contacts() const { return static_cast<int>(contacts_.size()); }
   const RolloutContact& contact(int index) const { return contacts_[index]; }
-  /// One that stands for a patch of held contacts.
+  /// A contact that represents a patch of held contacts.
   const RolloutContact& ContactOf(const ContactPatchBalance& patch,
                                   const std::vector<int>& held) const {
     return contacts_[held[patch.points.front()]];
@@ -42,8 +42,8 @@ class RolloutDynamics {
   std::vector<ContactPatchBalance> PatchesOf(const std::vector<int>& held);
   const Impact& Hit(const std::vector<int>& contacts);
 
-  /// Velocities of contacts and their accelerations if none is held, as what SelectBearingPoints
-  /// asks for. `state` is the state set.
+  /// Velocities of contacts, and their accelerations if none is held, as input of
+  /// SelectBearingPoints. `state` must be the current state.
   UnilateralContacts UnilateralVelocities(const std::vector<int>& contacts);
   UnilateralContacts UnilateralAccelerations(double t,
                                              const Eigen::Ref<const Eigen::VectorXd>& state,
@@ -53,14 +53,15 @@ class RolloutDynamics {
   Eigen::VectorXd Accelerate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                              const RolloutStance& stance, Eigen::Matrix3Xd* forces);
   RobotMotion MotionAt(double t, const Eigen::VectorXd& state, const RolloutStance& stance);
-  /// Of the last Accelerate or MotionAt; num_joints.
+  /// Torques of the last Accelerate or MotionAt; num_joints.
   auto joint_torques() const { return generalised_.tail(model().num_joints()); }
-  /// Along the normal of a held contact while all but it are held, under these torques.
+  /// Acceleration of a held contact along its normal while all others are held, under
+  /// joint_torques().
   double AccelerationIfLetGo(const RolloutStance& stance, int contact);
 
  private:
   MultibodyDynamics* dynamics() { return forward_.dynamics(); }
-  /// Generalised forces of the joints at the state set; nv.
+  /// Generalised forces of the joints at the current state; nv.
   const Eigen::VectorXd& JointForces(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                                      bool has_landed);
   UnilateralContacts Unilateral(const std::vector<int>& contacts, Eigen::VectorXd unconstrained);

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::VectorXd;
 
-// m/s: slower points do not hit the ground but rest on it.
+// m/s: slower points rest on the ground instead of hitting it.
 constexpr double kAtRest = 1e-7;
 
 bool Contains(const std::vector<int>& indices, int index) {
@@ -73,8 +73,8 @@ void RolloutEvents::EndWith(RobotRolloutEnd end, std::string reason) {
   rollout_->reason = std::move(reason);
 }
 
-/// Impact of what has come down, then who bears: returns the stance from now on. `held` before,
-/// `leaving` points do not bear.
+/// Applies the impact of what has come down and selects the points that bear. Returns the new
+/// stance. `held`: held before; `leaving`: points that do not bear.
 RolloutStance RolloutEvents::PassContactEvent(double time, const std::vector<int>& held,
                                               const std::vector<int>& touched,
                                               const std::vector<int>& leaving, VectorXd* state) {

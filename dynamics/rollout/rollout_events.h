@@ -10,22 +10,22 @@
 
 namespace possibility::dynamics {
 
-/// Who bears after points have come down or left: an impact, then the forces. Adds the events to a
-/// rollout and ends it where the settings ask for an end at slip. Robot and rollout have to outlive
-/// it.
+/// Determines which contacts bear after points have come down or left: first an impact, then the
+/// forces. Adds the events to a rollout, and ends it at slip if the settings ask for that. Robot
+/// and rollout must outlive this.
 class RolloutEvents {
  public:
   RolloutEvents(RolloutDynamics* robot, const RobotRolloutSettings& settings, RobotRollout* rollout)
       : robot_(robot), settings_(settings), rollout_(rollout) {}
 
-  /// The stance at the start, by what touches the ground there. `state`: nq + nv, that set in the
-  /// robot; its velocity becomes that after the impact.
+  /// The stance at the start, from the contacts that touch the ground there. `state`: nq + nv, the
+  /// robot's current state; its velocity becomes that after the impact.
   RolloutStance Start(double time, Eigen::VectorXd* state);
-  /// The stance after the touchdown of `touched`; `leaving` no longer bear. Indices of contacts, in
-  /// any order, maybe repeated in `leaving`.
+  /// The stance after the touchdown of `touched`, when `leaving` no longer bear. Indices of
+  /// contacts in any order; `leaving` may have repetitions.
   RolloutStance Pass(double time, const RolloutStance& stance, std::vector<int> touched,
                      std::vector<int> leaving, Eigen::VectorXd* state);
-  /// Keeps the first end and its reason.
+  /// Only the first end and its reason are kept.
   void EndWith(RobotRolloutEnd end, std::string reason);
 
  private:

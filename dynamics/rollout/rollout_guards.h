@@ -12,16 +12,16 @@
 
 namespace possibility::dynamics {
 
-/// What may end a stance.
+/// An event that may end a stance.
 struct RolloutGuard {
   enum class Kind { kTouchdown, kClearing, kTipping, kUnjamming, kSlip, kCalm, kRest };
   Kind kind = Kind::kTouchdown;
-  int contact = -1;  ///< of kTouchdown, kClearing, kUnjamming
-  int patch = -1;    ///< of kTipping, kSlip
-  int edge = -1;     ///< of kTipping
+  int contact = -1;  ///< for kTouchdown, kClearing, kUnjamming
+  int patch = -1;    ///< for kTipping, kSlip
+  int edge = -1;     ///< for kTipping
 };
 
-/// The guards of one stance, which keep it. The robot has to outlive them.
+/// The guards of one stance. Share ownership of the stance; the robot must outlive them.
 class RolloutGuards {
  public:
   RolloutGuards(std::shared_ptr<const RolloutStance> stance, const RobotRolloutSettings& settings,
@@ -33,9 +33,9 @@ class RolloutGuards {
 
   OdeGuard Watched(int index) const;    ///< how the integrator watches it
   std::string NameOf(int index) const;  ///< for messages
-  /// Of kTipping: the contacts that leave.
+  /// For kTipping: the contacts that leave.
   std::vector<int> Tipping(const RolloutGuard& guard) const;
-  /// Of kTipping or kSlip: one that stands for its patch.
+  /// For kTipping or kSlip: a contact that represents the patch.
   const RolloutContact& PatchContact(const RolloutGuard& guard) const;
   /// `values`: size().
   void Evaluate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,

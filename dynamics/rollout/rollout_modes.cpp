@@ -8,10 +8,10 @@
 
 namespace possibility::dynamics {
 
-/// What guards that fired ask for, beside an end of the rollout.
+/// Changes requested by guards that fired, besides an end of the rollout.
 struct RolloutModes::Changes {
-  std::vector<int> touched, leaving;           ///< contacts; `leaving` may repeat them
-  std::optional<RolloutStance> same_contacts;  ///< what follows if no contact changes; none: as was
+  std::vector<int> touched, leaving;           ///< contacts; `leaving` may have repetitions
+  std::optional<RolloutStance> same_contacts;  ///< next stance if no contact changes; none: same
 };
 
 std::shared_ptr<const HybridMode> RolloutModes::Make(RolloutStance made) {

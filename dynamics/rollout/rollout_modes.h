@@ -14,8 +14,8 @@
 
 namespace possibility::dynamics {
 
-/// The modes of a rollout, one per stance: flow, guards, and which stance follows when they fire.
-/// What it is made of, and itself, have to outlive its modes.
+/// The modes of a rollout, one per stance: flow, guards, and the stance that follows when they
+/// fire. This object and the constructor's arguments must outlive the modes.
 class RolloutModes {
  public:
   RolloutModes(RolloutDynamics* robot, const RobotRolloutSettings& settings, RolloutEvents* events,
@@ -23,9 +23,9 @@ class RolloutModes {
       : robot_(robot), settings_(settings), events_(events), rollout_(rollout) {}
 
   std::shared_ptr<const HybridMode> Make(RolloutStance made);
-  /// Forgets all modes that were made.
+  /// Forgets all modes made so far.
   void Clear() { stances_.clear(); }
-  /// @throws std::invalid_argument for a segment whose mode is not known.
+  /// @throws std::invalid_argument for a segment of an unknown mode.
   const RolloutStance& StanceOf(const HybridSegment& segment) const;
 
  private:

@@ -23,7 +23,7 @@ using models::Joint;
 using models::JointType;
 using models::Mimic;
 
-// m, rad, or of a unit vector: what may keep two halves from being mirror images.
+// m, rad, or part of a unit vector: tolerated deviation of two halves from mirror images.
 constexpr double kTolerance = 1e-6;
 
 Vector3d Mirrored(const Vector3d& v) { return {v.x(), -v.y(), v.z()}; }
@@ -51,7 +51,7 @@ class Folder {
 
  private:
   struct Placement {
-    Vector3d origin;  ///< of the joint, world, everything at rest
+    Vector3d origin;  ///< of the joint, world, rest position
     Vector3d axis;
     bool free = false;
   };
@@ -112,7 +112,8 @@ class Folder {
       Fail(fmt::format("{} are no mirror images: their places differ by ({:.3g}, {:.3g}, {:.3g}) m",
                        PairName(left, right), off.x(), off.y(), off.z()));
     }
-    // Displacements are mirrored; a mirrored rotation turns the other way about what is mirrored.
+    // Displacements are mirrored. A mirrored rotation has the opposite sense about the mirrored
+    // axis.
     const bool slides = robot_.joints[left].type == JointType::kPrismatic;
     const Vector3d mirrored = slides ? Mirrored(l.axis) : Vector3d(-Mirrored(l.axis));
     sign_[right] = mirrored.dot(r.axis) < 0 ? -1 : 1;
@@ -144,8 +145,7 @@ class Folder {
     for (const auto& [left, right] : robot_.sagittal_pairs) is_right_[right] = true;
   }
 
-  /// Gives the link that a joint moves its place in the tree; of a pair the second one joins the
-  /// first.
+  /// Places the link that a joint moves in the tree. The second link of a pair joins the first.
   void Attach(int joint) {
     const int parent = result_.lumped_link[robot_.joints[joint].parent];
     const int partner = partner_[joint];
@@ -202,7 +202,7 @@ class Folder {
       Fail(PairName(pair.left, pair.right) + " have position limits without a common range");
     }
     joint->velocity = std::min(left.velocity, right.velocity);
-    // A joint that mimics another has no motor.
+    // A mimic joint has no motor.
     joint->effort = (left.mimic ? 0 : left.effort) + (right.mimic ? 0 : right.effort);
   }
 
@@ -220,7 +220,8 @@ class Folder {
       }
     }
     for (models::Link& link : tree.links) {
-      // Only the moment about y acts in the plane; three alike are those of a ball.
+      // Only the moment of inertia about y matters in the plane; three equal moments are those of a
+      // ball.
       link.inertial.I_LC = link.inertial.I_LC(1, 1) * Matrix3d::Identity();
     }
     std::set<std::pair<int, int>> ignored;
@@ -247,8 +248,8 @@ class Folder {
     }
   }
 
-  /// What a free joint mimics, in terms of the tree's joints and of the left one's sign; none if
-  /// it is independent or follows its own partner as symmetry has it.
+  /// The coupling of a free joint, in terms of the tree's joints and the left joint's sign. None if
+  /// it is independent or follows its own partner as symmetry requires.
   std::optional<Mimic> LumpedCoupling(int joint) const {
     const std::optional<Mimic>& mimic = robot_.joints[joint].mimic;
     if (!mimic) return std::nullopt;

@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kNumBase = 6;        // of full velocities
-constexpr int kNumPlanarBase = 3;  // of planar velocities
+constexpr int kNumBase = 6;        // number of base entries in full velocities
+constexpr int kNumPlanarBase = 3;  // number of base entries in planar velocities
 
 void Check(const char* what, const Eigen::Ref<const VectorXd>& x, int expected) {
   if (x.size() != expected) {
@@ -33,7 +33,7 @@ VectorXd CheckedLocked(const models::RobotModel& robot, const std::optional<Vect
   return *locked;
 }
 
-/// Of the left joint's effort limit in both; of those that have a motor.
+/// The left joint's share of the effort limits of both; only joints with a motor count.
 double LeftShare(const models::RobotModel& robot, const SagittalJoint& pair) {
   const models::Joint& left = robot.joints[pair.left];
   if (pair.right < 0) return 1;
@@ -48,8 +48,8 @@ double LeftShare(const models::RobotModel& robot, const SagittalJoint& pair) {
   return sum > 0 ? left.effort / sum : 0.5;
 }
 
-/// @throws std::invalid_argument that names the entry which is farthest off. `num_base`: entries
-/// before the joints.
+/// @throws std::invalid_argument that names the entry with the largest deviation. `num_base`:
+/// number of entries before the joints.
 void CompareSymmetric(const models::RobotModel& robot, const char* what, const VectorXd& given,
                       const VectorXd& symmetric, int num_base, double tolerance) {
   if (!(tolerance >= 0)) {

@@ -56,7 +56,7 @@ void CheckFinite(const char* what, const double* values, Eigen::Index size) {
 
 }  // namespace
 
-/// The robot with gravity, forces applied to its mobilities and its mimic joints' couplings.
+/// The robot with gravity, mobility forces and the couplings of its mimic joints.
 struct SimbodyDynamics::System {
   explicit System(const models::RobotModel& model) : matter(system), general_forces(system) {
     bodies.push_back(SimTK::MobilizedBody::Free(
@@ -103,7 +103,7 @@ struct SimbodyDynamics::System {
                                          first);
   }
 
-  /// To be called once, when everything has been added.
+  /// Call once, after everything has been added.
   void Finish() {
     state = system.realizeTopology();
     system.realizeModel(state);
@@ -166,7 +166,7 @@ struct SimbodyDynamics::HeldSystem : System {
     Finish();
   }
 
-  /// Where the points are now; realizes positions.
+  /// Places the balls where the points are now; realizes positions.
   void Place(const std::vector<ContactPoint>& held) {
     for (std::size_t i = 0; i < balls.size(); ++i) {
       balls[i].setPointOnBody2(state, ToVec3(held[i].p_L));
@@ -182,7 +182,7 @@ struct SimbodyDynamics::HeldSystem : System {
   Eigen::Matrix3Xd Reactions() const {
     Eigen::Matrix3Xd forces(3, balls.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
-      // Multipliers stand on the side of the inertial forces: M u-dot + G' lambda = f.
+      // Multipliers are on the side of the inertial forces: M u-dot + G' lambda = f.
       const SimTK::Vec3 force = -balls[i].getMultipliers(state);
       for (int r = 0; r < 3; ++r) forces.data()[3 * i + r] = force[r];
     }
@@ -219,7 +219,7 @@ void SimbodyDynamics::SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
 
 Eigen::VectorXd SimbodyDynamics::InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a) const {
   CheckSize("a", a.size(), free_->nv);
-  // calcResidualForce counts only the forces it is given, gravity among them.
+  // calcResidualForce counts only the forces that it is given, so gravity must be passed.
   SimTK::Vector_<SimTK::SpatialVec> gravity(free_->matter.getNumBodies(),
                                             SimTK::SpatialVec(SimTK::Vec3(0), SimTK::Vec3(0)));
   for (const SimTK::MobilizedBody& body : free_->bodies) {

@@ -9,13 +9,13 @@
 
 namespace possibility::dynamics {
 
-/// The robot as a Simbody multibody system with its State: the reference that our own recursions
-/// are held to, and the engine of the verifier. One instance per thread (a shared system aborts
-/// in forward dynamics). Conventions of q, v, a: models::RobotModel; of generalised forces:
+/// The robot as a Simbody multibody system with its State: the reference for tests of our own
+/// recursions, and the engine of the verifier. One instance per thread (a shared system aborts in
+/// forward dynamics). Conventions of q, v, a: models::RobotModel; of generalised forces:
 /// TreeKinematics.
 ///
-/// Mimic joints: inverse dynamics, the mass matrix and Jacobians are those of the tree, every joint
-/// for itself; forward dynamics holds them to their masters by constraints.
+/// Mimic joints: inverse dynamics, the mass matrix and Jacobians are those of the tree, where every
+/// joint is independent. Forward dynamics holds mimic joints to their masters by constraints.
 ///
 /// @throws std::invalid_argument that names an argument of wrong size, that is not finite (forces,
 /// held points) or a link out of range.
@@ -32,16 +32,16 @@ class SimbodyDynamics {
   Eigen::VectorXd InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a) const;
   Eigen::MatrixXd MassMatrix() const;  ///< nv x nv
 
-  /// How the robot moves while points of it are held.
+  /// The motion of the robot while points of it are held.
   struct HeldMotion {
     Eigen::VectorXd acceleration;  ///< nv
     Eigen::Matrix3Xd forces;       ///< 3 x points, on the robot, world axes, N
   };
-  /// Acceleration under generalised forces (gravity not among them); nv.
+  /// Acceleration under generalised forces (without gravity); nv.
   Eigen::VectorXd ForwardDynamics(const Eigen::Ref<const Eigen::VectorXd>& forces);
   /// The same with points held by ball joints to the ground: their acceleration is zero, whatever
-  /// their velocity. Where points share what a rigid body cannot tell apart, or contradict each
-  /// other, Simbody decides (least squares).
+  /// their velocity. If a rigid body does not determine how points share a load, or the points
+  /// contradict each other, Simbody decides (least squares).
   HeldMotion ForwardDynamics(const Eigen::Ref<const Eigen::VectorXd>& forces,
                              const std::vector<ContactPoint>& held);
 
@@ -61,14 +61,14 @@ class SimbodyDynamics {
 
  private:
   struct System;
-  /// Points held to the ground, by link: what Simbody's constraints are built for.
+  /// Points held to the ground, by link. Simbody's constraints are built for them.
   struct HeldSystem;
 
   models::RobotModel model_;
   Eigen::VectorXd q_;
   Eigen::VectorXd v_;
   std::unique_ptr<System> free_;
-  std::unique_ptr<HeldSystem> held_;  ///< of the last links held
+  std::unique_ptr<HeldSystem> held_;  ///< for the last links held
 };
 
 }  // namespace possibility::dynamics

@@ -9,7 +9,7 @@
 namespace possibility::dynamics {
 namespace {
 
-// Of a normal's length from 1.
+// Tolerance of a normal's length.
 constexpr double kUnit = 1e-9;
 
 }  // namespace

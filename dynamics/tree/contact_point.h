@@ -13,8 +13,8 @@ struct ContactPoint {
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
 };
 
-/// @throws std::invalid_argument beginning with `caller` if a point names no link of `num_links`
-/// or is not finite, or its normal is no unit vector.
+/// @throws std::invalid_argument with a message that begins with `caller` if a point names no link
+/// of `num_links` or is not finite, or its normal is not a unit vector.
 void CheckContactPoints(const char* caller, int num_links, const std::vector<ContactPoint>& points);
 
 }  // namespace possibility::dynamics

@@ -57,7 +57,7 @@ void TreeDerivatives::AddJointHessian(int link) {
   const SpatialVector dv = 2 * (subtree.Coriolis(axis.S) + subtree.Inertia(axis.rate));
   const SpatialVector dq = 2 * subtree.Coriolis(axis.rate) + subtree.Inertia(axis.rate_rate) +
                            CrossForce(axis.S, subtree.force);
-  // ... and what multiplies an outer coordinate's rates in the derivative of the gradient.
+  // ... and the factors of an outer coordinate's rates in the derivative of the gradient.
   const SpatialVector on_rate_rate =
       subtree.Inertia(axis.virtual_rate) + CrossForce(axis.S, dual.momentum);
   const SpatialVector on_rate =
@@ -90,7 +90,7 @@ void TreeDerivatives::AddRootHessian() {
   auto& H = hessian_;
   for (int d = 0; d < 3; ++d) {
     const Axis& axis = axes_[d];
-    // How force, virtual momentum and turning change with a rotation of the whole robot.
+    // Change of force, virtual momentum and turning under a rotation of the whole robot.
     const SpatialVector force =
         2 * all.Coriolis(axis.rate) + all.Inertia(axis.rate_rate) + CrossForce(axis.S, all.force);
     const SpatialVector momentum =
@@ -175,7 +175,7 @@ void TreeDerivatives::AddPointPair(const PointTerm& term, const PointMotion& poi
 
 void TreeDerivatives::AddRootPointPair(const PointTerm& term, const PointMotion& point,
                                        const Vector3d& virtual_velocity, int j, int k) {
-  // Rotating the robot leaves the root's own axes, velocity and acceleration as they are.
+  // Rotating the robot does not change the root's own axes, velocity and acceleration.
   const Vector3d e_j = Vector3d::Unit(j);
   const Vector3d e_k = Vector3d::Unit(k);
   const Axis& axis = axes_[k];

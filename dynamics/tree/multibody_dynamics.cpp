@@ -70,7 +70,7 @@ void MultibodyDynamics::SetAcceleration(const Eigen::Ref<const VectorXd>& a) {
   }
 }
 
-/// Sums up the tree's columns, each with its factor, under the independent ones.
+/// Adds up the tree's columns, each times its factor, in the independent columns.
 void MultibodyDynamics::ReduceColumns(const MatrixXd& tree, Eigen::Ref<MatrixXd> reduced) const {
   reduced.setZero();
   for (Eigen::Index c = 0; c < tree.cols(); ++c) {

@@ -31,7 +31,7 @@ class MultibodyDynamics {
   void SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
                 const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& a);
-  /// Another acceleration at the same state; nv.
+  /// Sets another acceleration at the same state; nv.
   void SetAcceleration(const Eigen::Ref<const Eigen::VectorXd>& a);
 
   /// M(q) a + c(q, v) + g(q) at the acceleration set; nv.
@@ -43,7 +43,7 @@ class MultibodyDynamics {
 
   Eigen::Vector3d Position(const ContactPoint& point) const;
   Eigen::Vector3d Velocity(const ContactPoint& point) const;
-  /// At the acceleration set; J-dot v where that is zero.
+  /// At the acceleration set; J-dot v if that is zero.
   Eigen::Vector3d Acceleration(const ContactPoint& point) const;
   /// Writes 3 x nv, for example a block of a larger matrix.
   void Jacobian(const ContactPoint& point, Eigen::Ref<Eigen::MatrixXd> J) const;
@@ -65,7 +65,7 @@ class MultibodyDynamics {
   const HessianProduct& Hessian(const Eigen::Ref<const Eigen::VectorXd>& lambda,
                                 const std::vector<PointTerm>& terms = {});
 
-  /// Of the tree: poses, Jacobians and centre of mass in the tree's own coordinates.
+  /// Kinematics of the tree: poses, Jacobians and centre of mass in the tree's own coordinates.
   const TreeKinematics& kinematics() const { return tree_.kinematics(); }
 
  private:
@@ -77,7 +77,7 @@ class MultibodyDynamics {
 
   std::shared_ptr<const MultibodyModel> model_;
   TreeDerivatives tree_;
-  // Of models whose coordinates are not the tree's.
+  // Only for models whose coordinates are not the tree's.
   Eigen::VectorXd forces_;
   Eigen::MatrixXd mass_matrix_;
   InverseDynamicsDerivatives derivatives_;

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kPitch = 1;  // of a tree's velocity: angular about +y
+constexpr int kPitch = 1;  // index into a tree's velocity: angular about +y
 constexpr int kX = 3;
 constexpr int kZ = 5;
 
@@ -22,7 +22,7 @@ void CheckSize(const char* what, Eigen::Index actual, int expected) {
       fmt::format("MultibodyModel: {} has {} elements, expected {}", what, actual, expected));
 }
 
-/// Stays in the plane y = 0 whatever the joints' values.
+/// Checks that the tree stays in the plane y = 0 for all joint values.
 void CheckPlanar(const models::RobotModel& tree) {
   constexpr double kTolerance = 1e-9;
   std::vector<Eigen::Matrix3d> R_WL(tree.num_links(), Eigen::Matrix3d::Identity());

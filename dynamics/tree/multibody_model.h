@@ -20,18 +20,18 @@ struct CoupledVelocity {
   double factor = 1;
 };
 
-/// What is immutable about a multibody system, shared by the workspaces of all threads: a tree of
-/// links (models::RobotModel, its own conventions of q and v) and how the tree's coordinates
-/// follow from the independent ones of this class. Independent coordinates: base first (Base),
-/// then the independent joints in the tree's order.
+/// The immutable part of a multibody system, shared by the workspaces of all threads: a tree of
+/// links (models::RobotModel, with its own conventions of q and v), and the map from the
+/// independent coordinates of this class to the tree's coordinates. Independent coordinates: base
+/// first (Base), then the independent joints in the tree's order.
 ///
 /// Generalised forces are dual to v. A tangent (nv) is a displacement of q: a rotation vector in
 /// world axes and a translation for a floating base, differences otherwise.
 class MultibodyModel {
  public:
-  /// The robot in space: every joint independent but those that mimic another.
+  /// The robot in space: every joint is independent except mimic joints.
   static std::shared_ptr<const MultibodyModel> Spatial(const models::RobotModel& robot);
-  /// A tree all of whose joints stay in the plane y = 0 (parallel to y, or prismatic in it).
+  /// A tree whose joints all stay in the plane y = 0 (parallel to y, or prismatic in it).
   static std::shared_ptr<const MultibodyModel> Planar(const models::RobotModel& tree);
 
   const models::RobotModel& tree() const { return tree_; }
@@ -41,26 +41,26 @@ class MultibodyModel {
   int num_base_positions() const { return base_ == Base::kFloating ? 7 : 3; }
   int num_base_velocities() const { return base_ == Base::kFloating ? 6 : 3; }
   int num_joints() const { return static_cast<int>(joints_.size()); }  ///< independent ones
-  /// By independent joint: index into tree().joints of the one whose value it is.
+  /// By independent joint: index into tree().joints of the joint whose value it is.
   const std::vector<int>& joints() const { return joints_; }
-  /// True if every tree velocity is an independent velocity itself, in the same order.
+  /// True if the tree velocities are the independent velocities, in the same order.
   bool is_identity() const { return is_identity_; }
   /// By tree velocity (tree().nv() of them).
   const std::vector<CoupledVelocity>& couplings() const { return couplings_; }
 
-  // Limits by independent joint, mimic joints counted in.
+  // Limits by independent joint; those of its mimic joints are included.
   const Eigen::VectorXd& lower() const { return lower_; }        ///< rad or m, may be -inf
   const Eigen::VectorXd& upper() const { return upper_; }        ///< rad or m, may be +inf
   const Eigen::VectorXd& velocity() const { return velocity_; }  ///< rad/s or m/s
   const Eigen::VectorXd& effort() const { return effort_; }      ///< N m or N
 
-  /// Tree coordinates of independent ones (sizes checked: std::invalid_argument).
+  /// Tree coordinates of independent ones. @throws std::invalid_argument for a wrong size.
   Eigen::VectorXd TreeConfiguration(const Eigen::Ref<const Eigen::VectorXd>& q) const;
   Eigen::VectorXd TreeVelocity(const Eigen::Ref<const Eigen::VectorXd>& v) const;
-  /// Independent generalised forces of the tree's (the transpose of TreeVelocity).
+  /// Independent generalised forces from those of the tree (the transpose of TreeVelocity).
   Eigen::VectorXd IndependentForces(const Eigen::Ref<const Eigen::VectorXd>& tree_forces) const;
 
-  /// q displaced by a tangent (nv); the quaternion comes back normalised.
+  /// q displaced by a tangent (nv), with the quaternion normalised.
   Eigen::VectorXd Displaced(const Eigen::Ref<const Eigen::VectorXd>& q,
                             const Eigen::Ref<const Eigen::VectorXd>& tangent) const;
   /// dq/dt (nq) at configuration q and velocity v.

@@ -62,7 +62,7 @@ void TreeDerivatives::AddPointForceDerivative(int link, const Vector3d& p_L, con
   const Vector3d p = kinematics_.Position(link, p_L) - kinematics_.X_WL()[0].translation();
   for (int i = link; i > 0; i = constants_[i].parent) {
     const int c = Coordinate(i);
-    // The axis farther from the root moves the point, and each before it turns that motion.
+    // The axis farther from the root moves the point; each axis before it turns that motion.
     const Vector3d moment = VelocityAt(axes_[c].S, p).cross(f);
     for (int j = i; j > 0; j = constants_[j].parent) {
       const int d = Coordinate(j);

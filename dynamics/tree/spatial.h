@@ -5,8 +5,8 @@
 
 namespace possibility::dynamics {
 
-// Small fixed-size algebra for the innermost loops, written out element by element: kept in
-// registers, where Eigen's vectorised expressions would go through memory.
+// Small fixed-size algebra for the innermost loops, written out element by element so that it stays
+// in registers. Eigen's vectorised expressions would go through memory.
 
 [[gnu::always_inline]] inline Eigen::Vector3d Cross(const Eigen::Vector3d& a,
                                                     const Eigen::Vector3d& b) {
@@ -39,8 +39,8 @@ inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// A spatial vector (Featherstone 2008, chapter 2): of a motion, `linear` is the velocity of the
-/// point at the origin; of a force, `angular` is the moment about the origin.
+/// A spatial vector (Featherstone 2008, chapter 2). For a motion, `linear` is the velocity of the
+/// point at the origin. For a force, `angular` is the moment about the origin.
 struct SpatialVector {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
@@ -79,15 +79,15 @@ struct SpatialVector {
           Cross(v.angular, force.linear)};
 }
 
-/// The motion's velocity of the point at p.
+/// Velocity of the point at p under the motion.
 [[gnu::always_inline]] inline Eigen::Vector3d VelocityAt(const SpatialVector& motion,
                                                          const Eigen::Vector3d& p) {
   return motion.linear + Cross(motion.angular, p);
 }
 
-/// D = tr(G) 1 - G, G the sum over a body's mass of velocity times position', for a body with the
-/// first moment of mass `moment` and the rotational inertia `inertia` about the origin. D x is the
-/// moment of the forces that turning the momentum with x takes (docs/dynamics.md).
+/// D = tr(G) 1 - G, where G is the sum over a body's mass of velocity times position', for a body
+/// with the first moment of mass `moment` and the rotational inertia `inertia` about the origin. D
+/// x is the moment of the forces needed to turn the momentum with x (docs/dynamics.md).
 inline Eigen::Matrix3d CoriolisMatrix(const SpatialVector& v, const Eigen::Vector3d& moment,
                                       const Eigen::Matrix3d& inertia) {
   // The second moment of mass is half the inertia's trace minus the inertia.

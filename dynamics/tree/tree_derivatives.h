@@ -34,10 +34,10 @@ struct CentroidalQuantities {
   Eigen::MatrixXd momentum_dv;  ///< 6 x nv, the centroidal momentum matrix
 };
 
-/// A scalar of one point of the robot: on_position' p + on_velocity' p-dot + on_acceleration'
-/// p-ddot
-/// + force' (J lambda), lambda the multipliers of inverse dynamics. With `force` minus a contact
-/// force, lambda' (ID - J' f) is differentiated.
+/// A scalar of one point of the robot:
+///   on_position' p + on_velocity' p-dot + on_acceleration' p-ddot + force' (J lambda),
+/// where lambda are the multipliers of inverse dynamics. If `force` is minus a contact force,
+/// lambda' (ID - J' f) is differentiated.
 struct PointTerm {
   int link = 0;
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();
@@ -76,7 +76,7 @@ class TreeDerivatives {
   void SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
                 const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& a);
-  /// Another acceleration at the same q and v.
+  /// Sets another acceleration at the same q and v.
   void SetAcceleration(const Eigen::Ref<const Eigen::VectorXd>& a);
 
   /// Generalised forces at the acceleration set, gravity included; nv.
@@ -136,7 +136,7 @@ class TreeDerivatives {
     Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();
     Eigen::Matrix3d I_LC = Eigen::Matrix3d::Zero();
   };
-  /// Of one velocity coordinate: what it moves and how that itself changes.
+  /// Data of one velocity coordinate: its motion and how that motion changes.
   struct Axis {
     SpatialVector S;             ///< motion per unit rate
     SpatialVector rate;          ///< psi-dot: v_parent x S
@@ -144,7 +144,7 @@ class TreeDerivatives {
     SpatialVector twice;         ///< theta: psi-dot + S-dot
     SpatialVector virtual_rate;  ///< chi: w_parent x S (Hessian)
   };
-  /// The same as Body, of the virtual velocity w whose rates are the multipliers (Hessian).
+  /// Counterpart of Body for the virtual velocity w, whose rates are the multipliers (Hessian).
   struct VirtualBody {
     SpatialVector momentum;                              ///< g: I w
     Eigen::Matrix3d coriolis = Eigen::Matrix3d::Zero();  ///< D of w in place of v
@@ -182,7 +182,7 @@ class TreeDerivatives {
   int num_links_;
   std::vector<LinkConstants> constants_;
   std::vector<Body> bodies_;          ///< by link
-  std::vector<Body> subtrees_;        ///< by link, the link and all that it carries
+  std::vector<Body> subtrees_;        ///< by link: the link and all links it carries
   std::vector<SpatialVector> v_, a_;  ///< by link; a counts gravity as an upward acceleration
   std::vector<SpatialVector> w_;      ///< by link, virtual velocity
   std::vector<Axis> axes_;            ///< by coordinate

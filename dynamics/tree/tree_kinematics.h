@@ -25,9 +25,9 @@ class TreeKinematics {
 
   const models::RobotModel& model() const { return *model_; }
 
-  /// Poses. `q`: nq, quaternion normalised by the callee.
+  /// Sets the poses. `q`: nq; its quaternion is normalised here.
   void SetPosition(const Eigen::Ref<const Eigen::VectorXd>& q);
-  /// Velocities and velocity-product accelerations, at the last position. `v`: nv.
+  /// Sets velocities and velocity-product accelerations at the last position. `v`: nv.
   void SetVelocity(const Eigen::Ref<const Eigen::VectorXd>& v);
 
   const std::vector<Eigen::Isometry3d>& X_WL() const { return X_WL_; }
@@ -37,7 +37,7 @@ class TreeKinematics {
 
   /// Unit axis of the joint that moves a link (not the root), world axes.
   const Eigen::Vector3d& Axis(int link) const { return states_[link].axis; }
-  /// The joints between the root and a link, the root's first: all that can move the link.
+  /// The joints between the root and a link, the root's first: all joints that move the link.
   const std::vector<int>& SupportingJoints(int link) const { return supporting_joints_[link]; }
 
   /// Rows 0-2 angular, 3-5 linear velocity of the point; 6 x nv, world axes. `J` is resized if
@@ -67,7 +67,7 @@ class TreeKinematics {
                      Eigen::VectorXd* generalised) const;
 
  private:
-  /// What the model says of a link and, unless it is the root, of the joint that moves it.
+  /// Model constants of a link and, unless it is the root, of the joint that moves it.
   struct LinkConstants {
     int parent = -1;
     bool prismatic = false;
