@@ -12,7 +12,7 @@ using Column = Eigen::Map<Eigen::VectorXd>;
 using Panel = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 constexpr int kWindow = 32;              // columns that one block of pivots updates at once
-constexpr double kSafeThreshold = 0.01;  // tried before the caller's, laxer one
+constexpr double kSafeThreshold = 0.01;  // tried before the caller's threshold, which is laxer
 constexpr double kZeroPivot = 1e-13;     // entries are of order one
 
 }  // namespace
@@ -76,7 +76,7 @@ int DenseFront::TryColumn(int k, int window, double threshold) {
     return 1;
   }
   int partner = LargestCandidateBeside(k);
-  if (partner < 0 || partner >= window) return 0;  // beyond the window it is not up to date
+  if (partner < 0 || partner >= window) return 0;  // not up to date beyond the window
   const double b = column(std::min(k, partner))[std::max(k, partner)];
   const double c = column(partner)[partner];
   const double largest_there = LargestBeside(partner);

@@ -5,14 +5,15 @@
 
 namespace possibility::collocation {
 
-/// A symmetric matrix F of which the first columns are to be eliminated: F = L D L' there, and the
-/// Schur complement in what is left. Only the lower triangle is kept, column by column.
+/// A symmetric matrix F whose first columns are eliminated: F = L D L' there, and the Schur
+/// complement in the rest. Only the lower triangle is stored, column by column.
 class DenseFront {
  public:
   /// How an eliminated column pivots.
   enum Pivot : char { kSingle, kPairFirst, kPairSecond };
 
-  /// All zero, of `size` rows, which `index` names (any numbers; they follow the permutation).
+  /// Sets the matrix to zero with `size` rows. index() names the rows (any numbers; they follow the
+  /// permutation).
   void Reset(int size);
   int size() const { return size_; }
   std::vector<int>& index() { return index_; }
@@ -20,31 +21,32 @@ class DenseFront {
   double* column(int j) { return values_.data() + static_cast<size_t>(j) * size_; }
   const double* column(int j) const { return values_.data() + static_cast<size_t>(j) * size_; }
 
-  /// Eliminates as many of the first `candidates` columns as have a stable pivot, 1x1 or 2x2,
-  /// among them; they become the first num_pivots columns, the others follow in some order. A
-  /// pivot is stable if no multiplier exceeds 1 / threshold; much safer ones are taken first.
-  /// With `last`, any pivot that is not zero to rounding will do. Entries should be of order one.
+  /// Eliminates as many of the first `candidates` columns as have a stable pivot, 1x1 or 2x2, among
+  /// them. They become the first num_pivots columns; the others follow in some order. A pivot is
+  /// stable if no multiplier exceeds 1 / threshold; much safer pivots are taken first. With `last`,
+  /// any pivot that is not zero to rounding is accepted. Entries should be of order one.
   /// `interrupt` is called between blocks of pivots, and may throw.
   void Eliminate(int candidates, double threshold, bool last,
                  const std::function<void()>& interrupt = {});
 
   int num_pivots() const { return num_pivots_; }
-  /// Whether a candidate that is left has no entry but zeros, to rounding: then it never gets one,
-  /// wherever it is eliminated, and the matrix is singular.
+  /// Whether a remaining candidate has only zero entries, to rounding. It then never gets another
+  /// entry, wherever it is eliminated, and the matrix is singular.
   bool has_zero_candidate() const { return has_zero_candidate_; }
   int num_negative() const { return num_negative_; }
   const std::vector<Pivot>& pivots() const { return pivots_; }
-  /// The inverse of D: its diagonal, and below the diagonal of each pair (at the pair's first).
+  /// The inverse of D: its diagonal, and the subdiagonal entry of each pair (at the pair's first
+  /// column).
   const std::vector<double>& inverse_diagonal() const { return inverse_diagonal_; }
   const std::vector<double>& inverse_subdiagonal() const { return inverse_subdiagonal_; }
 
  private:
-  /// The largest magnitude in row and column k, the diagonal excepted, among what is left.
+  /// Largest off-diagonal magnitude in row and column k of the remaining matrix.
   double LargestBeside(int k) const;
   bool IsZero(int k) const;
-  /// Where it is if only the candidates count; -1 if all are zero.
+  /// Index of that entry if only the candidates count; -1 if all are zero.
   int LargestCandidateBeside(int k) const;
-  /// Brings a pivot to num_pivots(): returns 0 (none found), 1 or 2, its size.
+  /// Moves a pivot to num_pivots(). Returns its size, 1 or 2, or 0 if none is found.
   int FindPivot(int window, double threshold);
   int TryColumn(int k, int window, double threshold);
   void Swap(int p, int q);

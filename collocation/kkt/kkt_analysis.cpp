@@ -32,7 +32,7 @@ Graph MakeGraph(int size, const std::vector<KktEdge>& edges, const std::vector<i
   return graph;
 }
 
-/// For each row the dual row it is paired with, or -1.
+/// For each row, the dual row that it is paired with, or -1.
 std::vector<int> PairDualRows(int size, int num_dual, const std::vector<KktEdge>& edges) {
   const int first_dual = size - num_dual;
   std::vector<std::vector<std::pair<double, int>>> choices(num_dual);
@@ -190,8 +190,8 @@ std::vector<Group> FundamentalGroups(const Graph& graph, const std::vector<int>&
   return groups;
 }
 
-/// Whether a front of so many columns may store so large a share of zeros: small fronts cost more
-/// in bookkeeping than in arithmetic.
+/// Whether a front with this many columns may store this large a share of zeros. Small fronts cost
+/// more in bookkeeping than in arithmetic.
 bool WorthMerging(double columns, double rows, double zeros) {
   const double entries = columns * (columns + 1) / 2 + columns * rows;
   const double share = zeros / entries;
@@ -227,10 +227,10 @@ void MergeSmallGroups(std::vector<Group>* groups) {
     std::sort(group.columns.begin(), group.columns.end());
     if (group.parent >= 0) children[group.parent].push_back(g);
   }
-  // Children are merged before their parents' turn, so a parent is never a merged group.
+  // Children are merged before their parents, so a parent is never a merged group.
 }
 
-/// Numbers the columns group by group and says where each front's rows lie in its parent.
+/// Numbers the columns group by group and finds each front's rows in its parent.
 void LayOutFronts(const std::vector<Group>& groups, KktAnalysis* analysis,
                   const std::vector<int>& old_variable_at) {
   std::vector<int> index_of(groups.size(), -1), alive, parent;

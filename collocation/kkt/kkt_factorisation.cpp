@@ -32,7 +32,7 @@ KktFactorisation::KktFactorisation(int size, int num_dual, std::vector<int> rows
 
 void KktFactorisation::Analyse(const double* values, const Interrupt& interrupt) {
   const size_t entries = rows_.size();
-  // Weights that tell how large an entry is among those of its row and column.
+  // Weights: the size of an entry relative to those of its row and column.
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(size_);
   for (size_t t = 0; t < entries; ++t) {
     const double magnitude = std::abs(values[t]);
@@ -66,7 +66,7 @@ void KktFactorisation::Analyse(const double* values, const Interrupt& interrupt)
   analysed_ = true;
 }
 
-/// Entries of the pattern that lie at one place get one number, column after column.
+/// Gives entries of the pattern at the same place the same number, column after column.
 void KktFactorisation::SortPlaces() {
   const size_t entries = rows_.size();
   std::vector<int> begin(size_ + 1, 0), of_column(entries);

@@ -17,18 +17,18 @@ enum class KktStatus {
 
 /// Solves sparse symmetric indefinite systems, as they arise in interior-point methods, for many
 /// matrices of one pattern: a multifrontal L D L' (Duff & Reid 1983) of the equilibrated matrix
-/// with 1x1 and 2x2 threshold pivots; a column without a stable pivot in its front is delayed to
-/// the next, so the inertia is that of the matrix itself. Each object belongs to one thread at a
-/// time; objects share nothing.
+/// with 1x1 and 2x2 threshold pivots. A column without a stable pivot in its front is delayed to
+/// the next front, so the inertia is that of the matrix itself. Each object belongs to one thread
+/// at a time; objects share nothing.
 class KktFactorisation {
  public:
-  /// Called now and then during long computations; may throw, which abandons the computation and
-  /// leaves the object usable for another Factorise.
+  /// Called from time to time during long computations. May throw: the computation is then
+  /// abandoned, and the object can be used for another Factorise.
   using Interrupt = std::function<void()>;
 
-  /// The pattern: entry t couples rows[t] and columns[t] (0-based, either triangle, each entry off
-  /// the diagonal given once; repeated ones add up). The last `num_dual` rows are those that may
-  /// have a zero diagonal: a hint for the ordering.
+  /// The pattern: entry t couples rows[t] and columns[t] (0-based, either triangle, each
+  /// off-diagonal entry given once; repeated entries add up). The last `num_dual` rows may have a
+  /// zero diagonal: a hint for the ordering.
   /// @throws std::invalid_argument for an index out of range.
   KktFactorisation(int size, int num_dual, std::vector<int> rows, std::vector<int> columns);
 
@@ -37,23 +37,23 @@ class KktFactorisation {
   KktStatus Factorise(const double* values, double pivot_threshold,
                       const Interrupt& interrupt = {});
 
-  /// Overwrites the right-hand side (size) by the solution, refined against the matrix. A solution
-  /// that is not finite is given as zero. Only after kFactorised.
+  /// Overwrites the right-hand side (size) with the solution, refined against the matrix. A
+  /// solution that is not finite is returned as zero. Call only after kFactorised.
   void Solve(double* right_side);
 
   int size() const { return size_; }
-  /// Negative eigenvalues of the factorised matrix.
+  /// Number of negative eigenvalues of the factorised matrix.
   int num_negative() const { return num_negative_; }
-  /// Columns that went to a later front for want of a pivot, counted per front left.
+  /// Number of columns delayed to a later front for lack of a pivot, counted once per front left.
   int num_delayed() const { return num_delayed_; }
-  /// Stored entries of the factor.
+  /// Number of stored entries of the factor.
   size_t factor_size() const { return factor_.size(); }
 
  private:
   struct FactorPart {
     int size = 0;
     int num_pivots = 0;
-    size_t first_value = 0;  ///< in factor_: of each pivot, the rows below it
+    size_t first_value = 0;  ///< in factor_: for each pivot, the rows below it
     size_t first_index = 0;  ///< in index_
     size_t first_pivot = 0;  ///< in pivots_ and the inverse of D
   };
@@ -91,7 +91,7 @@ class KktFactorisation {
 
   DenseFront front_;
   int candidates_ = 0;       ///< columns of front_ that may be eliminated
-  std::vector<int> target_;  ///< of a contribution's rows in front_
+  std::vector<int> target_;  ///< places of a contribution's rows in front_
   std::vector<Contribution> contributions_;
   std::vector<double> stack_;
   size_t stack_top_ = 0;

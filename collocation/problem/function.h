@@ -9,12 +9,12 @@
 
 namespace possibility::collocation {
 
-/// Which elements of a matrix may be other than zero.
+/// The elements of a matrix that may be non-zero.
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// y = F(z) with exact derivatives; z is what one instant of a motion has, so the blocks are
-/// small and dense. May keep a workspace: one solve at a time. What cannot be evaluated comes out
-/// as NaN or throws std::runtime_error.
+/// y = F(z) with exact derivatives. z contains the quantities of one instant of a motion, so the
+/// blocks are small and dense. May keep a workspace: one solve at a time. If F cannot be evaluated,
+/// it yields NaN or throws std::runtime_error.
 class Function {
  public:
   Function(int num_inputs, int num_outputs) : num_inputs_(num_inputs), num_outputs_(num_outputs) {}
@@ -23,11 +23,11 @@ class Function {
   int num_inputs() const { return num_inputs_; }
   int num_outputs() const { return num_outputs_; }
 
-  /// `y`: num_outputs, of that size already, here and below.
+  /// `y`: num_outputs. Here and below, the output already has the right size.
   virtual void Evaluate(const Eigen::VectorXd& z, Eigen::VectorXd* y) = 0;
   /// `J`: outputs x inputs.
   virtual void Jacobian(const Eigen::VectorXd& z, Eigen::MatrixXd* J) = 0;
-  /// `H`: inputs x inputs, of multipliers' F.
+  /// `H`: inputs x inputs, the Hessian of multipliers' F.
   virtual void Hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers,
                        Eigen::MatrixXd* H) = 0;
   /// Elements outside the masks are zero for every z.

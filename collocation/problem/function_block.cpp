@@ -24,7 +24,7 @@ FunctionBlock::FunctionBlock(std::shared_ptr<Function> function,
 
 namespace {
 
-/// An arbitrary point: the slots are found by visiting as the evaluation does.
+/// An arbitrary point: slots are found by the same visits as in the evaluation.
 Eigen::VectorXd PointFor(const std::vector<PolynomialForm>& forms) {
   int greatest = -1;
   for (const PolynomialForm& form : forms) {

@@ -13,11 +13,11 @@
 
 namespace possibility::collocation {
 
-/// Gives every element of a sparse matrix one place among its values, however many blocks add to
+/// Gives every element of a sparse matrix one place among its values, even if several blocks add to
 /// it.
 class ElementSlots {
  public:
-  /// The slot of an element, new if it has none yet.
+  /// The slot of an element; created if there is none yet.
   int At(int row, int column);
   const SparsityPattern& pattern() const { return pattern_; }
 
@@ -26,12 +26,12 @@ class ElementSlots {
   std::map<std::pair<int, int>, int> slots_;
 };
 
-/// One function at one instant of a program: its arguments are forms in the program's variables,
-/// its outputs rows of the constraints, or a term of the objective times a weight that may grow
-/// with a duration. Evaluates itself and adds its derivatives at slots found once.
+/// One function at one instant of a program. Its arguments are forms in the program's variables.
+/// Its outputs are rows of the constraints, or a term of the objective times a weight that may be a
+/// multiple of a duration. Evaluates itself and adds its derivatives at slots that are found once.
 class FunctionBlock {
  public:
-  /// `scales`: what the outputs are divided by; none for 1.
+  /// `scales`: divisors of the outputs; empty: 1.
   FunctionBlock(std::shared_ptr<Function> function, std::vector<PolynomialForm> arguments,
                 const Eigen::VectorXd& scales = {});
 
@@ -45,7 +45,7 @@ class FunctionBlock {
   void AddHessian(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
                   Eigen::VectorXd* values);
 
-  // As a term of the objective, weight(x) * f, f of one output.
+  // For a term of the objective: weight(x) * f, where f has one output.
   void FindCostSlots(const PolynomialForm& weight, ElementSlots* hessian);
   double Cost(const Eigen::VectorXd& x);
   void AddGradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
@@ -54,7 +54,7 @@ class FunctionBlock {
  private:
   void FindArguments(const Eigen::VectorXd& x);
   void FindFunctionHessianSlots(ElementSlots* hessian);
-  /// Multipliers already in multipliers_; returns the number of slots used.
+  /// Uses the values in multipliers_; returns the number of slots used.
   std::size_t AddFunctionHessian(const Eigen::VectorXd& x, Eigen::VectorXd* values);
 
   std::shared_ptr<Function> function_;
@@ -63,7 +63,7 @@ class FunctionBlock {
   PolynomialForm weight_;
   Mask jacobian_mask_, hessian_mask_;
   int first_row_ = 0;
-  std::vector<int> jacobian_slots_;  // in the order in which AddJacobian visits
+  std::vector<int> jacobian_slots_;  // in the order of AddJacobian
   std::vector<int> hessian_slots_;
   Eigen::VectorXd z_, y_, multipliers_;
   Eigen::MatrixXd J_, H_;

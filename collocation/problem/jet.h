@@ -6,8 +6,8 @@
 namespace possibility::collocation {
 
 /// Forward automatic differentiation: a number with its exact gradient with respect to N inputs
-/// and, of order 2, its Hessian. Functions written for any scalar type take it in the place of
-/// double; comparisons look at the value.
+/// and, for order 2, its Hessian. Functions written for any scalar type accept it in place of
+/// double; comparisons use the value.
 template <int N, int Order>
 struct Jet {
   static_assert(Order == 1 || Order == 2);
@@ -67,7 +67,7 @@ struct Jet {
   friend bool operator<(const Jet& a, const Jet& b) { return a.value < b.value; }
   friend bool operator>(const Jet& a, const Jet& b) { return a.value > b.value; }
 
-  /// f of this number, from the value and the first two derivatives of f there.
+  /// f of this number, given the value and the first two derivatives of f there.
   Jet Chain(double f, double first, double second) const {
     Jet result(f);
     result.gradient = first * gradient;
@@ -79,7 +79,7 @@ struct Jet {
   }
 };
 
-// Of numbers, beside those of jets below.
+// For plain numbers; the overloads for jets follow.
 using std::atan;
 using std::cos;
 using std::exp;

@@ -6,7 +6,7 @@
 
 namespace possibility::collocation {
 
-/// Where a sparse matrix has entries; one value per entry, duplicates add up.
+/// The places of a sparse matrix's entries; one value per entry, duplicates add up.
 struct SparsityPattern {
   std::vector<int> rows;
   std::vector<int> columns;
@@ -19,9 +19,9 @@ struct SparsityPattern {
 };
 
 /// Minimise f(x) subject to lower <= x <= upper and constraint_lower <= g(x) <= constraint_upper,
-/// bounds possibly infinite, with exact sparse derivatives. A function that cannot be evaluated
-/// (NaN, a workspace that throws) throws std::runtime_error or returns what is not finite: the
-/// solver shortens its step, or gives up if that is the point it starts from.
+/// with possibly infinite bounds and exact sparse derivatives. A function that cannot be evaluated
+/// (NaN, a workspace that throws) throws std::runtime_error or returns values that are not finite.
+/// The solver then shortens its step, or gives up if this happens at the starting point.
 class NonlinearProgram {
  public:
   virtual ~NonlinearProgram() = default;
@@ -49,7 +49,7 @@ class NonlinearProgram {
   /// For messages: "swing, knot 3: knee_rate".
   virtual std::string VariableName(int variable) const = 0;
   virtual std::string ConstraintName(int constraint) const = 0;
-  /// What they were divided by, so that messages tell them in their own units.
+  /// Divisors of variables and constraints, so that messages can report their own units.
   virtual double VariableScale(int) const { return 1; }
   virtual double ConstraintScale(int) const { return 1; }
 };

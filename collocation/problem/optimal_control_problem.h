@@ -15,17 +15,18 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime };
 
-/// Names one quantity of a problem: what functions take as arguments and bounds apply to.
+/// Identifies one quantity of a problem. Functions take variables as arguments, and bounds apply to
+/// them.
 struct Variable {
   VariableKind kind = VariableKind::kCoordinate;
   int phase = -1;  ///< -1: a parameter of the problem
   int index = 0;   ///< among its kind in the phase
-  int order = 0;   ///< of a coordinate: how often it is differentiated
+  int order = 0;   ///< for a coordinate: how often it is differentiated
 
   bool operator==(const Variable&) const = default;
 };
 
-/// The points of a phase's mesh at which something holds.
+/// The mesh points of a phase at which something holds.
 enum class At {
   kEverywhere,
   kStart,       ///< the first knot
@@ -46,7 +47,7 @@ struct Bounds {
   double upper = kInfinity;
 };
 
-/// What a phase consists of, for whoever shows or stores its motions.
+/// The names of a phase's parts, to display or store its motions.
 struct PhaseNames {
   std::string phase;
   int order = 1;
@@ -57,9 +58,9 @@ struct PhaseNames {
 
 class OptimalControlProblem;
 
-/// A stretch of time with one system. Its coordinates y come with their derivatives up to the
-/// phase's order: order 1 for x' = f(x, u), x' a variable beside x; order 2 for mechanical systems
-/// in q, v and a. The derivatives belong together by transcription; dynamics are one more
+/// A time interval with one system. Its coordinates y come with their derivatives up to the phase's
+/// order. Order 1 is for x' = f(x, u), where x' is a variable beside x; order 2 is for mechanical
+/// systems in q, v and a. Transcription ties the derivatives together; dynamics are one more
 /// constraint.
 class Phase {
  public:
@@ -69,7 +70,7 @@ class Phase {
 
   /// A coordinate; `scale`: its typical size, above 0.
   Variable AddCoordinate(const std::string& name, Bounds bounds = {}, double scale = 1);
-  /// The time derivative of a coordinate or of its derivative; bounds and scale are its own.
+  /// The time derivative of a coordinate or of its derivative; it has its own bounds and scale.
   Variable Rate(Variable coordinate, int times = 1) const;
   Variable AddControl(const std::string& name, Bounds bounds = {}, double scale = 1);
   Variable duration() const { return {VariableKind::kDuration, index_, 0, 0}; }
@@ -87,13 +88,14 @@ class Phase {
 
   /// y^(order) = f(arguments), one output per coordinate.
   void SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> arguments);
-  /// lower <= f(arguments) <= upper, a Bounds for each output or one for all. Rows of dynamics in
-  /// implicit form are constraints at 0. `scales`: typical sizes of the outputs, one for each, one
-  /// for all, or none for 1; rows are divided by them, and so are the errors between the knots.
+  /// lower <= f(arguments) <= upper, with one Bounds per output or one for all. Dynamics in
+  /// implicit form are constraints with bounds 0. `scales`: typical sizes of the outputs, one per
+  /// output, one for all, or none for 1. Rows are divided by them, and so are the errors between
+  /// the knots.
   void Constrain(const std::string& name, std::shared_ptr<Function> f,
                  std::vector<Variable> arguments, std::vector<Bounds> bounds,
                  At at = At::kEverywhere, std::vector<double> scales = {});
-  /// The same at the knots of the mesh alone, not at the nodes between them.
+  /// The same, but only at the knots of the mesh, not at the nodes between them.
   void ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
                       std::vector<Variable> arguments, std::vector<Bounds> bounds,
                       At at = At::kEverywhere, std::vector<double> scales = {});
@@ -101,8 +103,8 @@ class Phase {
   void AddIntegralCost(const std::string& name, std::shared_ptr<Function> f,
                        std::vector<Variable> arguments, double weight = 1);
 
-  /// Where the solver starts: value at s in [0, 1], the share of the phase's duration. Without a
-  /// guess: the line between the values fixed at the ends, or a value within the bounds.
+  /// The solver's starting point: value at s in [0, 1], the share of the phase's duration. Without
+  /// a guess: the line between the values fixed at the ends, or a value within the bounds.
   void Guess(Variable variable, std::function<double(double)> value);
   void Guess(Variable variable, double value);
 
@@ -151,9 +153,9 @@ class Phase {
   std::vector<IntegralCost> costs_;
 };
 
-/// An optimal-control problem of one or more phases, as one writes it down; Transcription makes a
-/// nonlinear program of it. Names are for people and must be unique within a phase.
-/// @throws std::invalid_argument that names phase and quantity for whatever contradicts itself.
+/// An optimal-control problem of one or more phases in its continuous form; Transcription makes a
+/// nonlinear program of it. Names are for messages and must be unique within a phase.
+/// @throws std::invalid_argument that names phase and quantity for anything contradictory.
 class OptimalControlProblem {
  public:
   explicit OptimalControlProblem(std::string name) : name_(std::move(name)) {}
@@ -170,11 +172,11 @@ class OptimalControlProblem {
                         double guess = 0);
   std::vector<std::string> ParameterNames() const;
 
-  /// The quantity at the end of a phase and that at the start of the next are one and the same
+  /// Makes the quantity at the end of one phase and the one at the start of the next the same
   /// variable. Bounds intersect.
   void Continue(EndVariable from, EndVariable to);
-  /// lower <= f(arguments) <= upper, arguments from the ends of any phases; also durations and
-  /// parameters.
+  /// lower <= f(arguments) <= upper. Arguments are quantities at the ends of any phases, durations
+  /// and parameters.
   void Link(const std::string& name, std::shared_ptr<Function> f,
             std::vector<EndVariable> arguments, std::vector<Bounds> bounds);
   /// Adds weight * f(arguments), f of one output.

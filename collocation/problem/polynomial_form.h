@@ -7,23 +7,25 @@ namespace possibility::collocation {
 
 /// One term of a PolynomialForm: coefficient * x[variable] * x[duration]^power.
 struct Monomial {
-  int variable = -1;  ///< -1: a constant 1 in its place
+  int variable = -1;  ///< -1: the constant 1
   double coefficient = 0;
   int power = 0;  ///< 0 to 2
 };
 
-/// A sum of monomials in the variables of a program, all with the same duration: what transcription
-/// makes of integrals and interpolants, linear in the variables but for the duration of a phase.
+/// A sum of monomials in the variables of a program, all with the same duration. Transcription
+/// makes such forms of integrals and interpolants: they are linear in the variables except for the
+/// duration of a phase.
 struct PolynomialForm {
-  int duration = -1;  ///< variable; -1: none of the monomials has a power
+  int duration = -1;  ///< variable; -1: no monomial has a power
   std::vector<Monomial> monomials;
 
   double Value(const Eigen::VectorXd& x) const;
-  /// Calls visit(variable, derivative) for each variable; the duration's comes last, summed up.
+  /// Calls visit(variable, derivative) for the variable of each monomial; the duration comes last,
+  /// with its derivatives summed up.
   template <typename Visit>
   void Gradient(const Eigen::VectorXd& x, const Visit& visit) const;
-  /// Calls visit(variable, variable, derivative) for each second derivative that may be other than
-  /// zero: always with the duration, once for a mixed pair.
+  /// Calls visit(variable, variable, derivative) for each second derivative that may be non-zero.
+  /// All of them involve the duration; a mixed pair is visited once.
   template <typename Visit>
   void Hessian(const Eigen::VectorXd& x, const Visit& visit) const;
   bool is_linear() const { return duration < 0; }

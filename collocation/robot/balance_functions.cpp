@@ -1,4 +1,4 @@
-// Of multibody_functions.h: balances of forces and of impulses.
+// Balances of forces and of impulses.
 #include "collocation/robot/balance_functions.h"
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ const std::array<Vector3d, 2>& Axes() {
   return axes;
 }
 
-/// A balance of forces, or of impulses: something of q, v, a (or of two velocities instead of v and
-/// a) minus J' f, f of all points behind them.
+/// A balance of forces or impulses: a function of q, v, a (or of q and two velocities) minus J' f.
+/// The inputs end with f of all points.
 class BalanceFunction : public PlanarFunction {
  public:
   BalanceFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
@@ -56,7 +56,7 @@ class BalanceFunction : public PlanarFunction {
     }
   }
 
-  /// What -lambda' J' f adds to the second derivatives with respect to q.
+  /// The terms that -lambda' J' f adds to the second derivatives with respect to q.
   std::vector<PointTerm> MinusForceTerms(const VectorXd& z) const {
     return Terms(&PointTerm::force, -z.tail(2 * num_points()));
   }
@@ -106,8 +106,8 @@ class EquationOfMotionFunction : public BalanceFunction {
     SubtractForceHessian(multipliers, H);
   }
 
-  // Neither where the robot is nor how fast it moves as a whole matters to its forces: columns of
-  // x, z (but for the points' Jacobians, which do not depend on them either) are zero.
+  // Forces depend neither on the robot's position nor on its linear velocity as a whole, so
+  // the columns of x, z are zero. The points' Jacobians do not depend on them either.
   Mask JacobianMask() const override { return JacobianMaskWithoutBase(2); }
 
   Mask HessianMask() const override {
@@ -128,7 +128,7 @@ class ImpactMapFunction : public BalanceFunction {
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
-    // At rest ID(q, 0, a) = M a + g: what a adds to its derivative is that of M a.
+    // At rest ID(q, 0, a) = M a + g, so the part of the derivative that is due to a is that of M a.
     dynamics_.SetState(z.head(n_), VectorXd::Zero(n_), Change(z));
     const MatrixXd with_change = dynamics_.Differentiate().dq;
     const MatrixXd M = dynamics_.MassMatrix();

@@ -4,8 +4,8 @@
 
 namespace possibility::collocation {
 
-/// ID(q, v, a) - J' f; nv outputs, base rows first. Zero in the base rows is the equation of
-/// motion, the joint rows are the joint torques. Inputs: q, v, a, f of all points.
+/// ID(q, v, a) - J' f; nv outputs, base rows first. The equation of motion is that the base rows
+/// are zero; the joint rows are the joint torques. Inputs: q, v, a, f of all points.
 std::shared_ptr<Function> EquationOfMotion(const PlanarModel& model,
                                            const std::vector<dynamics::ContactPoint>& points);
 

@@ -10,8 +10,8 @@ namespace possibility::collocation {
 
 /// A planar multibody system as functions of one instant, with exact first and second derivatives
 /// from dynamics/. q, v, a, f are stacked in that order; f has a horizontal (x) and a vertical (z)
-/// component per contact point, world axes, N, on the robot. Each function keeps a workspace of its
-/// own. @throws std::invalid_argument unless the model's base is planar.
+/// component per contact point, world axes, N, on the robot. Each function keeps its own workspace.
+/// @throws std::invalid_argument unless the model's base is planar.
 using PlanarModel = std::shared_ptr<const dynamics::MultibodyModel>;
 
 }  // namespace possibility::collocation

@@ -1,4 +1,4 @@
-// Of multibody_functions.h: where points are, and how they move.
+// Positions, velocities and accelerations of points.
 #include "collocation/robot/point_functions.h"
 
 #include <Eigen/Core>
@@ -52,7 +52,7 @@ class PointPositionsFunction : public PlanarFunction {
   }
 };
 
-/// |p_0 - p_1|^2: wherever the base is.
+/// p_0 - p_1|^2; independent of the base.
 class SquaredDistanceFunction : public PlanarFunction {
  public:
   SquaredDistanceFunction(const PlanarModel& model, const ContactPoint& from,
@@ -64,7 +64,7 @@ class SquaredDistanceFunction : public PlanarFunction {
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
     const Vector3d difference = Difference(z);
     *J = 2 * difference.transpose() * DifferenceJacobian();
-    J->leftCols(3).setZero();  // what the base moves cancels but for rounding
+    J->leftCols(3).setZero();  // the base's contributions cancel but for rounding
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {

@@ -14,7 +14,7 @@ namespace {
 
 using dynamics::MultibodyModel;
 
-// Typical sizes: a row of the KKT system is only as good as its scaling.
+// Typical sizes. The accuracy of a row of the KKT system depends on its scaling.
 constexpr double kSpeed = 5;
 constexpr double kAcceleration = 50;
 constexpr double kForce = 400;

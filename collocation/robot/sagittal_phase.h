@@ -10,12 +10,12 @@
 
 namespace possibility::collocation {
 
-/// What fraction of a robot's limits a motion may use, and how hard it may accelerate. What is
-/// left over pays for what a plan in the plane does not see: the robot's small asymmetries, forces
-/// between the knots, feedback.
+/// Fractions of a robot's limits that a motion may use, and its largest accelerations. The rest is
+/// a margin for what a planar plan does not model: the robot's small asymmetries, forces between
+/// the knots, feedback.
 struct SagittalLimits {
   double friction = 0.7;           ///< Coulomb
-  double friction_fraction = 1;    ///< of it
+  double friction_fraction = 1;    ///< of `friction`
   double speed_fraction = 1;       ///< of the joints' speed limits
   double torque_fraction = 1;      ///< of the joints' effort limits
   double max_acceleration = 200;   ///< rad/s^2 and m/s^2, every coordinate
@@ -32,7 +32,7 @@ struct SagittalPhase {
   Phase* phase = nullptr;
   std::vector<Variable> q, v, a;               ///< nv each: pitch, x, z, joints
   std::vector<Variable> f;                     ///< x and z of every point, N
-  std::vector<dynamics::ContactPoint> points;  ///< that bear
+  std::vector<dynamics::ContactPoint> points;  ///< the points that bear
 
   /// q, or q and v, as arguments of PointPositions and PointVelocities.
   std::vector<Variable> Positions() const { return q; }
@@ -41,9 +41,9 @@ struct SagittalPhase {
   std::vector<Variable> Motion() const;
 };
 
-/// Adds the phase with its dynamics, bounds and scales (q/1, v/5, a/50, f/400). The forces are in
-/// their cones; that the points do not move is left to the caller. The guess of the forces carries
-/// the weight.
+/// Adds the phase with its dynamics, bounds and scales (q/1, v/5, a/50, f/400). The forces are
+/// constrained to their cones. The caller must constrain the points not to move. The guess of the
+/// forces carries the weight.
 SagittalPhase AddSagittalPhase(OptimalControlProblem* problem, const std::string& name,
                                const std::shared_ptr<const dynamics::MultibodyModel>& model,
                                const std::vector<dynamics::ContactPoint>& points,

@@ -11,7 +11,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of z - g(x) at points whose x and z another function gives.
+/// z - g(x) at points whose x and z another function gives.
 class StepClearanceFunction : public Function {
  public:
   StepClearanceFunction(std::shared_ptr<Function> positions, const SmoothStep& step)
@@ -50,7 +50,7 @@ class StepClearanceFunction : public Function {
   }
 
   Mask HessianMask() const override {
-    // The base's height enters as it is.
+    // The base's height enters linearly.
     Mask mask = Mask::Constant(num_inputs(), num_inputs(), true);
     mask.row(2).setConstant(false);
     mask.col(2).setConstant(false);

@@ -16,7 +16,7 @@ thread_local HslScope* current_scope = nullptr;
 constexpr int kNumIcntl = 30;
 constexpr int kNumCntl = 5;
 constexpr int kNumInfo = 20;
-// Where Ipopt 3.11 reads: IpMa27TSolverInterface.
+// The entries that Ipopt 3.11 reads: IpMa27TSolverInterface.
 constexpr int kFlag = 0;
 constexpr int kRealsWanted = 4;
 constexpr int kIntegersWanted = 5;
@@ -29,7 +29,8 @@ void Initialise(ipfint* icntl, double* cntl) {
   std::fill(cntl, cntl + kNumCntl, 0.0);
 }
 
-/// MA27AD. The control array is a member of the solver instance and so names it.
+/// MA27AD. The control array is a member of the solver instance, so its address identifies the
+/// instance.
 void Analyse(ipfint* n, ipfint* nz, const ipfint* irn, const ipfint* icn, ipfint*, ipfint*, ipfint*,
              ipfint*, ipfint* nsteps, ipfint*, ipfint* icntl, double*, ipfint* info, double* ops) {
   std::fill(info, info + kNumInfo, 0);

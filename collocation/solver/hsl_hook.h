@@ -9,28 +9,28 @@
 
 namespace possibility::collocation {
 
-/// Our factorisation as the linear solver of Ipopt: registered as MA27 through its public hook
-/// coin/HSLLoader.h. A scope serves the Ipopt solves of the thread that constructs it, while it
-/// lives, and owns the factorisations of their solver instances; scopes of different threads share
+/// Our factorisation as the linear solver of Ipopt, registered as MA27 through its public hook
+/// coin/HSLLoader.h. While it lives, a scope serves the Ipopt solves of the thread that constructed
+/// it, and owns the factorisations of their solver instances. Scopes of different threads share
 /// nothing. An Ipopt solve with linear_solver ma27 outside any scope fails at its first matrix.
-/// When the clock says stop, factorisations are abandoned and reported as failed: Ipopt must not
-/// be left by an exception, it would leak its work arrays.
+/// When the clock says stop, factorisations are abandoned and reported as failed. No exception may
+/// pass through Ipopt: it would leak its work arrays.
 class HslScope {
  public:
-  /// `num_dual`: rows of the constraints in Ipopt's augmented system, where they come last.
-  /// `clock` is asked during the computations and outlives the scope.
+  /// `num_dual`: number of constraint rows, which come last in Ipopt's augmented system. `clock` is
+  /// asked during the computations and must outlive the scope.
   HslScope(int num_dual, SolveClock* clock);
   ~HslScope();
   HslScope(const HslScope&) = delete;
   HslScope& operator=(const HslScope&) = delete;
 
-  /// s spent, analyses included.
+  /// s spent, including analyses.
   double factorisation_seconds() const { return factorisation_seconds_; }
   double back_solve_seconds() const { return back_solve_seconds_; }
   int num_factorisations() const { return num_factorisations_; }
   int num_solves() const { return num_solves_; }
 
-  // What the registered entry points call; `instance` tells solver instances apart.
+  // Called by the registered entry points. `instance` identifies the solver instance.
   void SetPattern(const void* instance, int size, int entries, const int* rows, const int* columns);
   /// Null if the computation was stopped.
   std::optional<KktStatus> Factorise(const void* instance, const double* values,

@@ -10,19 +10,20 @@
 
 namespace possibility::collocation {
 
-/// A NonlinearProgram as Ipopt sees it. Evaluations that fail or are not finite are told to Ipopt
-/// as such, and remembered by name; so is the iterate that Ipopt ends with.
+/// Presents a NonlinearProgram to Ipopt. Evaluations that fail or are not finite are reported to
+/// Ipopt as such and remembered by name. Ipopt's last iterate is stored.
 class IpoptAdapter : public Ipopt::TNLP {
  public:
   using Log = std::function<void(const SolverIteration&)>;
 
-  /// Everything outlives the adapter; `result` gets the iterate, history, counts and times.
+  /// Everything passed must outlive the adapter. `result` receives the iterate, history, counts and
+  /// times.
   IpoptAdapter(NonlinearProgram* program, const SolverGuess& guess, SolveClock* clock,
                const Log& log, SolverResult* result);
 
-  /// The last function that was not finite, or empty.
+  /// Name of the last function that was not finite, or empty.
   const std::string& culprit() const { return culprit_; }
-  /// Anything but std::runtime_error that a function threw: ends the solve.
+  /// An exception other than std::runtime_error that a function threw; it ends the solve.
   const std::exception_ptr& exception() const { return exception_; }
 
   bool get_nlp_info(int& n, int& m, int& jacobian_entries, int& hessian_entries,
@@ -51,7 +52,7 @@ class IpoptAdapter : public Ipopt::TNLP {
                          Ipopt::IpoptCalculatedQuantities* quantities) override;
 
  private:
-  /// Runs one function of the program; false if the solve is to stop, if it throws, or if one of
+  /// Runs one function of the program. False if the solve must stop, the function throws, or one of
   /// its `values_` is not finite. `what` names value k.
   bool Evaluate(const double* x, int* count, double* seconds, const std::function<void()>& function,
                 const std::function<std::string(int)>& what);

@@ -21,7 +21,7 @@ std::optional<Number> Parse(const std::string& text) {
   return value;
 }
 
-/// Names that SolverOptions covers, and how it calls them.
+/// Options that SolverOptions covers, with their names there.
 std::string_view OwnName(std::string_view option) {
   if (option == "linear_solver") return "linear_solver";
   if (option == "hessian_approximation") return "hessian";
@@ -55,7 +55,7 @@ void SetUserOption(const std::string& name, const std::string& value,
   bool good = false;
   try {
     good = SetByType(name, value, *known, Ipopt::GetRawPtr(application->Options()));
-  } catch (const Ipopt::IpoptException&) {  // a string that is none of the choices
+  } catch (const Ipopt::IpoptException&) {  // a string that is not among the choices
   }
   if (!good) {
     throw std::invalid_argument(
@@ -74,11 +74,11 @@ void SetIpoptOptions(const SolverOptions& options, bool warm, double largest_bou
   list.SetNumericValue("constr_viol_tol", options.constraint_tolerance);
   list.SetNumericValue("acceptable_tol", std::max(1e-6, 100 * options.tolerance));
   list.SetNumericValue("acceptable_constr_viol_tol", options.constraint_tolerance);
-  // Ipopt relaxes each bound by this factor of it: within what a constraint may be violated by.
+  // Ipopt relaxes each bound by this factor of it. That must stay within the constraint tolerance.
   list.SetNumericValue("bound_relax_factor", std::min(1e-8, 0.1 * options.constraint_tolerance /
                                                                 std::max(1.0, largest_bound)));
   list.SetIntegerValue("max_iter", options.max_iterations);
-  // Variables are of order one: what is this large runs away. Where the objective falls linearly,
+  // Variables are of order one, so iterates this large diverge. If the objective falls linearly,
   // 1000 iterations do not reach Ipopt's own 1e20.
   list.SetNumericValue("diverging_iterates_tol", 1e12);
   list.SetStringValue("mu_strategy", "adaptive");

@@ -6,10 +6,10 @@
 
 namespace possibility::collocation {
 
-/// Hands SolverOptions to Ipopt; `warm` if the solve starts from multipliers, `largest_bound` the
+/// Passes SolverOptions to Ipopt. `warm`: the solve starts from multipliers. `largest_bound`:
 /// greatest magnitude among finite bounds.
 /// @throws std::invalid_argument for an Ipopt option that does not exist, does not take the value,
-/// or has a place of its own in SolverOptions.
+/// or has its own field in SolverOptions.
 void SetIpoptOptions(const SolverOptions& options, bool warm, double largest_bound,
                      Ipopt::IpoptApplication* application);
 

@@ -6,7 +6,7 @@
 
 namespace possibility::collocation {
 
-/// The time of one solve, from construction on, and the orders it is given from outside.
+/// The time of one solve since construction, and the orders that it receives from outside.
 class SolveClock {
  public:
   enum class Stop { kNone, kCancelled, kTimeLimit };
@@ -16,11 +16,11 @@ class SolveClock {
 
   /// Whether the solve may go on; sleeps while it is paused. Once false, always false.
   bool Proceed();
-  /// An iteration is over; then as Proceed.
+  /// Reports the end of an iteration; then like Proceed.
   bool EndIteration();
   Stop stop() const { return stop_; }
 
-  /// s since construction, pauses excepted.
+  /// s since construction, without pauses.
   double Seconds() const;
 
  private:
@@ -31,7 +31,7 @@ class SolveClock {
   Stop stop_ = Stop::kNone;
 };
 
-/// Adds the time from construction to destruction, pauses excepted, to `*seconds`.
+/// Adds the time from construction to destruction, without pauses, to `*seconds`.
 class SolveTimer {
  public:
   SolveTimer(const SolveClock& clock, double* seconds)

@@ -8,13 +8,13 @@
 
 namespace possibility::collocation {
 
-/// The handle by which another thread steers a running solve. Thread-safe; sticky: a solve that
-/// starts after Cancel ends at once.
+/// Lets another thread pause, resume and cancel a running solve. Thread-safe. Orders stay in force:
+/// a solve that starts after Cancel ends at once.
 class SolveControl {
  public:
   SolveControl() = default;
-  /// `on_iteration` is called by the solve's thread after each iteration, before it asks whether to
-  /// go on: what `on_iteration` orders takes effect in the same place every time.
+  /// The solve's thread calls `on_iteration` after each iteration, before it checks whether to go
+  /// on. Orders given by `on_iteration` thus always take effect in the same place.
   explicit SolveControl(std::function<void()> on_iteration)
       : on_iteration_(std::move(on_iteration)) {}
 
@@ -23,7 +23,7 @@ class SolveControl {
   void Resume();
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
 
-  /// Called by the solve, often: sleeps while paused, without using processor time. Returns the
+  /// The solve calls this often. Sleeps while paused, without using processor time. Returns the
   /// time slept, s.
   double WaitWhilePaused();
   /// Called by the solve.

@@ -96,7 +96,7 @@ double LargestBound(const NonlinearProgram& program) {
   return largest;
 }
 
-/// MUMPS keeps state of the process: whole solves take turns.
+/// MUMPS keeps process-wide state, so whole solves take turns.
 TurnQueue& MumpsTurns() {
   static TurnQueue turns;
   return turns;
@@ -178,7 +178,7 @@ std::string LargestVariable(const NonlinearProgram& program, const VectorXd& x) 
                      x[largest] * program.VariableScale(largest));
 }
 
-/// A solve that got nowhere while its objective fell by orders of magnitude.
+/// Whether a solve failed while its objective fell by orders of magnitude.
 bool ObjectiveRanAway(const SolverResult& result) {
   constexpr double kFar = 1e12;
   const bool gave_up =
@@ -228,15 +228,15 @@ Violation EvaluateResult(NonlinearProgram* program, SolverResult* result) {
   try {
     result->objective = program->Objective(result->x);
     program->Constraints(result->x, &result->constraints);
-  } catch (const std::runtime_error&) {  // an iterate where a function is not defined
+  } catch (const std::runtime_error&) {  // a function is undefined at this iterate
   }
   Violation worst = WorstViolation(*program, result->x, result->constraints);
   result->worst_violation = worst.size;
   return worst;
 }
 
-/// Linear algebra by Ipopt's own stopwatches: it times no factorisation of MUMPS, but all that the
-/// augmented systems take.
+/// Linear algebra times from Ipopt's own stopwatches. They do not time the factorisation of MUMPS,
+/// only everything that the augmented systems take.
 void ReadIpoptTimes(Ipopt::IpoptApplication* application, SolverTimes* times) {
   const auto data = application->IpoptDataObject();
   if (!Ipopt::IsValid(data)) return;

@@ -26,14 +26,14 @@ struct SolverOptions {
   double time_limit = 0;  ///< s of wall time; 0: none. Time spent paused does not count.
   LinearSolver linear_solver = LinearSolver::kSparseLdlt;
   HessianMode hessian = HessianMode::kExact;
-  /// Ipopt options by name on top of ours, as Ipopt spells them.
+  /// Ipopt options by name, in Ipopt's spelling, in addition to ours.
   std::vector<std::pair<std::string, std::string>> ipopt;
 };
 
-/// Where a solve starts: x alone, or with the multipliers of a neighbouring solution.
+/// The starting point of a solve: x alone, or with the multipliers of a neighbouring solution.
 struct SolverGuess {
   Eigen::VectorXd x;
-  /// All three or none; sizes num_constraints, num_variables, num_variables.
+  /// All three or none. Sizes: num_constraints, num_variables, num_variables.
   Eigen::VectorXd constraint_multipliers;
   Eigen::VectorXd lower_multipliers;
   Eigen::VectorXd upper_multipliers;
@@ -58,8 +58,8 @@ enum class SolverStatus {
   kIterationLimit,
   kTimeLimit,
   kCancelled,
-  kInvalidNumber,  ///< a function is not finite; `message` says which
-  kFailed          ///< anything else, in `message`
+  kInvalidNumber,  ///< a function is not finite; `message` names it
+  kFailed          ///< anything else; see `message`
 };
 
 struct SolverEvaluations {
@@ -70,13 +70,13 @@ struct SolverEvaluations {
   int hessian = 0;
 };
 
-/// Where the time went, s of wall time.
+/// Breakdown of the time, s of wall time.
 struct SolverTimes {
   double total = 0;
   double functions = 0;      ///< objective and constraints
   double derivatives = 0;    ///< gradient, Jacobian, Hessian
   double factorisation = 0;  ///< of the KKT systems; with MUMPS also their assembly
-  double back_solves = 0;    ///< with iterative refinement of our own
+  double back_solves = 0;    ///< including the refinement of our own solver
   double rest = 0;
 };
 
@@ -99,11 +99,11 @@ struct SolverResult {
   }
 };
 
-/// Solves with Ipopt. Any number of solves may run at once, each with its own program.
-/// `control` (optional) cancels or pauses the solve from another thread; `log` gets every
+/// Solves with Ipopt. Any number of solves may run at once, each with its own program. `control`
+/// (optional) cancels or pauses the solve from another thread. `log` is called with every
 /// iteration. Nothing is printed.
-/// @throws std::invalid_argument for an empty program, contradictory bounds (naming the variable
-/// or constraint), a guess of a wrong size or one that is not finite, or an unknown Ipopt option.
+/// @throws std::invalid_argument for an empty program, contradictory bounds (naming the variable or
+/// constraint), a guess of a wrong size or one that is not finite, or an unknown Ipopt option.
 SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
                    const SolverOptions& options = {}, SolveControl* control = nullptr,
                    const std::function<void(const SolverIteration&)>& log = {});

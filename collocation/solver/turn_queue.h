@@ -7,11 +7,12 @@
 
 namespace possibility::collocation {
 
-/// Lets one thread at a time through, in the order of arrival. Unlike a mutex, waiting for it can
-/// be given up.
+/// Lets one thread at a time through, in order of arrival. Unlike with a mutex, a waiting thread
+/// can give up.
 class TurnQueue {
  public:
-  /// One thread's place in the queue, and its turn once Wait has returned true; ends with it.
+  /// One thread's place in the queue. Its turn begins when Wait returns true and ends with the
+  /// ticket.
   class Ticket {
    public:
     explicit Ticket(TurnQueue* queue);
@@ -19,8 +20,8 @@ class TurnQueue {
     Ticket(const Ticket&) = delete;
     Ticket& operator=(const Ticket&) = delete;
 
-    /// Sleeps until it is this ticket's turn: true; or `give_up`, asked every few milliseconds,
-    /// says so: false.
+    /// Sleeps until it is this ticket's turn, then returns true. Returns false as soon as
+    /// `give_up`, called every few milliseconds, returns true.
     bool Wait(const std::function<bool()>& give_up);
 
    private:

@@ -1,4 +1,4 @@
-// How well a transcribed motion obeys its constraints between the points where they were imposed.
+// Errors of a transcribed motion in its constraints between the points where they were imposed.
 #include "collocation/study/mesh_error.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class MeshErrorEstimate {
         parameters_(trajectory.parameters) {}
 
   /// Greatest integral of |residual| / scale over one mesh interval, by the midpoint rule; infinite
-  /// where a function is not defined.
+  /// if a function is undefined there.
   double Of(int interval) const {
     constexpr int kSamples = 10;
     const double begin = motion_.mesh[interval];
@@ -53,7 +53,7 @@ class MeshErrorEstimate {
     return 0;
   }
 
-  /// |residual| / scale of the rows that are equalities, 0 of the others.
+  /// residual| / scale of the rows that are equalities, 0 for the others.
   Eigen::VectorXd Residual(const Phase::PathConstraint& constraint, double s) const {
     Function& f = *constraint.function;
     Eigen::VectorXd z(f.num_inputs());
@@ -96,7 +96,7 @@ Mesh Refined(const Mesh& mesh, const std::vector<double>& errors, double toleran
   for (std::size_t i = 0; i + 1 < mesh.size(); ++i) {
     int parts = 1;
     if (errors[i] > tolerance) {
-      // The error of an interval goes with its length to the power order + 1.
+      // The error of an interval is proportional to its length to the power order + 1.
       const double wanted = std::ceil(std::pow(errors[i] / tolerance, 1.0 / (order + 1)));
       parts =
           std::isfinite(wanted) ? std::clamp(static_cast<int>(wanted), 2, kMostParts) : kMostParts;

@@ -29,7 +29,7 @@ std::vector<Mesh> FirstMeshes(const OptimalControlProblem& problem,
   return meshes;
 }
 
-/// The worst of each constraint, by its name without the point.
+/// The worst violation of each constraint, by its name without the point.
 std::map<std::string, ConstraintViolation> Violations(const Transcription& program,
                                                       const SolverResult& solution) {
   std::map<std::string, ConstraintViolation> violations;
@@ -66,7 +66,7 @@ double Greatest(const std::vector<std::vector<double>>& errors) {
   return greatest;
 }
 
-/// Where the first solve starts: at a motion, perhaps with multipliers, or at the problem's
+/// Starting point of the first solve: a motion, possibly with multipliers, or the problem's
 /// guesses.
 struct Start {
   const Trajectory* trajectory = nullptr;
@@ -80,7 +80,7 @@ SolverGuess GuessOf(const Transcription& program, const Start& start) {
   return guess;
 }
 
-/// Ends whatever a cancelled solve was about to do.
+/// Thrown to end a cancelled solve.
 struct Cancellation {};
 
 void WaitOrStop(SolveControl* control) {
@@ -92,7 +92,7 @@ void WaitOrStop(SolveControl* control) {
 OptimalControlResult Cancelled(OptimalControlResult result) {
   result.status = SolverStatus::kCancelled;
   result.message = "cancelled";
-  result.multipliers = {};  // an earlier mesh's
+  result.multipliers = {};  // from an earlier mesh
   result.violations.clear();
   result.mesh_error = std::numeric_limits<double>::quiet_NaN();
   return result;

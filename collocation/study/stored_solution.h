@@ -10,8 +10,8 @@
 
 namespace possibility::collocation {
 
-/// A solution with the names of what it moves: where the solve of the same or of a neighbouring
-/// problem can start.
+/// A solution with the names of its quantities: a starting point for a solve of the same or a
+/// neighbouring problem.
 struct StoredSolution {
   std::string problem;
   std::vector<PhaseNames> phases;

@@ -38,7 +38,7 @@ Eigen::VectorXd Vector(const JsonCursor& place, std::size_t size) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), std::ssize(numbers));
 }
 
-/// A row for each quantity, of one number for each point.
+/// One row per quantity, with one number per point.
 Eigen::MatrixXd Matrix(const JsonCursor& place, std::size_t rows, std::size_t columns) {
   ExpectSize(place, rows, "rows");
   Eigen::MatrixXd matrix(rows, columns);
@@ -57,7 +57,7 @@ Mesh ReadMesh(const JsonCursor& place) {
 }
 
 TranscriptionScheme ReadScheme(const JsonCursor& place) {
-  constexpr std::size_t kMostNodes = 20;  // their polynomials are not to be trusted beyond
+  constexpr std::size_t kMostNodes = 20;  // polynomials of more nodes are unreliable
   place.ExpectKeys({"name", "nodes", "separated"});
   const JsonCursor nodes = place["nodes"];
   if (nodes.ArraySize() > kMostNodes) {

@@ -4,8 +4,8 @@
 
 namespace possibility::collocation {
 
-/// @throws InputError, one line that names the file and the place in it, for whatever
-/// WriteSolution could not have written.
+/// Reads a file of WriteSolution. @throws InputError, one line that names the file and the place in
+/// it, for anything that WriteSolution could not have written.
 StoredSolution ReadSolution(const std::filesystem::path& file);
 
 }  // namespace possibility::collocation

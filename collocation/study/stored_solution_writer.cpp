@@ -26,7 +26,7 @@ Json Numbers(const Range& values) {
   return array;
 }
 
-/// A row for each quantity.
+/// One row per quantity.
 Json Rows(const Eigen::MatrixXd& values) {
   Json rows = Json::array();
   for (Eigen::Index r = 0; r < values.rows(); ++r) {

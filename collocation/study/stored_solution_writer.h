@@ -4,7 +4,7 @@
 
 namespace possibility::collocation {
 
-/// JSON ("possibility-solution/1"); every number reads back to the same bits.
+/// Writes JSON ("possibility-solution/1"); every number reads back to the same bits.
 /// @throws std::invalid_argument if a number is not finite, InputError if the file cannot be
 /// written.
 void WriteSolution(const std::filesystem::path& file, const StoredSolution& solution);

@@ -7,13 +7,13 @@
 
 namespace possibility::collocation {
 
-/// The multipliers of one quantity or one output of a constraint, along a phase's mesh: what the
-/// objective changes by per unit of it.
+/// The multipliers of one quantity or one output of a constraint, along a phase's mesh: the change
+/// of the objective per unit of it.
 struct MultiplierSeries {
   int phase = -1;  ///< -1: of the whole problem
   std::string name;
-  int output = -1;  ///< of a constraint with several; -1: it has one
-  /// Of the phase's mesh, ascending; -1 where `phase` is -1. One value for each.
+  int output = -1;  ///< for a constraint with several outputs; -1: it has one
+  /// Indices of points of the phase's mesh, ascending; -1 if `phase` is -1. One value per point.
   std::vector<int> points;
   std::vector<double> values;
 
@@ -23,7 +23,7 @@ struct MultiplierSeries {
 /// The multipliers of a solution, in the problem's own units.
 struct Multipliers {
   std::vector<MultiplierSeries> constraints;
-  /// Of the bounds of variables; a series that is not there is zero.
+  /// Multipliers of the bounds of variables. A missing series is zero.
   std::vector<MultiplierSeries> lower, upper;
 
   bool operator==(const Multipliers&) const = default;
@@ -31,20 +31,20 @@ struct Multipliers {
 
 /// The points of a phase's mesh.
 struct MeshPoints {
-  int per_interval = 1;         ///< points from one knot to before the next
+  int per_interval = 1;         ///< points from one knot to just before the next
   std::vector<double> shares;   ///< of the phase's duration
-  std::vector<double> weights;  ///< share of each in the integral over the phase
+  std::vector<double> weights;  ///< share of each point in the integral over the phase
 
   MeshPoints(const std::vector<double>& mesh, const TranscriptionScheme& scheme);
 };
 
-/// Carries a series from one mesh to another of the same scheme. What a row or a bound of one
-/// instant costs is spread over time: its multiplier is a density times the point's weight, and the
-/// density is interpolated, linearly and for each node of the scheme by itself. The multipliers of
-/// defects over whole intervals are costates, which do not shrink with the mesh.
+/// Carries a series from one mesh to another of the same scheme. The multiplier of a row or bound
+/// that holds at each instant is a density times the point's weight. The density is interpolated
+/// linearly, separately for each node of the scheme. The multipliers of defects over whole
+/// intervals are costates, which do not shrink with the mesh.
 class MultiplierInterpolation {
  public:
-  /// Keeps no reference. `is_defect`: of a quantity's integral.
+  /// Keeps no reference. `is_defect`: the series belongs to the integral of a quantity.
   MultiplierInterpolation(const MultiplierSeries& series, const MeshPoints& from, bool is_defect);
 
   double At(const MeshPoints& to, int point) const;
@@ -56,7 +56,7 @@ class MultiplierInterpolation {
   bool IsDensity(int node) const { return !is_single_ && !(is_defect_ && node == 0); }
 
   bool is_defect_;
-  bool is_single_;  // holds at one point alone: spread over no time
+  bool is_single_;  // holds at one point only, so its multiplier is no density
   std::vector<Samples> by_node_;
 };
 

@@ -10,7 +10,7 @@ namespace possibility::collocation {
 
 namespace {
 
-/// The interval that holds share s, and where in it s is, 0 to 1.
+/// The interval that contains share s, and the position of s in it, 0 to 1.
 std::pair<int, double> Locate(const Mesh& mesh, double s) {
   const auto after = std::upper_bound(mesh.begin(), mesh.end(), s);
   const int last = static_cast<int>(mesh.size()) - 2;
@@ -43,7 +43,8 @@ Eigen::VectorXd PhaseTrajectory::Coordinates(double s, int order) const {
   const int inside = scheme.num_nodes() - 1;
   const int first = interval * inside;
   const double h = (mesh[interval + 1] - mesh[interval]) * duration;
-  // Taylor's polynomial of the interval's start and the repeated integral of the highest.
+  // Taylor polynomial at the interval's start, plus the repeated integral of the highest
+  // derivative.
   Eigen::VectorXd value = Eigen::VectorXd::Zero(coordinates[0].rows());
   double factor = 1;
   for (int r = order; r < highest; ++r) {

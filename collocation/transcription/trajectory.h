@@ -22,8 +22,8 @@ struct PhaseTrajectory {
 
   int num_points() const { return static_cast<int>(controls.cols()); }
   double PointShare(int point) const;  ///< of the duration
-  /// Coordinates differentiated `order` times at share s of the duration: the very polynomials
-  /// that were transcribed, so that each is the exact derivative of the one below.
+  /// Coordinates differentiated `order` times at share s of the duration. These are the polynomials
+  /// that were transcribed, so each is the exact derivative of the one below.
   Eigen::VectorXd Coordinates(double s, int order = 0) const;
   Eigen::VectorXd Controls(double s) const;
 };

@@ -17,13 +17,14 @@
 
 namespace possibility::collocation {
 
-/// The nonlinear program that a scheme and a mesh per phase make of a problem. The problem must
-/// outlive it. Bounds between the knots of compressed schemes are rows; everything else is bounds.
+/// The nonlinear program of a problem, for a scheme and a mesh per phase. The problem must outlive
+/// it. Bounds between the knots of compressed schemes are rows; all other bounds are bounds of
+/// variables.
 /// @throws std::invalid_argument that names phase and quantity: no duration, no coordinates, bounds
 /// that contradict each other at some knot, a mesh that does not ascend from 0 to 1.
 class Transcription : public NonlinearProgram {
  public:
-  /// Called now and then while a program is built; may throw, which abandons it.
+  /// Called from time to time while a program is built. May throw, which abandons the program.
   using Interrupt = std::function<void()>;
 
   Transcription(const OptimalControlProblem& problem, const TranscriptionScheme& scheme,
@@ -55,14 +56,14 @@ class Transcription : public NonlinearProgram {
 
   /// The problem's own guesses.
   Eigen::VectorXd InitialGuess() const;
-  /// A trajectory of the same problem on any mesh and scheme, sampled at this one's points.
+  /// Samples a trajectory of the same problem, on any mesh and scheme, at this program's points.
   /// @throws std::invalid_argument naming the phase that has another number of quantities.
   Eigen::VectorXd GuessFrom(const Trajectory& trajectory) const;
   Trajectory TrajectoryOf(const Eigen::VectorXd& x) const;
 
   Multipliers MultipliersOf(const SolverResult& solution) const;
-  /// Adds to a guess the multipliers of a solution with this program's scheme, interpolated where
-  /// the mesh is another. False, and nothing added, if the scheme is another or a row is new.
+  /// Adds to a guess the multipliers of a solution with this program's scheme, interpolated if the
+  /// mesh differs. False, with nothing added, if the scheme differs or a row is new.
   bool AddMultipliers(const Multipliers& multipliers, const Trajectory& trajectory,
                       SolverGuess* guess) const;
 
@@ -73,7 +74,7 @@ class Transcription : public NonlinearProgram {
     double share;  ///< of the phase's duration
     bool is_knot;
   };
-  /// Where a phase's quantities are among the program's variables.
+  /// Indices of a phase's quantities among the program's variables.
   struct PhaseLayout {
     Mesh mesh;
     std::vector<Point> points;
@@ -89,7 +90,7 @@ class Transcription : public NonlinearProgram {
     double scale;
     std::vector<int> jacobian_slots, hessian_slots;
   };
-  /// What a variable or a row is, and where.
+  /// The name and place of a variable or a row.
   struct PlacedName {
     int phase;  // -1: of no phase
     int point;
@@ -109,7 +110,7 @@ class Transcription : public NonlinearProgram {
   [[noreturn]] void FailForGradient(const Eigen::VectorXd& unscaled);
   void CheckFits(const Trajectory& trajectory) const;
   bool HasSchemeOf(const Trajectory& trajectory) const;
-  /// Multipliers of variables or rows, scaled; none if `all` are wanted and one is not known.
+  /// Multipliers of variables or rows, scaled. None if `all` is set and one is unknown.
   std::optional<Eigen::VectorXd> Transferred(const std::vector<MultiplierSeries>& series,
                                              const Trajectory& from,
                                              const std::vector<PlacedName>& names,
@@ -138,7 +139,7 @@ class Transcription : public NonlinearProgram {
   std::vector<int> parameters_;
   std::vector<double> scales_, lowers_, uppers_, row_lowers_, row_uppers_;  // while being built
   std::vector<double> row_scales_;
-  Eigen::VectorXd ones_;  // a point at which forms name their variables
+  Eigen::VectorXd ones_;  // point at which forms are visited to find their variables
   Eigen::VectorXd scale_, lower_, upper_, constraint_lower_, constraint_upper_;
   std::vector<PlacedName> variable_names_, row_names_, cost_names_;
   std::vector<FormRow> form_rows_;  // the first rows

@@ -1,4 +1,4 @@
-// What the solver asks of a Transcription, once it is laid out.
+// Evaluations of a Transcription for the solver, after it is laid out.
 #include <fmt/format.h>
 
 #include <cmath>

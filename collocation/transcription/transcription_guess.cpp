@@ -1,4 +1,4 @@
-// Into and out of a transcription's variables: guesses, trajectories, multipliers.
+// Conversions to and from a transcription's variables: guesses, trajectories, multipliers.
 #include <fmt/format.h>
 
 #include <algorithm>

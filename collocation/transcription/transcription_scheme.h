@@ -6,27 +6,27 @@
 
 namespace possibility::collocation {
 
-/// How a motion is discretised over one mesh interval: its highest derivative is the polynomial
-/// through its values at `nodes`, everything below follows by integrating that polynomial exactly
-/// (docs/collocation.md). With nodes 0, 1 that is the trapezoidal rule, with 0, 1/2, 1
-/// Hermite-Simpson; for order 2 it is their second-order form, where q' = v holds everywhere.
+/// The discretisation of a motion over one mesh interval. Its highest derivative is the polynomial
+/// through the values at `nodes`; all lower derivatives follow by exact integration of that
+/// polynomial (docs/collocation.md). Nodes 0, 1 give the trapezoidal rule, nodes 0, 1/2, 1
+/// Hermite-Simpson. For order 2 these are their second-order forms, where q' = v holds everywhere.
 struct TranscriptionScheme {
   std::string name;
   std::vector<double> nodes;  ///< from 0 to 1, ascending; the ends are knots
-  /// States at the nodes between the ends: variables with a row each ("separated"), or expressions
-  /// in the interval's other variables ("compressed").
+  /// States at the inner nodes: variables with a row each ("separated"), or expressions in the
+  /// interval's other variables ("compressed").
   bool separated = true;
 
   /// integral[k](i, j): the k-th repeated integral from 0 to node i of the j-th Lagrange
-  /// polynomial; k = 0: one at node j; up to 2.
+  /// polynomial, k up to 2. For k = 0 the polynomial itself: 1 at node j.
   std::vector<Eigen::MatrixXd> integral;
   /// Column j: the coefficients of the j-th Lagrange polynomial, lowest power first.
   Eigen::MatrixXd lagrange;
 
-  /// Share of the interval's length that each node has in the integral of a function.
+  /// Weight of each node in the integral of a function, as a share of the interval's length.
   Eigen::VectorXd weights() const { return integral[1].bottomRows<1>().transpose(); }
   int num_nodes() const { return static_cast<int>(nodes.size()); }
-  /// The k-th repeated integrals from 0 to c of the Lagrange polynomials; k = 0: themselves.
+  /// The k-th repeated integrals from 0 to c of the Lagrange polynomials; k = 0: the polynomials.
   Eigen::VectorXd LagrangeIntegrals(double c, int k) const;
 };
 
