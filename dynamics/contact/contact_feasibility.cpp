@@ -54,7 +54,7 @@ class ImpulseProblem {
                  const std::vector<ContactPoint>& points, double friction)
       : points_(points), friction_(friction), unit_(impulses.cwiseAbs().maxCoeff()) {
     if (!(unit_ > 0)) unit_ = 1;
-    // J'x = J'x0 holds if x and x0 agree in the range of J; Q is an orthonormal basis of that
+    // J'x = J'x0 means that x and x0 agree in the range of J; Q is an orthonormal basis of that
     // range.
     Eigen::ColPivHouseholderQR<MatrixXd> factors;
     factors.setThreshold(kRank);
