@@ -106,8 +106,8 @@ class EquationOfMotionFunction : public BalanceFunction {
     SubtractForceHessian(multipliers, H);
   }
 
-  // Forces depend neither on the robot's position nor on its linear velocity as a whole, so
-  // the columns of x, z are zero. The points' Jacobians do not depend on them either.
+  // Forces depend neither on the robot's position nor on its linear velocity as a whole, so the
+  // columns of x, z are zero. The points' Jacobians do not depend on them either.
   Mask JacobianMask() const override { return JacobianMaskWithoutBase(2); }
 
   Mask HessianMask() const override {

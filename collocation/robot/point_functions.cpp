@@ -52,7 +52,7 @@ class PointPositionsFunction : public PlanarFunction {
   }
 };
 
-/// p_0 - p_1|^2; independent of the base.
+/// |p_0 - p_1|^2; independent of the base.
 class SquaredDistanceFunction : public PlanarFunction {
  public:
   SquaredDistanceFunction(const PlanarModel& model, const ContactPoint& from,

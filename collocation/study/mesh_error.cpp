@@ -53,7 +53,7 @@ class MeshErrorEstimate {
     return 0;
   }
 
-  /// residual| / scale of the rows that are equalities, 0 for the others.
+  /// |residual| / scale of the rows that are equalities, 0 for the others.
   Eigen::VectorXd Residual(const Phase::PathConstraint& constraint, double s) const {
     Function& f = *constraint.function;
     Eigen::VectorXd z(f.num_inputs());
