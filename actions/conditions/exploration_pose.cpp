@@ -71,7 +71,7 @@ graph::Point PelvisPoseSpace::RandomSample(graph::RandomGenerator* generator) co
 }
 
 double PelvisPoseSpace::Distance(const graph::Point& a, const graph::Point& b) const {
-  // By the chord, which is exactly 0 for the same orientation; an arc cosine is not.
+  // The chord is exactly 0 for equal orientations; an arc cosine is not.
   const double chord =
       std::min((a.tail<4>() - b.tail<4>()).norm(), (a.tail<4>() + b.tail<4>()).norm());
   const double angle = 4 * std::asin(std::min(1.0, chord / 2));

@@ -7,25 +7,25 @@
 
 namespace possibility::actions {
 
-/// Points of E are pelvis poses: x, y, z (m), then the quaternion w, x, y, z.
+/// A point of E is a pelvis pose: x, y, z (m), then the quaternion w, x, y, z.
 graph::Point ToPoint(const Eigen::Isometry3d& X_WR);
 Eigen::Isometry3d ToPose(const graph::Point& point);
 
 /// Heading of the pelvis: yaw of the decomposition Rz(yaw) Ry(pitch) Rx(roll).
 double Heading(const Eigen::Matrix3d& R_WR);
 
-/// A pose between two: straight in position, the shorter way in heading, and along the shortest
-/// rotation in what remains (the tilt); s in [0, 1].
+/// Pose between `a` and `b`, s in [0, 1]: linear in position, the shorter way in heading, and the
+/// shortest rotation in the remaining tilt.
 Eigen::Isometry3d Interpolate(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double s);
 
 /// E for one environment: pelvis poses over its bounds and ground levels.
 class PelvisPoseSpace : public graph::ExplorationSpace {
  public:
-  /// `rotation_weight`: of a radian beside 1 - rotation_weight for a metre.
+  /// The metric weights a radian by `rotation_weight` and a metre by 1 - `rotation_weight`.
   PelvisPoseSpace(const Eigen::AlignedBox2d& bounds, std::vector<double> ground_levels,
                   double rotation_weight);
 
-  /// Upright, uniform in x, y and heading, one metre above one of the levels.
+  /// Upright pose, uniform in x, y and heading, one metre above one of the levels.
   graph::Point RandomSample(graph::RandomGenerator* generator) const override;
   double Distance(const graph::Point& a, const graph::Point& b) const override;
 

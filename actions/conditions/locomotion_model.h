@@ -15,8 +15,9 @@
 
 namespace possibility::actions {
 
-/// Everything about how one robot moves that does not depend on where: the nominal stance and
-/// swept volumes of each gait, and the transitions between gaits. Immutable, safe to share.
+/// The part of a robot's locomotion that does not depend on the scene: nominal stance and swept
+/// volumes of each gait, and the transitions between gaits. Immutable, safe to share between
+/// threads.
 struct LocomotionModel {
   struct GaitEntry {
     NominalStance stance;
@@ -38,24 +39,22 @@ struct LocomotionModel {
   int GaitIndex(const std::string& name) const;
 };
 
-/// Solves the stances and computes the swept volumes of the gaits among `actions` and the
-/// transitions among them; jumps among them add nothing. `robot` must outlive the result.
-/// `library`: folder of solved transitions, empty for none.
-/// @throws InputError if an action does not exist, a gait's bounds allow a stride that the robot
-/// cannot
-///   execute (every extreme stride is generated and checked here); Abandoned if `keep_going` (may
-///   be empty) says no.
+/// Solves the stances, the transitions and the swept volumes of the gaits named in `actions`. Jumps
+/// in `actions` add nothing. `robot` must outlive the result. `library`: folder of solved
+/// transitions, empty for none.
+/// @throws InputError if an action does not exist, or a gait's bounds allow a stride that the robot
+/// cannot execute (every extreme stride is generated and checked here); Abandoned if `keep_going`
+/// (may be empty) returns false.
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
                                      const std::function<bool()>& keep_going = {},
                                      const std::filesystem::path& library = {});
 
-/// Upper bound of the distance from the root's origin to a point of `patch`, whatever the joints
-/// do, m.
+/// Upper bound, over all joint positions, of the distance from the root's origin to a point of
+/// `patch`, m.
 double ChainLength(const models::RobotModel& robot, const models::ContactPatch& patch);
 
-/// Upper bound of the distance from the root's origin to where any limb of the gait bears, soles
-/// and points alike, m.
+/// Upper bound of the distance from the root's origin to any bearing point of the gait, m.
 double BearingReach(const models::RobotModel& robot, const models::Gait& gait);
 
 /// The robot standing in a gait's nominal posture on a ground level.
@@ -65,7 +64,7 @@ struct GroundedStance {
   double z = 0;  ///< m, height of the ground
 };
 
-/// The stance whose root pose is `X_WR`, if that is nominal for `gait` (to 1e-6 in tilt).
+/// The stance with root pose `X_WR`; none unless that pose is nominal for `gait` (to 1e-6 in tilt).
 std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,
                                        const Eigen::Isometry3d& X_WR);
 

@@ -12,7 +12,7 @@
 namespace possibility::actions {
 namespace {
 
-/// Points of E agree when closer than this, m.
+/// Points of E closer than this are equal, m.
 constexpr double kSamePlace = 1e-6;
 
 bool SamePoint(const graph::Point& a, const graph::Point& b) {

@@ -6,31 +6,31 @@
 
 namespace possibility::actions {
 
-/// Where the landing stances of a manoeuvre lie, seen from the frame of its launch stance.
+/// Region of a manoeuvre's landing stances, in the frame of its launch stance.
 struct LandingRange {
   Eigen::AlignedBox2d offset;  ///< m, x ahead and y to the left
-  double turn = 0;             ///< rad, of the heading, at most, to either side
+  double turn = 0;             ///< rad, largest change of heading to either side
 };
 
-/// How far a manoeuvre takes the pelvis from the ground.
+/// How far the pelvis gets from the ground during a manoeuvre.
 struct FlightBounds {
-  double rise = 0;   ///< m, never higher than this above a place where a limb reaches ground
-  double range = 0;  ///< m, never farther than this from such a place, seen from above
+  double rise = 0;   ///< m, largest height above a place where a limb reaches ground
+  double range = 0;  ///< m, largest horizontal distance from such a place
 };
 
-/// What a manoeuvre declares to the floods that prove a "no" (route_flood.h).
+/// Bounds that a manoeuvre declares to the floods that prove a "no" (route_flood.h).
 ///
-/// The rule: a bound may be too wide but never too narrow. It has to hold for every edge that the
-/// manoeuvre could ever confirm (`landings`), or that any robot of this build could execute at all
-/// (`flight`), wherever that is. A flood that trusts a bound which is too narrow calls a way closed
-/// that is open: a false "no", the worst answer there is. Whoever is not sure declares nothing;
-/// the planner then goes on searching to the time limit where it could have said "exhausted" (no
-/// `landings`) or "proven_infeasible" (no `flight`).
+/// Rule: a bound may be too wide but never too narrow. `landings` must hold for every edge that the
+/// manoeuvre could ever confirm, in any scene; `flight` for every edge that any robot of this build
+/// could execute at all. A bound that is too narrow makes a flood call an open way closed: a false
+/// "no", the worst possible answer. If in doubt, declare nothing. The planner then searches to the
+/// time limit where it could have answered "exhausted" (no `landings`) or "proven_infeasible" (no
+/// `flight`).
 struct ManoeuvreBounds {
-  /// By how much higher (m) the ground of the landing is than that of the launch; nothing: the
-  /// manoeuvre never leads there. Empty: not known.
+  /// Landing range by `rise`, the height (m) of the landing ground above the launch ground. Returns
+  /// none if the manoeuvre never rises by that much. Empty function: not known.
   std::function<std::optional<LandingRange>(double rise)> landings;
-  std::optional<FlightBounds> flight;  ///< nothing: not known
+  std::optional<FlightBounds> flight;  ///< none: not known
 };
 
 }  // namespace possibility::actions

@@ -9,12 +9,12 @@
 
 namespace possibility::actions {
 
-/// Finds out whether an edge of a manoeuvre is possible where it is to happen: generates its
-/// motion, then looks at the whole robot at most 5 ms apart, for obstacles and for itself. Tells
-/// the manoeuvre (Record).
+/// Decides whether an edge of a manoeuvre is possible in its world: generates the motion, then
+/// checks the whole robot, at samples at most 5 ms apart, for collisions with obstacles and with
+/// itself. Reports the verdict to the manoeuvre (Record).
 class MotionJob : public graph::ConfirmationJob {
  public:
-  /// `manoeuvre` must outlive it. `checker`: of its robot and its environment.
+  /// `manoeuvre` must outlive the job. `checker`: for the manoeuvre's robot and environment.
   MotionJob(const Manoeuvre& manoeuvre, std::shared_ptr<const models::CollisionChecker> checker,
             graph::PointPair edge);
 

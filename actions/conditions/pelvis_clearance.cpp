@@ -5,7 +5,7 @@
 namespace possibility::actions {
 namespace {
 
-/// C_N errs towards yes: shapes are shrunk by more than the collision checker's error, m.
+/// Keeps C_N optimistic: shapes are shrunk by more than the collision checker's error, m.
 constexpr double kOptimism = 0.001;
 
 models::Shape Shrunk(models::Shape shape) {

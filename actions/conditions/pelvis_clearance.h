@@ -9,11 +9,11 @@
 
 namespace possibility::actions {
 
-/// C_N's collision geometry: the pelvis' own shapes, shrunk by more than the collision checker
-/// errs, so that a pelvis which is not free is certainly in collision.
+/// Collision geometry of C_N: the pelvis' own shapes, shrunk by more than the collision checker's
+/// error, so that a pelvis that is not free is certainly in collision.
 class PelvisClearance {
  public:
-  /// `checker` must outlive it.
+  /// `checker` must outlive this object.
   PelvisClearance(const models::RobotModel& robot, const models::CollisionChecker& checker);
 
   bool IsFree(const Eigen::Isometry3d& X_WR) const;

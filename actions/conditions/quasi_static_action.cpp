@@ -23,22 +23,21 @@ constexpr double kSamePlace = 1e-6;
 /// Headings agree when closer than this, rad.
 constexpr double kSameHeading = 1e-7;
 
-/// Spacing at which C_N looks at an edge, m.
+/// Sample spacing of C_N along an edge, m.
 constexpr double kNecessarySpacing = 0.05;
 
-/// Distances to the edge of the ground err by less than this, those of two points taken together,
-/// m.
+/// Upper bound of the error of two distances to the edge of the ground together, m.
 constexpr double kGroundError = 3e-6;
 
-/// What S does on its way: it moves by up to `half_way` (m, along the axes of its middle pose)
-/// either way and turns by up to an angle (at most a right one) either way.
+/// Motion of a stance S about its middle pose: up to `half_way` (m, along the middle pose's axes)
+/// either way, and up to an angle (at most 90 degrees) either way.
 struct Excursion {
   Vector2d half_way;
   double sine;     ///< of the angle
   double versine;  ///< 1 - its cosine
 };
 
-/// What a box of S covers meanwhile.
+/// Bound of the space that a box fixed to S covers meanwhile.
 Eigen::AlignedBox3d Swept(const Eigen::AlignedBox3d& box, const Excursion& excursion) {
   const Vector2d far = box.min().head<2>().cwiseAbs().cwiseMax(box.max().head<2>().cwiseAbs());
   const Vector2d growth = excursion.half_way.cwiseAbs() +
@@ -57,8 +56,8 @@ double RadiusOf(const std::vector<Eigen::AlignedBox3d>& boxes) {
   return radius;
 }
 
-/// How far strides of a class may move a volume along its axes between two samples, in which no
-/// point moves farther than `inflation`, m.
+/// Largest displacement of a volume along its axes between two samples, for strides of a class, if
+/// no point moves farther than `inflation`, m.
 Vector2d BetweenSamples(StrideClass strides, double inflation) {
   if (strides == StrideClass::kStraight) return {inflation, 0};
   if (strides == StrideClass::kSideways) return {0, inflation};
@@ -72,18 +71,17 @@ Isometry3d WithHeading(const Isometry3d& X_WR, double heading) {
   return turned;
 }
 
-/// The heading closest to `heading` in which a way in this direction leads ahead, back or to a
-/// side.
+/// The heading closest to `heading` in which the direction `way` points ahead, back or to a side.
 double HeadingOnTheWay(const Vector2d& way, double heading) {
   constexpr double kQuarter = std::numbers::pi / 2;
   const double direction = std::atan2(way.y(), way.x());
   return direction + kQuarter * std::round(WrapAngle(heading - direction) / kQuarter);
 }
 
-/// A gait needs least room where it goes along one of its axes. So a way to a pose is gone in three
-/// parts: a turn on the spot, the way along an axis, and a turn into the last heading. Where the
-/// first part ends; nothing if there is but the last one.
-/// `offset`: heading of the root in the stance frame, rad.
+/// A gait needs least room along one of its axes, so a way to a pose has three parts: a turn on the
+/// spot, the way along an axis, and a turn into the final heading. Returns the end of the first
+/// part; none if only the last part is left. `offset`: heading of the root in the stance frame,
+/// rad.
 std::optional<Isometry3d> EndOfFirstPart(const Isometry3d& from, const Isometry3d& to,
                                          double offset) {
   const Vector2d way = (to.translation() - from.translation()).head<2>();
@@ -208,7 +206,7 @@ std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {
   return only;
 }
 
-/// Whether one face of a level holds every bearing point; nothing if that takes a closer look.
+/// Whether one face of a level holds every bearing point; none if this test cannot decide.
 std::optional<bool> QuasiStaticAction::FacesHold(int level, const GroundedStance& stance,
                                                  double clearance) const {
   bool all_hold = true;
@@ -280,10 +278,10 @@ bool QuasiStaticAction::CS(const graph::Point& vertex) const {
   return stance && Examine(*stance) == StanceFault::kNone;
 }
 
-/// A straight way between two stances and the samples of it that decide whether it is clear, each
-/// in the middle of its share of the way. Feet stand all along the way. The frames of its strides,
-/// in which the room is asked for, lie half a stride within its ends, or are taken to go all the
-/// way where strides turn.
+/// A straight way between two stances and the samples that decide whether it is clear, each in the
+/// middle of its share of the way. Feet stand all along the way. The stride frames, in which swept
+/// volumes are tested, span the way less half a stride at either end; where strides turn, they span
+/// the whole way.
 struct QuasiStaticAction::StraightWay {
   GroundedStance from;
   PlanarPose to;
@@ -300,7 +298,8 @@ struct QuasiStaticAction::StraightWay {
   double FramesShare() const { return 1 - 2 * first_frame; }
   double TravelOfSample() const { return travel / (2 * samples); }
 
-  /// From the middle to either end of the samples `first` to `last` - 1 and their shares.
+  /// Half the length of the part covered by samples `first` to `last` - 1, as a fraction of the
+  /// way.
   double HalfShare(int first, int last) const {
     return static_cast<double>(last - first) / (2 * samples);
   }
@@ -319,9 +318,9 @@ bool QuasiStaticAction::SampleIsClear(const StraightWay& way, int sample) const 
          BoxesFree(way.stands ? standing_ : sweep(way.strides).boxes, way.FrameAt(sample + 0.5));
 }
 
-/// True only if the samples `first` to `last` - 1 stand on ground all round, and the ends of their
-/// part of the way as well: the distance to the edge of the ground changes no faster than the
-/// place.
+/// Sufficient: true only if samples `first` to `last` - 1 and the ends of their part of the way all
+/// stand on ground. Relies on the distance to the edge of the ground changing no faster than the
+/// position.
 bool QuasiStaticAction::PartIsOverGround(const StraightWay& way, int level, int first,
                                          int last) const {
   const PlanarPose middle = way.At((first + last) / 2.0).pose;
@@ -333,8 +332,8 @@ bool QuasiStaticAction::PartIsOverGround(const StraightWay& way, int level, int 
          PartIsOverGround(way, level, split, last);
 }
 
-/// True only if one face holds all bearing points on their ways from the one end of a part of the
-/// way to the other: they go straight but for what turning bends their ways.
+/// Sufficient: true only if one face holds the paths of all bearing points along a part of the way.
+/// The paths are straight except for the deviation that turning causes.
 bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int first, int last,
                                          double half_turn) const {
   const Eigen::Isometry2d from = way.At(first).pose.Transform();
@@ -349,8 +348,8 @@ bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int 
   return true;
 }
 
-/// True only if the samples `first` to `last` - 1 are clear, and the ends of their part of the way
-/// as well: what the boxes cover between its ends lies in larger boxes around its middle.
+/// Sufficient: true only if samples `first` to `last` - 1 and the ends of their part of the way are
+/// clear. Tests larger boxes around the middle that hold the space covered between the ends.
 [[gnu::hot]] bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first,
                                                           int last) const {
   const double turn = std::abs(WrapAngle(way.to.yaw - way.from.pose.yaw));
@@ -379,8 +378,8 @@ bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int 
   return checker_.AreCertainlyFree(swept);
 }
 
-/// The same as asking all samples in turn, for a way that is not certainly clear as a whole. Coarse
-/// to fine, so that neither stretches of free space nor ways that are blocked ask many.
+/// Tests all samples of a way that PartIsCertainlyClear does not cover as a whole. Coarse to fine,
+/// so that both free stretches and blocked ways take few tests.
 bool QuasiStaticAction::SamplesAreClear(const StraightWay& way) const {
   struct Part {
     int first;

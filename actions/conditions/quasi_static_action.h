@@ -15,22 +15,21 @@
 
 namespace possibility::actions {
 
-/// The world that actions are tested in.
+/// The world in which actions are tested.
 struct World {
   const models::Environment* environment = nullptr;
   const models::GroundMap* ground = nullptr;
 };
 
-/// Where the conditions of a quasi-static action fail, for messages.
+/// Condition of a quasi-static action that fails, for messages.
 enum class StanceFault { kNone, kOutOfBounds, kOffGround, kCollision };
 
-/// Walking and crawling (paper, section "Walk and Crawl"): holonomic, with sufficient conditions
-/// on flat ground in the nominal orientation and on room, for the nominal posture at a vertex and
-/// for the strides of an edge along it, and necessary conditions on the pelvis alone. One exploring
-/// thread per instance.
+/// Walking and crawling (paper, section "Walk and Crawl"): a holonomic action. C_S requires flat
+/// ground, the nominal orientation, and free space for the nominal posture at a vertex and for the
+/// strides along an edge. C_N concerns the pelvis alone. One exploring thread per instance.
 class QuasiStaticAction : public graph::HolonomicAction {
  public:
-  /// Between samples of an edge, no point of a swept volume moves farther than this, m.
+  /// Largest motion of any point of a swept volume between samples of an edge, m.
   static constexpr double kEdgeInflation = 0.02;
 
   /// `model` and `world` must outlive the action. `step`: longest ExtendTowards in the metric of
@@ -45,8 +44,8 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool CS(const graph::Point& vertex) const override;
   bool CS(const graph::PointPair& edge) const override;
 
-  /// This action has no job that could decide more than C_S does, so it explores C_S only (the
-  /// paper's experiments do the same).
+  /// No job of this action could decide more than C_S does, so it explores C_S only, as the paper's
+  /// experiments do.
   bool Explorable(const graph::Point& vertex) const override { return CS(vertex); }
   bool Explorable(const graph::PointPair& edge) const override { return CS(edge); }
 
@@ -57,21 +56,22 @@ class QuasiStaticAction : public graph::HolonomicAction {
       const graph::PointPair& edge) const override;
   graph::Point Project(const graph::Point& v) const override;
 
-  /// Sufficient conditions on a stance of this gait and on the straight way between two.
+  /// First sufficient condition that fails at a stance of this gait; kNone if all hold.
   StanceFault Examine(const GroundedStance& stance) const;
   /// Name of the first obstacle where the robot would stand at `stance`; empty if none.
   std::string FirstBlocker(const GroundedStance& stance) const;
+  /// Sufficient conditions on the straight way between two stances of this gait.
   bool IsClear(const GroundedStance& from, const GroundedStance& to) const;
   /// C_S of the straight way between two stances of this gait, and of these.
   bool CS(const GroundedStance& from, const GroundedStance& to) const;
-  /// Every bearing point of the stance, of whatever gait, is on ground, `clearance` (m) from its
+  /// True if every bearing point of the stance (of any gait) is on ground, `clearance` (m) from its
   /// edge.
   bool GroundHolds(const GroundedStance& stance, double clearance) const;
 
   /// Expected time of the straight way between two stances, s.
   double ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const;
 
-  /// The edge failed as motion although it met C_S: C_S is false for it from now on.
+  /// Makes C_S false for an edge that met C_S but failed as motion.
   void Forbid(const graph::PointPair& edge);
   bool IsForbidden(const graph::PointPair& edge) const;
 
@@ -81,9 +81,9 @@ class QuasiStaticAction : public graph::HolonomicAction {
  private:
   struct StraightWay;
 
-  /// Of the strides of one class.
+  /// Swept volume of the strides of one class.
   struct Sweep {
-    models::UprightBoxes boxes;  ///< inflated by what they move between samples
+    models::UprightBoxes boxes;  ///< inflated by their motion between samples
     double radius = 0;           ///< farthest point of the volume from the stance's axis, m
   };
   static Sweep SweepOf(const GaitVolumes& volumes, StrideClass strides);
@@ -94,10 +94,10 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool BoxesFree(const models::UprightBoxes& boxes, const GroundedStance& stance) const {
     return checker_.AreFree(boxes, stance.pose.At(stance.z));
   }
-  /// Between stances within the bounds.
+  /// For stances within the bounds.
   bool StraightWayHolds(const GroundedStance& from, const GroundedStance& to) const;
   StraightWay WayBetween(const GroundedStance& from, const GroundedStance& to) const;
-  /// The pelvis, at `root` seen from above; bounds that are empty bound nothing.
+  /// Tests the horizontal position `root` of the pelvis. Empty bounds bound nothing.
   bool IsWithinBounds(const Eigen::Vector2d& root) const;
   bool IsWithinBounds(const GroundedStance& stance) const;
   std::optional<bool> FacesHold(int level, const GroundedStance& stance, double clearance) const;
@@ -107,10 +107,10 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool PartIsCertainlyClear(const StraightWay& way, int first, int last) const;
   bool PartIsOverGround(const StraightWay& way, int level, int first, int last) const;
   bool SamplesAreClear(const StraightWay& way) const;
-  /// The level of this height if there is but one.
+  /// The level of this height; none unless there is exactly one.
   std::optional<int> OnlyLevelAt(double z) const;
-  /// The transition that leads from one of two root poses to the other in either direction, and
-  /// the stance of its first gait; null if none does.
+  /// The transition between two root poses, in either direction, and the stance of its first gait;
+  /// null if there is none.
   const LocomotionModel::TransitionEntry* FindTransition(
       const std::array<Eigen::Isometry3d, 2>& ends, GroundedStance* start) const;
   bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
@@ -127,8 +127,9 @@ class QuasiStaticAction : public graph::HolonomicAction {
   models::UprightBoxes standing_;
   std::array<Sweep, kStrideClasses.size()> sweeps_;
   std::vector<models::UprightBoxes> transition_sweeps_;  ///< by index of the model's transitions
-  std::vector<double> bearing_radii_;  ///< by gait: farthest bearing point from the axis, m
-  double bearing_reach_ = 0;           ///< no limb bears farther from the root, m
+  std::vector<double>
+      bearing_radii_;         ///< by gait: distance of the farthest bearing point from the axis, m
+  double bearing_reach_ = 0;  ///< upper bound of a bearing point's distance from the root, m
   std::vector<graph::PointPair> forbidden_;
 };
 

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Below this a weight shift is not worth a phase, m.
-/// Clearances that differ by less are equal, m.
+/// Weight shifts below this get no phase of their own, m. Clearances that differ by less are equal,
+/// m.
 constexpr double kSameClearance = 1e-6;
 
 constexpr double kNegligibleShift = 1e-4;
@@ -27,9 +27,9 @@ Vector3d At(const PlanarPose& pose, const Vector3d& p, double z) {
 
 }  // namespace
 
-/// Where everything is while the phases are laid out; the robot is at rest.
+/// State of the robot, at rest, while the phases are laid out.
 struct GaitMotion::Progress {
-  std::vector<PlanarPose> limbs;  ///< stance that each limb stands at
+  std::vector<PlanarPose> limbs;  ///< stance of each limb
   Vector2d centre_of_mass;
   double root_yaw = 0;
   double z = 0;
@@ -87,8 +87,8 @@ std::vector<int> GaitMotion::SwingOrder(const PlanarPose& a, const PlanarPose& b
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> other = order;
   std::rotate(other.begin(), other.begin() + static_cast<int>(order.size()) / 2, other.end());
-  // Rounding must not decide between orders that are mirror images: one after the other, they make
-  // the same limb swing twice in a row.
+  // Rounding must not decide between mirror-image orders: one after the other, they make the same
+  // limb swing twice in a row.
   return ClearanceAfterSwing(order.front(), a, b) >=
                  ClearanceAfterSwing(other.front(), a, b) - kSameClearance
              ? order

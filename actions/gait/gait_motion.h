@@ -10,8 +10,8 @@
 
 namespace possibility::actions {
 
-/// A quasi-static gait: in every stride each limb swings once from one stance to the next, one at
-/// a time, while the others bear; between swings the centre of mass shifts over the limbs that
+/// A quasi-static gait. In every stride each limb swings once from one stance to the next, one limb
+/// at a time, while the others bear. Between swings the centre of mass shifts over the limbs that
 /// bear next. The robot is at rest between phases.
 class GaitMotion {
  public:
@@ -22,24 +22,24 @@ class GaitMotion {
   std::vector<MotionPhase> Phases(const std::vector<PlanarPose>& strides, double z,
                                   double time_scale) const;
 
-  /// Rest in the nominal posture at `stance` for `duration` s.
+  /// Rests in the nominal posture at `stance` for `duration` s.
   MotionPhase Standing(const PlanarPose& stance, double z, double duration) const;
 
-  /// Stance in the frame of which the swept volume of the stride from a to b is taken.
+  /// Frame of the swept volume of the stride from a to b.
   static PlanarPose StrideFrame(const PlanarPose& a, const PlanarPose& b) {
     return Interpolate(a, b, 0.5);
   }
 
-  /// Expected duration of the motion along so many strides, s: as if they led straight ahead.
-  /// Sideways and in turns strides take up to a tenth more or less.
+  /// Expected duration of a motion of `strides` strides, s, as if they led straight ahead. Sideways
+  /// and turning strides differ by up to a tenth.
   double ExpectedDuration(int strides) const;
 
  private:
   struct Progress;
   double DurationOfStridesAhead(int count) const;
   Progress AtRest(const PlanarPose& stance, double z) const;
-  /// The gait's cycle from its start or from half-way, whichever first swing ends farther from the
-  /// limbs that stand: so feet part before they close.
+  /// The gait's cycle from its start or from half-way: the one whose first swing ends farther from
+  /// the standing limbs, so that feet part before they close.
   std::vector<int> SwingOrder(const PlanarPose& a, const PlanarPose& b) const;
   double ClearanceAfterSwing(int limb, const PlanarPose& a, const PlanarPose& b) const;
   std::vector<Eigen::Vector2d> Placed(int limb, const PlanarPose& at) const;
@@ -54,7 +54,7 @@ class GaitMotion {
 
   const models::RobotModel* robot_;
   const NominalStance* stance_;
-  double stride_time_ = 0;  ///< s, of one more stride
+  double stride_time_ = 0;  ///< s, of each additional stride
   double stop_time_ = 0;    ///< s, of the last shift
 };
 

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A way that leaves its class by less than this is in it, m or rad.
+/// Tolerance of the classes of strides, m or rad.
 constexpr double kNegligible = 1e-6;
 
 /// Bounds may be exceeded by rounding.
@@ -19,8 +19,8 @@ PlanarPose Displacement(const PlanarPose& from, const PlanarPose& to) {
   return {d.x(), d.y(), WrapAngle(to.yaw - from.yaw)};
 }
 
-/// Equal strides turn evenly, and go on in the direction of the whole way: seen from the stance, it
-/// turns the other way. Whether all of them are within the bounds.
+/// Whether `count` equal strides along `whole` are all within the bounds. They turn evenly and keep
+/// the direction of the whole way, which in the stance frame turns the opposite way.
 bool Fit(const models::GaitParameters& parameters, const PlanarPose& whole, int count) {
   for (int i = 0; i < count; ++i) {
     const Vector2d d = Eigen::Rotation2Dd(-whole.yaw * i / count) * whole.position() / count;
@@ -74,7 +74,7 @@ int StrideCount(const models::GaitParameters& parameters, const PlanarPose& from
     return std::max(1, static_cast<int>(std::ceil(number)));
   };
   if (Includes(StrideClass::kOblique, whole)) return whole_number(effort / (1 + kRounding));
-  // The direction may use the bounds better later on, by the length of a diagonal at most.
+  // Later directions may use the bounds better, by a factor of sqrt(2) at most.
   int count = whole_number(effort / std::sqrt(2.0) - kRounding);
   while (!Fit(parameters, whole, count)) ++count;
   return count;

@@ -13,14 +13,14 @@ namespace {
 
 using Eigen::AlignedBox3d;
 
-/// Knots of sampled motions are closer than those of plans, s.
+/// Knot spacing of sampled motions, closer than in plans, s.
 constexpr double kSamplingInterval = 0.04;
 
 /// Merging two slabs may add at most this fraction to their volume.
 constexpr double kMergeSlack = 0.03;
 
-/// Displacements at the corners, edge midpoints and face centres of the octahedron of allowed
-/// strides, and none at all.
+/// Zero displacement, and the corners, edge midpoints and face centres of the octahedron of allowed
+/// strides.
 std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& parameters) {
   std::vector<PlanarPose> displacements;
   for (int x = -1; x <= 1; ++x) {
@@ -37,7 +37,7 @@ std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& param
 }
 
 /// Builds the motion (which checks limits, torques and friction), checks self-collision at every
-/// knot and hands each knot's link poses to `visit`.
+/// knot and passes each knot's link poses to `visit`.
 template <typename Visitor>
 void SampleMotion(const models::RobotModel& robot, const std::vector<MotionPhase>& phases,
                   const Eigen::VectorXd& guess, const std::function<bool()>& keep_going,
@@ -81,7 +81,7 @@ SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& st
   return volume;
 }
 
-/// Whether one box around both holds little more than they do. Empty ones add nothing.
+/// Whether the box around both is little larger than the two. Empty boxes add nothing.
 bool AddsLittle(const AlignedBox3d& a, const AlignedBox3d& b) {
   if (a.isEmpty() || b.isEmpty()) return true;
   return a.merged(b).volume() <= (1 + kMergeSlack) * (a.volume() + b.volume());

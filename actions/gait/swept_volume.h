@@ -12,20 +12,19 @@
 
 namespace possibility::actions {
 
-/// Boxes in a stance frame, one per slab of height, that hold every link of the robot during the
-/// motions they were computed from. They start `kGroundGap` above the ground, which the soles
-/// touch.
+/// Boxes in a stance frame, one per slab of height, that contain every link of the robot during the
+/// sampled motions. They start `kGroundGap` above the ground because the soles touch it.
 class SweptVolume {
  public:
-  /// Added on every side: motions are sampled in time and displacement, the robot moves on between
-  /// the samples. The property tests of C_S hold this figure to account.
+  /// Added on every side: motions are sampled in time and displacement, and the robot moves between
+  /// samples. The property tests of C_S check this figure.
   static constexpr double kSamplingMargin = 0.005;
-  /// The same for a posture, which does not move.
+  /// The same for a posture, which is static.
   static constexpr double kStandingMargin = 0.002;
   static constexpr double kGroundGap = 0.001;
   static constexpr double kSlabHeight = 0.1;
 
-  /// Adds the links at the poses `X_WL`, seen from `frame` on ground of height 0.
+  /// Adds the links at the poses `X_WL`, expressed in `frame` on ground of height 0.
   void Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
            const PlanarPose& frame);
   void Add(const SweptVolume& other);
@@ -34,8 +33,7 @@ class SweptVolume {
   std::vector<Eigen::AlignedBox3d> Boxes() const;
 
   /// One list of boxes per volume, with `margins[i]` (m) on every side of volume i. Neighbouring
-  /// slabs are merged in all volumes or in none, so that the boxes of a volume that lies inside
-  /// another one lie inside that one's, too.
+  /// slabs are merged in all volumes or in none: if a volume lies inside another, so do its boxes.
   static std::vector<std::vector<Eigen::AlignedBox3d>> BoxesOf(
       const std::vector<SweptVolume>& volumes, const std::vector<double>& margins);
 
@@ -45,12 +43,12 @@ class SweptVolume {
   std::vector<Eigen::AlignedBox3d> slabs_;
 };
 
-/// What a gait needs room for.
+/// Swept volumes of a gait.
 struct GaitVolumes {
   /// The nominal posture, in the stance frame.
   std::vector<Eigen::AlignedBox3d> standing;
-  /// By class: every stride of the class that the bounds allow, in StrideFrame. Each holds
-  /// `standing` wherever it may be moved by half such a stride without a turn.
+  /// By class: volume of all strides of the class within the bounds, in StrideFrame. Each contains
+  /// `standing` displaced by up to half such a stride without a turn.
   std::array<std::vector<Eigen::AlignedBox3d>, kStrideClasses.size()> sweeps;
 
   const std::vector<Eigen::AlignedBox3d>& sweep(StrideClass strides) const {
@@ -58,9 +56,9 @@ struct GaitVolumes {
   }
 };
 
-/// @throws InputError naming the stride if the robot cannot execute one of the bounds' extremes
-///   within its limits, without colliding with itself; Abandoned if `keep_going` (may be empty)
-///   says no.
+/// @throws InputError naming the stride if the robot cannot execute an extreme stride of the bounds
+/// within its limits and without self-collision; Abandoned if `keep_going` (may be empty) returns
+/// false.
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
                       const std::function<bool()>& keep_going = {});
 

@@ -20,7 +20,7 @@ namespace {
       text));
 }
 
-/// One spelling for each number: no sign, no space, no leading zero.
+/// Accepts one spelling per number: no sign, no space, no leading zero.
 std::optional<int> ParseIndex(std::string_view digits) {
   int index = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);

@@ -84,7 +84,8 @@ void CheckAgreement(const Knot& k0, const Knot& k1) {
   if (!(k1.t > k0.t)) throw std::invalid_argument("knots must be increasing in time");
 }
 
-/// Powers of s in the first three columns from the start, the others from the end conditions.
+/// Coefficients of powers of s: the first three columns from the start, the others from the end
+/// conditions.
 template <typename Rows>
 void SetQuintic(const VectorXd& change, const VectorXd& v0, const VectorXd& v1, const VectorXd& a0,
                 const VectorXd& a1, Rows c) {

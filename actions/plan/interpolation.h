@@ -29,8 +29,8 @@ class KnotInterpolant {
   double start() const { return k0_->t; }  ///< s
   double duration() const { return h_; }   ///< s
 
-  /// Bernstein coefficients over [k0.t, k1.t] of what the knots are interpolated by: rotation
-  /// vector (3 rows), root position (3), joints. No value is outside of its row's coefficients.
+  /// Bernstein coefficients over [k0.t, k1.t] of the interpolant: rotation vector (3 rows), root
+  /// position (3), joints. Every value lies within the range of its row's coefficients.
   Coefficients ControlPoints() const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace possibility::actions {
 
-/// What plan files call their format.
+/// Format name in plan files.
 inline constexpr const char* kPlanFormat = "possibility-plan/1";
 
 /// State of the whole robot at one instant. Conventions of q, v, a: models::RobotModel.
@@ -28,12 +28,12 @@ struct Knot {
 /// of one and the first of the next have the same t, q and, unless an impact lies between them, v;
 /// a, tau and forces may jump.
 struct Phase {
-  /// What bears on the ground, in the order of the columns of Knot::forces: a patch with all its
-  /// points ("left_sole") or some of them ("left_sole[0,3]"). None: the robot flies.
+  /// Bearing contact patches, in the order of the columns of Knot::forces: a patch with all its
+  /// points ("left_sole") or some of them ("left_sole[0,3]"). Empty: flight.
   std::vector<std::string> contacts;
   std::vector<Knot> knots;  ///< at least two, strictly increasing in t
-  /// Of the impact that this phase begins with: on the robot at every contact point, world, N s,
-  /// in the order of Knot::forces. No columns: no impact.
+  /// Impulses of the impact at the start of the phase, on the robot at every contact point, world,
+  /// N s, in the order of Knot::forces. No columns: no impact.
   Eigen::Matrix3Xd impulses = Eigen::Matrix3Xd(3, 0);
 };
 
@@ -41,11 +41,11 @@ struct Phase {
 struct Segment {
   std::string action;  ///< "walk", "crawl", "walk->crawl", ...
   std::vector<Phase> phases;
-  /// Of ExploredGraph, where the edge begins and ends; -1: it is not in the graph, as a pause.
+  /// Start and end vertex of the edge in ExploredGraph; -1: not in the graph, such as a pause.
   std::array<int, 2> vertices = {-1, -1};
 };
 
-/// The explored graph Gamma_PG, as far as its edges were not refuted; for reports and pictures.
+/// The explored graph Gamma_PG without its refuted edges; for reports and pictures.
 struct ExploredGraph {
   struct Vertex {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< pelvis, m
@@ -60,46 +60,46 @@ struct ExploredGraph {
   std::vector<Edge> edges;
 };
 
-/// Where an action may get to from the start, seen from above: no way leads farther than this.
+/// Upper bound of the region that an action can reach from the start, seen from above.
 struct ReachedRegion {
-  std::string action;  ///< empty: the pelvis alone, whatever the robot does
-  double z = 0;        ///< of the ground, m
-  /// Polygons, m: around every part counter-clockwise, around every hole in it clockwise.
+  std::string action;  ///< empty: the pelvis alone, by any motion
+  double z = 0;        ///< height of the ground, m
+  /// Polygons, m: counter-clockwise around parts, clockwise around holes.
   std::vector<std::vector<Eigen::Vector2d>> outlines;
 };
 
-/// What lies between the start and all goals.
+/// The barrier between the start and all goals.
 struct Barrier {
-  Eigen::Vector2d closest = Eigen::Vector2d::Zero();  ///< reached, to any goal, m
+  Eigen::Vector2d closest = Eigen::Vector2d::Zero();  ///< reached point closest to any goal, m
   double distance = 0;                                ///< of `closest` from that goal, m
-  /// Names of the shapes that close the way on from there, or "no ground"; none: the bounds.
+  /// Names of the shapes that block the way beyond `closest`, or "no ground"; empty: the bounds.
   std::vector<std::string> closed_by;
   std::vector<ReachedRegion> reached;
 };
 
-/// What a passage may be short of.
+/// Dimension in which a passage may be too small.
 enum class PassageDimension { kWidth, kHeight, kGap };
 
 /// "width", "height", "gap": the words of plan.json.
 std::string ToString(PassageDimension dimension);
 
-/// How much there is of a dimension, and how much an action needs.
+/// Available and needed size of one dimension of a passage, for one action.
 struct PassageNeed {
-  std::string action;  ///< a gait, or of a gap a manoeuvre; empty if there is none
+  std::string action;  ///< a gait, or for a gap a manoeuvre; empty if none
   PassageDimension dimension = PassageDimension::kWidth;
-  double available = 0;  ///< m, between both sides or over the ground; of a gap: without ground
-  double needed = 0;     ///< m; of a gap: that the action reaches over
+  double available = 0;  ///< m: width, height above the ground, or length without ground
+  double needed = 0;     ///< m; for a gap: the length that the action can cross
 };
 
-/// The narrowest place on the way that a flood over C_S takes, or would take if less were asked.
+/// The narrowest place on the way of a flood over C_S, or of one with relaxed needs.
 struct NarrowPassage {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< m, seen from above
-  double missing = 0;  ///< m, for the action that gets on best there; negative: to spare
-  std::vector<std::string> between = {};  ///< names of what stands there, or "no ground"
+  double missing = 0;                     ///< m, for the action that fits best; negative: margin
+  std::vector<std::string> between = {};  ///< names of the shapes there, or "no ground"
   std::vector<PassageNeed> needs = {};
 };
 
-/// The answer "no", with what there is to say for it.
+/// The answer "no" and its explanation.
 struct NoPlan {
   std::string status;       ///< "proven_infeasible", "exhausted" or "time_limit"
   std::string explanation;  ///< one paragraph
@@ -110,21 +110,21 @@ struct NoPlan {
 struct PlanTimings {
   double preparation_s = 0;   ///< nominal stances, swept volumes, ground map
   double graph_s = 0;         ///< until every edge of the first route was confirmed
-  double confirmation_s = 0;  ///< spent in confirmation jobs
-  double motion_s = 0;        ///< looking for a quicker route and generating its motion
+  double confirmation_s = 0;  ///< in confirmation jobs
+  double motion_s = 0;        ///< search for a quicker route and motion generation
   double verification_s = 0;
 };
 
-/// How the route was found: whose edges it is made of, and what was gained after the first route.
+/// How the route was found: the explorers of its edges, and the gain over the first route.
 struct SearchReport {
   std::vector<std::string>
       explorers;              ///< that found edges of the route: "straight", "lattice", ...
   double first_duration = 0;  ///< expected, of the first confirmed route, s
   double duration = 0;        ///< expected, of the route, s
-  double lower_bound = 0;     ///< nothing searched takes less, s; 0: none is known
+  double lower_bound = 0;     ///< of the duration within the searched space, s; 0: unknown
 };
 
-/// What `possibility plan` finds (format possibility-plan/1, docs/file_formats.md).
+/// Result of `possibility plan` (format possibility-plan/1, docs/file_formats.md).
 struct Plan {
   std::filesystem::path robot_file;
   std::string robot_hash;
@@ -137,19 +137,20 @@ struct Plan {
   std::vector<std::string> joints;  ///< names, in the order of q[7...], v[6...] and tau
   std::vector<Segment> segments;
   ExploredGraph explored;
-  std::optional<SearchReport> search;  ///< absent in plans that say nothing of it
+  std::optional<SearchReport> search;  ///< absent if the plan file has none
   std::optional<NoPlan> no;            ///< instead of segments
 
   double duration() const;  ///< s
 };
 
-/// q, v, a between two knots of one phase: the quintic Hermite interpolant in time of position
-/// and joints, and of the rotation vector phi with R(t) = exp(phi(t)) R(knot0), which matches q,
-/// v and a at both knots. `t` within [k0.t, k1.t]. Part of the file format: this is what a plan
-/// *means* between its knots. tau and forces are interpolated linearly.
+/// q, v, a between two knots of one phase: the quintic Hermite interpolant in time of position,
+/// joints and the rotation vector phi with R(t) = exp(phi(t)) R(knot0); it matches q, v and a at
+/// both knots. tau and forces are interpolated linearly. `t` within [k0.t, k1.t]. Part of the file
+/// format: it defines the motion between knots.
 Knot Interpolate(const Knot& k0, const Knot& k1, double t);
 
-/// The same for the contents of `file`, which need not exist.
+/// ReadPlan (plan_reader.h) for the text of a plan. `file` need not exist: it appears in messages,
+/// and paths in the text are resolved against its folder.
 Plan ParsePlan(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace possibility::actions

@@ -11,8 +11,8 @@ namespace possibility::actions {
 namespace {
 
 constexpr int kSignificant = 12;
-/// Far from the origin, positions keep their decimals: the quintics between knots a few
-/// milliseconds apart would make accelerations of what is left out.
+/// Positions keep their decimals even far from the origin: the quintics between knots a few
+/// milliseconds apart would turn rounding errors into accelerations.
 constexpr int kSignificantOfPosition = 15;
 constexpr double kLargestFixed = 1e15;
 
@@ -20,7 +20,7 @@ void RequireFinite(double x) {
   if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
 }
 
-/// Of x != 0 once it is rounded to so many digits.
+/// Decimal exponent of x != 0 rounded to `significant` digits.
 int DecimalExponent(double x, int significant) {
   char text[32];
   const auto end =
@@ -35,7 +35,7 @@ int DecimalExponent(double x, int significant) {
 void AppendRounded(double x, int decimals, std::string* text) {
   RequireFinite(x);
   if (std::abs(x) >= kLargestFixed) return AppendExact(x, text);
-  // More digits than a number is sure to have would not read back to the same text.
+  // More digits than a double guarantees would not read back to the same text.
   const int significant = decimals == PlanDigits::kPosition ? kSignificantOfPosition : kSignificant;
   if (x != 0) {
     decimals = std::clamp(significant - 1 - DecimalExponent(x, significant), 0, decimals);

@@ -6,14 +6,14 @@ namespace possibility::actions {
 
 /// Decimals of the numbers of a plan file (docs/file_formats.md, "Digits").
 struct PlanDigits {
-  static constexpr int kPosition = 10;     ///< m, rad, and parts of unit quaternions
+  static constexpr int kPosition = 10;     ///< m, rad, and components of unit quaternions
   static constexpr int kRate = 9;          ///< m/s, rad/s
   static constexpr int kAcceleration = 8;  ///< m/s^2, rad/s^2
   static constexpr int kForce = 7;         ///< N, N m, N s
 };
 
-/// Appends x as JSON, rounded to so many decimals and to 12 significant digits at most, positions
-/// to 15.
+/// Appends x as JSON, rounded to `decimals` decimals and at most 12 significant digits (15 for
+/// positions).
 /// @throws std::invalid_argument if x is not finite.
 void AppendRounded(double x, int decimals, std::string* text);
 

@@ -22,8 +22,8 @@ namespace {
 
 using models::JsonCursor;
 
-constexpr double kMostNumbers = 2e8;     // of a plan whose numbers stand in a table
-constexpr double kTimeTolerance = 1e-6;  // s, of the durations that repeat what the knots say
+constexpr double kMostNumbers = 2e8;     // in a plan with a table of courses
+constexpr double kTimeTolerance = 1e-6;  // s, of durations that repeat the knots' times
 
 std::string ReadText(const std::filesystem::path& file) {
   std::error_code error;
@@ -52,7 +52,7 @@ std::filesystem::path ReadPath(const JsonCursor& cursor, const std::filesystem::
   return error ? joined : resolved;
 }
 
-/// Any text could get into pages, tables and terminals otherwise.
+/// Rejects other text, which would end up in pages, tables and terminals.
 std::string ReadAction(const JsonCursor& cursor) {
   std::string action = cursor.String();
   if (!ParseSegmentAction(action)) {
@@ -70,7 +70,7 @@ std::vector<std::string> ReadStrings(const JsonCursor& cursor) {
   return strings;
 }
 
-/// Fills `numbers` (its size says how many are expected).
+/// Fills `numbers`; its size is the expected count.
 template <typename Numbers>
 void ReadNumbers(const JsonCursor& cursor, Numbers* numbers) {
   const std::size_t expected = numbers->size();
@@ -94,7 +94,7 @@ Eigen::Matrix3Xd ReadForces(const JsonCursor& cursor) {
   return forces;
 }
 
-/// Which patches there are, and with how many points, only the robot knows.
+/// Checks the form of contact names only: patches and their points are known to the robot alone.
 std::vector<std::string> ReadContacts(const JsonCursor& cursor) {
   std::vector<std::string> contacts = ReadStrings(cursor);
   std::set<std::string> seen;
@@ -129,7 +129,7 @@ Knot ReadKnot(const JsonCursor& phase, std::size_t i, std::size_t num_joints) {
   return knot;
 }
 
-/// Each knot as rows of numbers of its own.
+/// Reads phases that store the numbers of every knot.
 std::vector<Knot> ReadRows(const JsonCursor& phase, std::size_t num_knots, std::size_t num_joints) {
   for (const char* key : {"q", "v", "a", "tau", "forces"}) {
     const JsonCursor array = phase[key];
@@ -149,7 +149,7 @@ std::vector<Knot> ReadRows(const JsonCursor& phase, std::size_t num_knots, std::
   return knots;
 }
 
-/// Each component as the index of its course through the phase.
+/// Reads phases that store for each component the index of its course.
 std::vector<Knot> ReadCourses(const JsonCursor& phase, const SeriesReader& series,
                               std::size_t num_knots, std::size_t num_joints) {
   const auto read = [&](const char* key, std::size_t size) {
@@ -334,7 +334,7 @@ SearchReport ReadSearch(const JsonCursor& cursor) {
           ReadSeconds(cursor["expected_duration_s"]), ReadSeconds(cursor["lower_bound_s"])};
 }
 
-/// Segments name vertices of the graph that the plan holds.
+/// Requires that segments refer to vertices of the plan's graph.
 void CheckVertices(const JsonCursor& segments, const Plan& plan) {
   const int last = static_cast<int>(plan.explored.vertices.size()) - 1;
   for (std::size_t i = 0; i < plan.segments.size(); ++i) {
@@ -378,7 +378,7 @@ NoPlan ReadNo(const JsonCursor& cursor) {
   return no;
 }
 
-/// A few bytes of indices could stand for gigabytes of numbers.
+/// Guards against a few bytes of indices that stand for gigabytes of numbers.
 void RequireFewNumbers(const JsonCursor& segments) {
   double count = 0;
   for (const nlohmann::json& segment : segments.value()) {

@@ -4,7 +4,7 @@
 
 namespace possibility::actions {
 
-/// Reads DIR/plan.json or a plan file. Paths inside are resolved against the plan's folder.
+/// Reads DIR/plan.json or a plan file. Resolves paths inside against the plan's folder.
 /// @throws InputError naming the file, the key, and what was expected (truncated JSON, another
 /// format version, wrong sizes, numbers that are not finite, times out of order within a phase).
 Plan ReadPlan(const std::filesystem::path& file_or_directory);

@@ -9,11 +9,11 @@
 
 namespace possibility::actions {
 
-/// The table of a long plan's file: what one component of q, v, a, tau or forces does through a
-/// phase, each course once. Strides repeat, and most joints rest.
+/// Table of courses in a long plan's file. A course is one component of q, v, a, tau or forces over
+/// a phase. Each distinct course is stored once, because strides repeat and most joints rest.
 class SeriesWriter {
  public:
-  /// The index of a course, given as JSON: a number, or one for each knot.
+  /// Index of a course given as JSON: one number, or one per knot.
   int IndexOf(const std::string& course);
 
   /// "[course, course, ...]" without the brackets.
@@ -24,10 +24,10 @@ class SeriesWriter {
   std::string courses_;
 };
 
-/// The same table as it was read.
+/// The same table, read from a file.
 class SeriesReader {
  public:
-  /// No table. Whatever is read from it is refused.
+  /// No table: Read throws.
   SeriesReader() = default;
   /// @throws InputError if it is not a list of numbers and lists of numbers.
   explicit SeriesReader(const models::JsonCursor& table);

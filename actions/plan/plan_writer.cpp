@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Plans with more knots than this, twenty minutes or so, are written with a table of courses.
+/// Plans with more knots than this (about twenty minutes) are written with a table of courses.
 constexpr std::size_t kMostRows = 20000;
 
 double Rounded(double x) {
@@ -33,7 +33,7 @@ double Exact(double x) {
   return x;
 }
 
-/// To the last bit: a page shows the same, whether it is made of the plan or of its file.
+/// Exact to the last bit, so that a page made from the plan equals one made from its file.
 Json Numbers(const double* data, Eigen::Index size) {
   Json array = Json::array();
   for (Eigen::Index i = 0; i < size; ++i) array.push_back(Exact(data[i]));
@@ -81,7 +81,7 @@ std::vector<Quantity> QuantitiesOf(const Phase& phase) {
   };
 }
 
-/// A number if it is the same at all knots, else a list.
+/// A number if the component is constant over all knots, else a list.
 std::string CourseOf(const Eigen::VectorXd& component, int decimals) {
   std::string course;
   AppendList(component, decimals, &course);
@@ -255,7 +255,7 @@ std::string PathFrom(const std::filesystem::path& folder, const std::filesystem:
   return std::filesystem::proximate(std::filesystem::absolute(file), folder).generic_string();
 }
 
-/// What stands before the segments.
+/// The part of the file before the segments.
 Json Head(const Plan& plan, const std::filesystem::path& folder) {
   Json json;
   json["format"] = kPlanFormat;
@@ -272,7 +272,7 @@ Json Head(const Plan& plan, const std::filesystem::path& folder) {
   return json;
 }
 
-/// What stands behind them.
+/// The part of the file after the segments.
 Json Tail(const Plan& plan) {
   Json json;
   json["explored"] = ToJson(plan.explored);

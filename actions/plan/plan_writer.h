@@ -4,9 +4,9 @@
 
 namespace possibility::actions {
 
-/// Writes plan.json: one value of the same plan, the same bytes. Numbers of the motion are rounded
-/// (docs/file_formats.md), so the plan that is read back is the one to verify. The file is
-/// complete or absent (models::AtomicFile).
+/// Writes plan.json. Equal plans give equal bytes. Numbers of the motion are rounded
+/// (docs/file_formats.md), so verify the plan that is read back. The file is complete or absent
+/// (models::AtomicFile).
 /// @throws InputError if the file cannot be written; std::invalid_argument if a number is not
 ///   finite.
 void WritePlan(const Plan& plan, const std::filesystem::path& file);

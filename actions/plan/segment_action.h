@@ -5,15 +5,15 @@
 
 namespace possibility::actions {
 
-/// What Segment::action says: a gait, jump or manoeuvre ("walk"), or the transition from one gait
-/// to another ("walk->crawl").
+/// Parsed Segment::action: a gait, jump or manoeuvre ("walk"), or the transition from one gait to
+/// another ("walk->crawl").
 struct SegmentAction {
   std::string from;
-  std::string to;  ///< the same unless it is a transition
+  std::string to;  ///< equals `from` unless it is a transition
   bool is_transition = false;
 };
 
-/// Nothing unless it is one name, or two with "->" between (models/input/action_name.h).
+/// None unless `text` is one name, or two joined by "->" (models/input/action_name.h).
 std::optional<SegmentAction> ParseSegmentAction(const std::string& text);
 
 }  // namespace possibility::actions

@@ -4,8 +4,8 @@
 
 namespace possibility::actions {
 
-/// Where the way is narrowest, " The narrowest place ...", or nothing if there is no such place.
-/// `status`: one of the "no"s; at the time limit the floods believe in the way.
+/// Names the narrowest place, " The narrowest place ..."; empty if there is none. `status`: one of
+/// the "no"s. At the time limit the floods still consider the way open.
 std::string ExplainPassage(PlanStatus status, const std::optional<NarrowPassage>& passage);
 
 }  // namespace possibility::actions

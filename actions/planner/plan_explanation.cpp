@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAtTheGoal = 1e-6;  // m
 
-/// The first few, and why.
+/// The first few refusals with their reasons.
 std::string Listed(const std::vector<Manoeuvre::Refusal>& refusals, const std::string& what) {
   constexpr size_t kAtMost = 3;
   if (refusals.empty()) return {};
@@ -37,10 +37,10 @@ std::string Counted(std::int64_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// What the search counts for every action (graph/), and what that is in words.
+/// A counter that the search keeps for every action (graph/), and its wording.
 struct RefusalWords {
   const char* counter;  ///< after "<action>: "
-  const char* words;    ///< of a count and an action
+  const char* words;    ///< format string of a count and an action
 };
 
 constexpr RefusalWords kRefusalWords[] = {
@@ -53,7 +53,7 @@ constexpr RefusalWords kRefusalWords[] = {
     {"transition failed", "{} changes to '{}' that led nowhere"},
 };
 
-/// Descending; the first few.
+/// The three most frequent, in descending order.
 std::vector<std::string> MostFrequentRefusals(
     const std::map<std::string, std::int64_t>& statistics) {
   constexpr std::size_t kAtMost = 3;
@@ -76,7 +76,7 @@ std::vector<std::string> MostFrequentRefusals(
   return first;
 }
 
-/// By vertex: whether ways lead there from the first one.
+/// By vertex: whether it is reachable from the first one.
 std::vector<bool> ReachedFromStart(const ExploredGraph& explored) {
   std::vector<std::vector<int>> next(explored.vertices.size());
   for (const ExploredGraph::Edge& edge : explored.edges) next[edge.from].push_back(edge.to);

@@ -38,10 +38,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// For motion and verification after the time limit, s.
+/// Minimum time allowed for motion and verification after the time limit, s.
 constexpr double kLeastToFinish = 10;
 
-/// Whether the same motion may be free of such a violation elsewhere.
+/// Whether the same motion may be free of this violation elsewhere.
 bool DependsOnPlace(ViolationKind kind) {
   return kind == ViolationKind::kPenetration || kind == ViolationKind::kContactGround ||
          kind == ViolationKind::kStart || kind == ViolationKind::kGoal ||
@@ -70,7 +70,7 @@ PlannerSwitches SwitchesOf(const PlanRequest& request) {
                                    : WithExplorers(switches, request.explorers, "explorers");
 }
 
-/// To a micrometre: the explored graph is for people to look at, and large.
+/// Rounded to a micrometre: the explored graph is for viewing, and large.
 ExploredGraph::Vertex ExploredVertex(const graph::Point& point) {
   const auto rounded = [](double x) { return std::round(1e6 * x) / 1e6; };
   return {point.head<3>().unaryExpr(rounded), rounded(Heading(ToPose(point).linear()))};
@@ -147,7 +147,7 @@ class TraversalPlanner {
   }
 
  private:
-  /// Those of the robot's file come first.
+  /// The factories of the robot's file come first.
   std::vector<ManoeuvreFactory> AllFactories() const {
     std::vector<ManoeuvreFactory> factories = JumpFactories(robot_);
     factories.insert(factories.end(), request_.manoeuvres.begin(), request_.manoeuvres.end());
@@ -230,14 +230,15 @@ class TraversalPlanner {
     return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
   }
 
-  /// Whoever is quick to say something comes first.
+  /// The explorer that answers fastest comes first.
   std::vector<graph::ExplorerFactory> Explorers() const {
     const RouteSpace space{&model_, &actions_, &guarded_};
     std::vector<graph::ExplorerFactory> explorers;
     if (switches_.shortcuts) explorers.push_back(ShortcutExploration(space, goals_));
     if (switches_.lattice) explorers.push_back(LatticeExploration(space, start_, goals_));
     if (switches_.random) explorers.push_back(graph::RandomExploration());
-    // None at all would be the paper's; shortcuts take no part in the search for a first route.
+    // An empty list would select the paper's explorer. Shortcuts take no part in the search for a
+    // first route.
     if (explorers.empty()) explorers.push_back(ShortcutExploration(space, goals_));
     return explorers;
   }
@@ -293,7 +294,7 @@ class TraversalPlanner {
            ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
   }
 
-  /// Turns a confirmed path into a verified plan. On failure the legs at fault are forbidden.
+  /// Turns a confirmed path into a verified plan. On failure it forbids the legs at fault.
   /// @throws Abandoned at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
@@ -305,7 +306,7 @@ class TraversalPlanner {
     return moved && IsVerified(route, result);
   }
 
-  /// A pause is no edge of the graph.
+  /// A pause is not an edge of the graph.
   static void NameVertices(const graph::PathResult& path, actions::Plan* plan) {
     for (size_t i = 0; i < path.path.size(); ++i) {
       plan->segments[i].vertices = {path.path[i].from, path.path[i].to};
@@ -380,8 +381,8 @@ class TraversalPlanner {
     for (const auto& action : actions_) action->Forbid(edge);
   }
 
-  /// Reports progress, from any thread. A route that was found in time is not given up for what its
-  /// motion and verification take: false only when they have taken as long again.
+  /// Reports progress, from any thread. Motion and verification of a route found in time may take
+  /// the time limit again (at least kLeastToFinish); false after that.
   bool MayFinish(const std::string& stage, double fraction) const {
     if (request_.progress) {
       const std::lock_guard lock(progress_mutex_);
@@ -402,7 +403,7 @@ class TraversalPlanner {
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
-  std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< these, for the search
+  std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< for the search
   FloodOracle floods_;
   FailedJobs failures_;
   RouteRefusals refusals_;

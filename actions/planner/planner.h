@@ -24,23 +24,23 @@ std::string ToString(PlanStatus status);
 struct PlanProgress {
   std::string stage;  ///< "exploring", "generating motion", "verifying"
   graph::FindPathProgress graph;
-  double fraction = 0;  ///< of the stage, 0 if unknown
+  double fraction = 0;  ///< of the stage, in [0, 1]; 0 if unknown
 };
 
 struct PlanRequest {
   std::uint64_t seed = 1;
   int threads = 1;
-  /// s, for preparation and search. Motion and verification of a route that was found in time may
-  /// take as long again.
+  /// s, for preparation and search. Motion and verification of a route found in time may take the
+  /// same time again.
   double time_limit = 60;
-  /// Empty: the scenario's. They replace the scenario's in the search and in verification; a plan
-  /// of others than the scenario's file lists is none for that file.
+  /// Actions that replace the scenario's in search and verification; empty: the scenario's. A plan
+  /// with actions that the scenario's file does not list is not valid for that file.
   std::vector<std::string> actions;
-  /// Beside the actions of the robot's file: `actions` may name them, too.
+  /// Manoeuvres in addition to those of the robot's file; `actions` may name them.
   std::vector<ManoeuvreFactory> manoeuvres;
   std::filesystem::path library;  ///< folder of solved jumps; empty: none
   PlannerPreset preset = PlannerPreset::kDefault;
-  std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers); empty: those
+  std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers) unless empty
   std::function<void(const PlanProgress&)> progress;
 };
 
@@ -48,16 +48,16 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kTimeLimit;
   Plan plan;  ///< segments if kFound, otherwise `no`; graph and statistics always
   VerificationReport verification;  ///< accepted if kFound
-  /// One paragraph: which conditions rejected what, and where. If kFound: which manoeuvres were
-  /// refuted and which jobs failed on the way; empty if none.
+  /// One paragraph: which conditions rejected what, and where. If kFound: the manoeuvres refuted
+  /// and the jobs failed during the search; empty if none.
   std::string explanation;
 };
 
-/// Plans, generates the motion and verifies it. A plan that fails verification is never
-/// returned: its edge is marked impossible and the search goes on until the time limit.
-/// @throws InputError if start or goal is in collision, off the ground, an action is unknown, or a
-/// manoeuvre's name is taken, its factory makes none or one of its conditions throws (action,
-/// function and pose are named); whatever a factory throws.
+/// Plans, generates the motion and verifies it. A plan that fails verification is never returned:
+/// its edge is marked impossible and the search continues until the time limit.
+/// @throws InputError if start or goal is in collision or off the ground, if an action is unknown,
+/// or if a manoeuvre's name is taken, its factory returns none or one of its conditions throws (the
+/// message names action, function and pose). Exceptions of a factory pass through.
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request);
 

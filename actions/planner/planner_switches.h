@@ -6,23 +6,23 @@
 
 namespace possibility::actions {
 
-/// Which planner is asked.
+/// Selects the planner.
 enum class PlannerPreset {
-  kDefault,  ///< everything we know
+  kDefault,  ///< everything enabled
   kPaper,    ///< Algorithms 1 to 4 as the paper prints them
 };
 
-/// What a preset switches. Whatever is off in kPaper is ours and not in the paper.
+/// Switches of a preset. Everything that kPaper turns off is not in the paper.
 struct PlannerSwitches {
-  /// Solved motions are read from PlanRequest::library; if not, only how far the robot jumps is,
-  /// which is part of C_N.
+  /// Reads solved motions from PlanRequest::library. If off, only the jump reach, which is part of
+  /// C_N, is read.
   bool solved_motions = true;
-  bool straight = true;     ///< straight ways to goals are asked for first
+  bool straight = true;     ///< straight ways to goals are tried first
   bool lattice = true;      ///< LatticeExplorer
   bool random = true;       ///< Algorithms 2 to 4
-  bool floods = true;       ///< a search over the whole space may end the random one with "no"
+  bool floods = true;       ///< floods of the whole space may end the random search with "no"
   bool shortcuts = true;    ///< ShortcutExplorer
-  bool improvement = true;  ///< quicker routes than the first confirmed one are looked for
+  bool improvement = true;  ///< search for quicker routes after the first confirmed one
   std::optional<double> skip_jumps;  ///< instead of the scenario's probability
 };
 
@@ -40,8 +40,8 @@ inline PlannerSwitches SwitchesOf(PlannerPreset preset) {
   return switches;
 }
 
-/// Leaves of a preset's explorers only those that are named: "straight", "lattice", "random",
-/// "shortcuts". @throws InputError for other names, beginning with `where`.
+/// Keeps only the named explorers of a preset: "straight", "lattice", "random", "shortcuts".
+/// @throws InputError for other names, beginning with `where`.
 PlannerSwitches WithExplorers(PlannerSwitches switches, const std::vector<std::string>& names,
                               const std::string& where);
 

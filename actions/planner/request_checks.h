@@ -18,8 +18,8 @@ std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories)
 void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
                      const std::vector<ManoeuvreFactory>& manoeuvres);
 
-/// Start or goal as a stance of one of `gaits` (in the order of LocomotionModel::gaits).
-/// `key`: of the scenario's file, `names`: of the actions planned with; both for messages.
+/// Start or goal as a stance of one of `gaits` (in the order of LocomotionModel::gaits). `key` in
+/// the scenario's file and `names` of the planned actions are for messages.
 /// @throws InputError unless C_S holds at the stance.
 GroundedStance CheckedStance(const models::Stance& stance, const std::string& key,
                              const models::Scenario& scenario, const LocomotionModel& model,

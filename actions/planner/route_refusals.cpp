@@ -7,7 +7,7 @@
 namespace possibility::actions {
 namespace {
 
-/// The earliest that some leg is to blame for, or else any.
+/// The earliest violation that belongs to a leg; if none does, the earliest.
 const Violation& First(const std::vector<Violation>& violations) {
   return *std::min_element(violations.begin(), violations.end(),
                            [](const Violation& a, const Violation& b) {

@@ -7,18 +7,18 @@
 
 namespace possibility::actions {
 
-/// Routes that were confirmed edge by edge and came to nothing all the same: how many, and what was
-/// wrong with the first of them. Kept for the explanation of an answer without a plan.
+/// Counts routes that were confirmed edge by edge but failed as motion or in verification, and
+/// keeps the fault of the first one, to explain an answer without a plan.
 class RouteRefusals {
  public:
-  /// Motion generation could not turn `leg`, words for one of the route's, into motion.
+  /// Adds a route for which motion generation failed at `leg` (a description of the leg).
   void ByMotion(const std::string& leg, const std::string& why);
 
-  /// The verifier refused the motion; what it had found, if it was abandoned. `legs`: words for
-  /// the route's, in the order of the plan's segments.
+  /// Adds a route whose motion the verifier refused; an abandoned report holds the violations found
+  /// so far. `legs`: descriptions of the route's legs, in the order of the plan's segments.
   void ByVerification(const VerificationReport& report, const std::vector<std::string>& legs);
 
-  /// One sentence that begins with a space; nothing if nothing was refused.
+  /// One sentence that begins with a space; empty if nothing was refused.
   std::string Explain() const;
 
  private:

@@ -12,14 +12,15 @@ struct SitDownSettings : SagittalSettings {
 /// Hash of what solved transitions depend on (motion_identity.h).
 std::string SitDownIdentity(const models::RobotModel& robot, const SitDownSettings& settings = {});
 
-/// From the launch stance to the landing stance without a jump: the feet stay, the robot sits
-/// down, sets its hands down at no speed and moves on until it rests. Backwards in time it stands
-/// up.
+/// Motion from the launch stance to the landing stance without a jump: the feet stay, the robot
+/// sits down, sets its hands down at zero speed and moves on until it rests. Reversed in time, the
+/// robot stands up.
 class SitDownProblem : public SagittalProblem {
  public:
   enum PhaseIndex { kSit, kBear, kNumPhases };
 
-  /// Where the landing stance's frame must be for the feet to stay, m ahead of the launch's.
+  /// Position of the landing stance's frame for which the feet stay, m ahead of the launch
+  /// stance's.
   static double Displacement(const SagittalModel& model);
 
   /// `model` must outlive the problem.

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Shared patches may disagree by no more than this about where they stand, m.
+/// Largest distance between the places of a shared patch in the two stances, m.
 constexpr double kAlignmentTolerance = 1e-6;
 
 int LimbOfContact(const models::Gait& gait, int contact) {
@@ -77,7 +77,7 @@ bool TransitionMotion::FindInLibrary(const TransitionSolver& solver) {
     solved_ = solver.Realise(collocation::ReadSolution(file_));
     was_known_ = true;
   } catch (const std::exception&) {
-    // What cannot be read or followed is solved again.
+    // A solution that cannot be read or realised is solved again.
   }
   return was_known_;
 }

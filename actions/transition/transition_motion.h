@@ -11,13 +11,13 @@
 
 namespace possibility::actions {
 
-/// The transition from one gait's nominal stance to another's. The patches that both gaits use
-/// stay where they are; the others touch down, at no speed, where the second gait wants them.
+/// The transition from one gait's nominal stance to another's. Patches that both gaits use stay in
+/// place; the others touch down at zero speed at their nominal places in the second gait.
 class TransitionMotion {
  public:
-  /// `library`: folder of solved motions; empty: none. What it does not hold is solved.
-  /// @throws InputError if the two stances do not agree about the shared patches, or the robot
-  ///   cannot do it; Abandoned if `keep_going` (may be empty) says no.
+  /// `library`: folder of solved motions; empty: none. A motion that it lacks is solved.
+  /// @throws InputError if the two stances disagree about the shared patches, or the robot cannot
+  /// execute the transition; Abandoned if `keep_going` (may be empty) returns false.
   TransitionMotion(const models::RobotModel& robot, const NominalStance& from,
                    const NominalStance& to, const std::filesystem::path& library,
                    const std::function<bool()>& keep_going);
@@ -32,8 +32,8 @@ class TransitionMotion {
   const std::vector<Phase>& phases() const { return solved_.phases; }
   double ExpectedDuration() const { return phases().back().knots.back().t; }  ///< s
 
-  bool was_known() const { return was_known_; }  ///< from the library
-  /// Into the library. @throws InputError if that fails.
+  bool was_known() const { return was_known_; }  ///< read from the library
+  /// Saves the solution to the library. @throws InputError if that fails.
   void Save() const;
 
  private:
@@ -43,7 +43,7 @@ class TransitionMotion {
   const NominalStance* from_;
   const NominalStance* to_;
   PlanarPose displacement_;
-  std::filesystem::path file_;  ///< of the solution; empty: nowhere
+  std::filesystem::path file_;  ///< of the solution; empty: no library
   SolvedTransition solved_;
   bool was_known_ = false;
 };

@@ -15,10 +15,11 @@
 namespace possibility::actions {
 namespace {
 
-/// Intervals of the two phases; what the whole robot cannot follow may be the mesh's fault.
+/// Intervals of the two phases. The finer mesh is tried because a motion that the whole robot
+/// cannot follow may be the coarse mesh's fault.
 constexpr int kIntervals[][SitDownProblem::kNumPhases] = {{14, 8}, {20, 12}};
 
-/// Cancels a solve when it is no longer wanted, for as long as it lives.
+/// Cancels a solve once it is no longer wanted; active during its lifetime.
 class Canceller {
  public:
   Canceller(const std::function<bool()>& keep_going, collocation::SolveControl* control) {

@@ -10,14 +10,14 @@
 
 namespace possibility::actions {
 
-/// A transition of the whole robot that keeps every limit.
+/// A transition of the whole robot within all limits.
 struct SolvedTransition {
   std::vector<Phase> phases;  ///< in the first stance's frame, rest to rest, times from 0
-  collocation::StoredSolution solution;  ///< of the plane
+  collocation::StoredSolution solution;  ///< in the sagittal plane
 };
 
-/// Finds the motion from the stance of one gait to that of another which bears on more patches:
-/// collocation in the sagittal plane, then the motion of the whole robot.
+/// Finds the motion from the stance of one gait to the stance of another that bears on more
+/// patches: collocation in the sagittal plane, then the motion of the whole robot.
 class TransitionSolver {
  public:
   /// `robot`, `from` and `to` must outlive it. @throws what SagittalModel throws.
@@ -26,11 +26,12 @@ class TransitionSolver {
 
   const SagittalModel& model() const { return model_; }
 
-  /// From nothing; its motion has been verified on bare ground. `keep_going` (may be empty) is
-  /// asked from another thread, too.
-  /// @throws MotionError if there is none, Abandoned if `keep_going` says no.
+  /// Solves from scratch and verifies the motion on bare ground. `keep_going` (may be empty) is
+  /// also called from another thread.
+  /// @throws MotionError if there is no motion, Abandoned if `keep_going` returns false.
   SolvedTransition Solve(const std::function<bool()>& keep_going) const;
-  /// From a solution. @throws std::invalid_argument if it is of another problem, MotionError.
+  /// Realises a stored solution. @throws std::invalid_argument if it belongs to another problem;
+  /// MotionError.
   SolvedTransition Realise(const collocation::StoredSolution& solution) const;
 
  private:
