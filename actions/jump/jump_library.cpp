@@ -23,8 +23,8 @@ constexpr const char* kFormat = "possibility-jumps/1";
 constexpr const char* kReachFile = "reach.json";
 constexpr double kSame = 1e-9;  // m
 
-/// Nobody jumps farther than a body does that leaves the ground as fast as stretching legs could
-/// at their joints' greatest speeds: up by the legs' length in all, v = sum of speed * length.
+/// Optimistic bound: ballistic flight at take-off speed v = greatest joint speed * leg length, with
+/// a rise of v^2 / (2 g) and a range of v^2 / g plus two leg lengths.
 JumpReach OptimisticReach(const SagittalModel& model) {
   const SagittalModel::Limb& leg = model.leg();
   double fastest = 0;
@@ -96,7 +96,7 @@ std::optional<JumpAnswer> JumpLibrary::Find(const JumpTask& task) {
   try {
     answer = solver_.Realise(OnGrid(task), collocation::ReadSolution(FileOf(task)));
   } catch (const std::exception&) {
-    // What cannot be read is solved again.
+    // A jump that cannot be read is solved again.
     return std::nullopt;
   }
   if (!answer.jump) return std::nullopt;

@@ -13,34 +13,33 @@
 
 namespace possibility::actions {
 
-/// Which distances a robot can jump, by height of the landing: derived by solving.
+/// Distances that a robot can jump, by height of the landing: derived by solving.
 struct JumpReach {
   struct Row {
     double height = 0;  ///< m
     double shortest = 0;
     double farthest = 0;  ///< m; below `shortest`: none
   };
-  std::vector<Row> rows;  ///< ascending in height; between two, whatever either of them can
+  std::vector<Row> rows;  ///< ascending in height; between two rows: the union of both ranges
 
-  /// Whether the table lets a jump seem possible: errs towards yes between its rows, and knows
-  /// nothing (no) beyond its first and last.
+  /// Whether the table allows a jump. Optimistic between rows: the union of both ranges. False
+  /// below the first and above the last row.
   bool Allows(const JumpTask& task) const;
-  /// The least and the greatest distance at a height; none if nothing can be jumped there.
+  /// The least and the greatest distance at a height; none if no jump is possible there.
   std::optional<std::pair<double, double>> Distances(double height) const;
 };
 
-/// Solved jumps, on a grid of distances and of heights: those of this run, and those of a folder
-/// that earlier runs and `possibility library` filled. Each robot has a part of the folder of its
-/// own, and a new one when anything changes that its jumps depend on. Safe to share between
-/// threads.
+/// Solved jumps on a grid of distances and heights: those of this run, and those in a folder that
+/// earlier runs and `possibility library` filled. Each robot has its own part of the folder, and
+/// gets a new one when anything changes that its jumps depend on. Safe to share between threads.
 class JumpLibrary {
  public:
   static constexpr double kDistanceStep = 0.05;  ///< m
-  static constexpr double kHeightStep = 0.001;   ///< m: grounds are where they are
+  static constexpr double kHeightStep = 0.001;   ///< m; fine, because ground heights are given
 
   enum class Use {
     kAll,
-    kReachAlone,  ///< the folder's jumps are not read: each is solved once in a run
+    kReachAlone,  ///< the folder's jumps are not read: each jump is solved once per run
   };
 
   /// `solver` must outlive it. `folder`: empty for none; need not exist.
@@ -50,9 +49,9 @@ class JumpLibrary {
   /// The nearest task on the grid.
   static JumpTask OnGrid(const JumpTask& task);
 
-  /// What is known of a task on the grid without solving; none if nothing is.
+  /// The known answer to a task on the grid, without solving; none if unknown.
   std::optional<JumpAnswer> Find(const JumpTask& task);
-  /// The same, or solves; keeps the answer unless it was cancelled. Two threads that ask for the
+  /// Find, or else solves; keeps the answer unless it was cancelled. Two threads that ask for the
   /// same jump may both solve it.
   JumpAnswer FindOrSolve(const JumpTask& task, collocation::SolveControl* control = nullptr);
 
@@ -61,7 +60,7 @@ class JumpLibrary {
   /// The table of the folder; if it has none, an optimistic bound from joint speeds and limb
   /// lengths alone.
   const JumpReach& reach() const { return reach_; }
-  /// Where this robot's jumps are; empty if nowhere.
+  /// Folder of this robot's jumps; empty if there is none.
   const std::filesystem::path& folder() const { return folder_; }
   bool reach_is_derived() const { return reach_is_derived_; }
 

@@ -19,20 +19,21 @@ namespace {
 using collocation::PhaseTrajectory;
 using Eigen::VectorXd;
 
-// Where nothing but dynamics holds the robot, between the knots as well, s.
+// Knot spacing where dynamics alone determines the motion, between the knots as well, s.
 constexpr double kRollSpacing = 0.0025;
 constexpr double kFlightSpacing = 0.005;
 
-/// Rise and descent meet in position and speed only; a quintic leads from so long before to so long
-/// after, s. No interpolation between knots could follow a leap of the acceleration.
+/// Rise and descent agree at the apex in position and speed only. A quintic blends them over this
+/// time before and after it, s, because interpolation between knots cannot follow a jump in
+/// acceleration.
 constexpr double kApexBlend = 0.02;
 
 int Intervals(double duration, double spacing) {
   return std::max(4, static_cast<int>(std::ceil(duration / spacing - 1e-9)));
 }
 
-/// x at which change(x) = 0 (Broyden 1965, his first method), from a guess at which moving by
-/// `change` is a fair step. @throws MotionError if there is none near.
+/// x at which change(x) = 0 (Broyden 1965, his first method), from a guess at which a step by
+/// `change` is reasonable. @throws MotionError if there is none nearby.
 VectorXd FixedPoint(const std::function<VectorXd(const VectorXd&)>& change, VectorXd x) {
   constexpr double kTolerance = 1e-10;
   constexpr int kMostRounds = 40;
@@ -89,7 +90,7 @@ Phase JumpMotion::RollOverToes(const PhaseTrajectory& plan, const Knot& from) co
   const int n = stance_.robot().num_joints();
   const double duration = plan.duration;
   const Signal<VectorXd> planned = stance_.Joints(plan, 0);
-  // Inverse kinematics has placed the legs; the plan's own joints are a mesh error away.
+  // Inverse kinematics has placed the legs; the plan's joints differ by the mesh error.
   const VectorXd offset = from.q.tail(n) - planned.value;
   const VectorXd drift = from.v.tail(n) - planned.rate;
   const JointMotion joints = [&](double t) {

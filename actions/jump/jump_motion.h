@@ -10,20 +10,20 @@
 
 namespace possibility::actions {
 
-/// How well a jump of the whole robot keeps what the sagittal one promised.
+/// How closely a jump of the whole robot follows the sagittal one.
 struct JumpMotionReport {
-  double landing_correction = 0;  ///< rad: greatest change of a joint that brings feet and hands to
+  double landing_correction = 0;  ///< rad: greatest joint correction that brings feet and hands to
                                   ///< their places in spite of the robot's asymmetry
-  double impact_friction = 0;  ///< greatest fraction of the friction coefficient that impacts need
-  double energy_lost = 0;      ///< J, in all impacts
+  double impact_friction = 0;     ///< greatest fraction of the friction coefficient used by impacts
+  double energy_lost = 0;         ///< J, in all impacts
 };
 
-/// A sagittal jump turned into motion of the whole robot, whose halves are never quite mirror
-/// images: soles and pegs held exactly where they stand, flight with the momentum of the whole
-/// robot, impact by its own mass matrix. Everything is relative to the launch stance's frame.
+/// Turns a sagittal jump into motion of the whole robot, whose halves are never exact mirror
+/// images. Holds soles and pegs exactly in place, computes flight with the momentum of the whole
+/// robot and impacts with its mass matrix. Everything is relative to the launch stance's frame.
 class JumpMotion {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   JumpMotion(const models::RobotModel& robot, const SagittalModel& model,
              const NominalStance& launch, const NominalStance& landing);
 

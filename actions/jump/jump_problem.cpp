@@ -97,7 +97,7 @@ void JumpProblem::Land(const JumpSettings& settings) {
   StartHeld(kSettle, HeldSoles());
   HoldSoles(kSettle, At::kEverywhere);
   KeepHandsAbove(kSettle, settings.hand_approach, At::kBeforeEnd);
-  // The feet are where they are; the hands are set down at no speed.
+  // The feet stay in place; the hands are set down at zero speed.
   StartPlaced(kLanding, 2);
   StartHeld(kLanding, HeldSolesAnd(model_.hands().size()));
   HoldFeetAndHands(kLanding, At::kBeforeEnd);
@@ -121,7 +121,7 @@ void JumpProblem::AddImpact() {
                     (*g)[1] = (friction * f[1] - f[0]) / kImpulse;
                   }),
                   {{x, At::kStart}, {z, At::kStart}}, {{0, kInfinity}});
-    // Impulses along one sole can be shared out in many ways; the least are as good as any.
+    // The distribution of impulses along a sole is not unique; the least impulses are chosen.
     problem_.AddCost(name, Differentiated<2, 1>([](const auto& f, auto* y) {
                        (*y)[0] = (f[0] * f[0] + f[1] * f[1]) / (100 * kImpulse * kImpulse);
                      }),
@@ -135,7 +135,7 @@ void JumpProblem::AddImpact() {
 }
 
 void JumpProblem::GuessMotion() {
-  // Straight lines from stance to stance, most of the way in the air.
+  // Straight lines from stance to stance, with most of the distance in the air.
   GuessLine(kCrouch, 0.8, 0, 0);
   GuessLine(kToes, 0.12, 0, 0.1);
   GuessLine(kRise, 0.17, 0.1, 0.5);

@@ -9,7 +9,7 @@
 
 namespace possibility::actions {
 
-/// A jump in the plane: how far the stance frame moves, from launch to landing.
+/// A jump in the plane: displacement of the stance frame from launch to landing.
 struct JumpTask {
   double distance = 0;  ///< m, forward
   double height = 0;    ///< m, of the landing ground above the launch ground
@@ -18,9 +18,10 @@ struct JumpTask {
 struct JumpSettings : SagittalSettings {
   double min_stance_pitch = -0.5;  ///< rad: lean backward at most, while the feet push
   double max_stance_pitch = 1.1;   ///< rad: lean forward at most
-  /// m/s, along x and z, of what is about to touch down: a landing that is soft before the impact.
+  /// m/s, along x and z, of the contact points before touchdown: limits the impact.
   double max_contact_speed = 1.5;
-  /// Of a stretched leg's length, when the feet touch down: nearly straight legs take no impact.
+  /// Largest leg length at touchdown, as a fraction of the stretched leg's: nearly straight legs
+  /// cannot absorb an impact.
   double leg_reach = 0.93;
 };
 
@@ -28,12 +29,12 @@ struct JumpSettings : SagittalSettings {
 std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings);
 
 /// The sagittal jump as one optimal-control problem: crouch and push on the soles, push on the
-/// toes, rise, descend (equal times), inelastic impact of the feet, settling back on them until the
-/// hands are set down at no speed, and on until the robot rests in the landing stance.
+/// toes, rise and descend (equal times), inelastic impact of the feet, settle on the feet until the
+/// hands touch down at zero speed, and move on until the robot rests in the landing stance.
 class JumpProblem : public SagittalProblem {
  public:
   enum PhaseIndex { kCrouch, kToes, kRise, kDescent, kSettle, kLanding, kNumPhases };
-  static constexpr double kLongestHalfFlight = 0.5;  ///< s, rise and descent each
+  static constexpr double kLongestHalfFlight = 0.5;  ///< s, for rise and descent each
 
   /// `model` must outlive the problem.
   JumpProblem(const SagittalModel& model, const JumpTask& task, const JumpSettings& settings);

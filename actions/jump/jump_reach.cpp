@@ -10,11 +10,11 @@
 namespace possibility::actions {
 namespace {
 
-/// Of a fair jump, in leg lengths.
+/// Range of a fair jump, in leg lengths.
 constexpr double kFairlyShort = 0.5;
 constexpr double kFairlyFar = 1.4;
 
-/// How often a running solve is asked whether it may go on.
+/// Interval at which a running solve checks `keep_going`.
 constexpr std::chrono::milliseconds kPatience(10);
 
 constexpr int kFirstStride = 4;
@@ -34,8 +34,8 @@ bool IsPossible(const JumpTask& task, JumpLibrary* library,
   return found.jump != nullptr;
 }
 
-/// The last possible distance, in grid steps: in strides up to the first impossible one, then by
-/// halves. `shortest` - 1 if none is possible.
+/// The last possible distance, in grid steps: steps of kFirstStride up to the first impossible
+/// distance, then bisection. `shortest` - 1 if none is possible.
 int Farthest(int shortest, int guess, int limit, const std::function<bool(int)>& is_possible) {
   int possible = shortest - 1;
   int impossible = limit + 1;
@@ -78,7 +78,8 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
 }
 
 FlightBounds BoundFlight(const JumpSettings& settings) {
-  // From take-off or touchdown, where the feet reach the ground, whichever is nearer in time.
+  // Distance from take-off or touchdown, where the feet reach the ground, whichever is nearer in
+  // time.
   const double farthest = settings.limits.max_base_speed * JumpProblem::kLongestHalfFlight;
   return {farthest, farthest};
 }

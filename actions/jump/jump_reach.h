@@ -9,19 +9,19 @@
 
 namespace possibility::actions {
 
-/// Distances that any legged body has a fair chance of jumping, for lack of a table: by leg length
-/// alone, whatever the height. One row per height (m, ascending).
+/// Guess in place of a table: distances that any legged robot has a fair chance of jumping, by leg
+/// length alone and independent of height. One row per height (m, ascending).
 JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& heights);
 
-/// The same rows with the farthest distance found out by solving; the shortest stays. What is
-/// solved on the way stays in the library. Takes for granted that nothing beyond an impossible
-/// distance is possible. `keep_going`: asked often, may be empty.
-/// @throws Abandoned if it says no.
+/// The rows of `guess` with the farthest distance found by solving; the shortest stays. The answers
+/// stay in the library. Assumes that nothing beyond an impossible distance is possible.
+/// `keep_going`: called often, may be empty.
+/// @throws Abandoned if it returns false.
 JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
                          const std::function<bool()>& keep_going = {});
 
-/// By how long a jump may fly and how fast its root may move meanwhile: JumpProblem bounds both,
-/// and JumpMotion refuses what is faster.
+/// Follows from the longest flight and the largest root speed: JumpProblem bounds both, and
+/// JumpMotion refuses faster motion.
 FlightBounds BoundFlight(const JumpSettings& settings);
 
 }  // namespace possibility::actions

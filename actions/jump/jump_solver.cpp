@@ -23,13 +23,14 @@ std::vector<int> Intervals(double fineness) {
   return intervals;
 }
 
-/// A feasible jump needs 30 to 80 iterations; one that is not found in these is none worth having,
+/// A feasible jump needs 30 to 80 iterations. Jumps that need more than this are not worth finding,
 /// on any mesh.
 constexpr int kMostIterations = 100;
-/// A coarse mesh first: where the whole robot does not follow it, the mesh may be to blame.
+/// Coarse mesh first; finer ones because a motion that the whole robot cannot follow may be the
+/// mesh's fault.
 constexpr std::array<double, 3> kFineness = {1, 1.5, 1.25};
 
-/// Between grounds of different heights, m.
+/// Least gap between grounds of different heights, m.
 constexpr double kLeastGap = 0.01;
 
 class Stopwatch {

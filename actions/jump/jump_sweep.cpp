@@ -10,7 +10,7 @@
 namespace possibility::actions {
 namespace {
 
-/// Heights shared out to workers, each of which goes through the distances of its own.
+/// Distributes heights to workers; a worker goes through the distances of its height.
 class SweepQueue {
  public:
   SweepQueue(const JumpSweep& sweep, JumpLibrary* library)

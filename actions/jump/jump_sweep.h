@@ -8,36 +8,35 @@
 
 namespace possibility::actions {
 
-/// Which jumps to try: a grid.
+/// Grid of jumps to try.
 struct JumpSweep {
   double shortest = 0.2;              ///< m
   double farthest = 1.2;              ///< m
   std::vector<double> heights = {0};  ///< m, ascending
   int threads = 1;
-  /// Of each height: after this many refusals beyond a success, farther jumps are not tried; 0:
-  /// all are.
+  /// Per height, stops after this many refusals in a row beyond a success; 0: tries all distances.
   int refusals_to_stop = 2;
-  /// A new jump counts only if its simulation follows it; takes seconds.
+  /// Simulates each new jump and refuses it if the simulation does not follow it; takes seconds.
   bool simulates = false;
-  /// Asked after every answer, from any thread, one at a time, with how many of how many (at most)
-  /// are answered; false abandons the rest. May be empty.
+  /// Called after every answer, from any thread, one call at a time, with the number of answers and
+  /// the largest possible total; false abandons the rest. May be empty.
   std::function<bool(int, int)> keep_going;
 };
 
 struct JumpSweepEntry {
   JumpTask task;
   bool is_possible = false;
-  bool was_known = false;  ///< from the library's folder
-  std::string reason;      ///< why not
+  bool was_known = false;  ///< read from the library's folder
+  std::string reason;      ///< why it is not possible
   JumpEffort effort;
 };
 
-/// The answers by height, then by distance. Jumps that are found are saved in the library's
-/// folder, if it has one, at once: what is interrupted goes on where it was.
-/// @throws InputError if one cannot be saved.
+/// The answers by height, then by distance. Jumps are saved in the library's folder (if any) as
+/// soon as they are found, so that an interrupted sweep can resume.
+/// @throws InputError if a jump cannot be saved.
 std::vector<JumpSweepEntry> SweepJumps(const JumpSweep& sweep, JumpLibrary* library);
 
-/// By height the least and the greatest distance that is possible.
+/// The least and the greatest possible distance for each height.
 JumpReach ReachOf(const std::vector<JumpSweepEntry>& entries);
 
 }  // namespace possibility::actions

@@ -16,15 +16,15 @@ using Eigen::Vector2d;
 
 /// Heights and positions of points in E agree when closer than this, m.
 constexpr double kSamePlace = 1e-6;
-/// Headings, rad.
+/// Headings agree when closer than this, rad.
 constexpr double kSameHeading = 1e-6;
 
-/// Apexes and points of parabolas that C_N looks at, m.
+/// Spacing of apexes and of points of parabolas that C_N tests, m.
 constexpr double kRiseSpacing = 0.05;
 constexpr double kArcSpacing = 0.05;
 
-/// Ground this far to all sides is wide enough for every stance, m: what is narrower is looked at
-/// closely.
+/// Ground that extends this far to all sides is wide enough for every stance, m. Narrower ground is
+/// tested in detail.
 constexpr double kWideGround = 0.4;
 
 bool SameTask(const JumpTask& a, const JumpTask& b) {
@@ -32,7 +32,7 @@ bool SameTask(const JumpTask& a, const JumpTask& b) {
          std::abs(a.height - b.height) < kSamePlace;
 }
 
-/// From any of the levels to any other, on the library's grid, ascending.
+/// Rises from any level to any other, on the library's grid, ascending.
 std::vector<double> RisesOf(const std::vector<double>& levels) {
   std::vector<double> rises;
   for (const double from : levels) {
@@ -47,7 +47,7 @@ std::vector<double> RisesOf(const std::vector<double>& levels) {
 
 LongJump::~LongJump() = default;
 
-/// Solves the jump unless it is known, then looks for collisions where it is to happen.
+/// Solves the jump unless it is known, then checks it for collisions at its place.
 class LongJump::Job : public graph::ConfirmationJob {
  public:
   Job(const LongJump& action, graph::PointPair edge, const Leap& leap)
@@ -124,7 +124,7 @@ bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double e
   const double half = (end - begin) / 2;
   const double clearance = world().ground->Clearance(*level, middle);
   if (clearance >= half + kWideGround) return true;
-  // Along a boundary that is just so far away, halves would go on being undecided.
+  // Halving would never end along a boundary exactly at the limit.
   if (clearance < kWideGround || half < kSamePlace) return false;
   return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
 }
@@ -224,7 +224,7 @@ std::optional<graph::Point> LongJump::LinedUp(const graph::Point& v, const Vecto
   const double heading = std::atan2(way.y(), way.x());
   const bool is_lined_up = std::abs(WrapAngle(heading - stance->pose.yaw)) < kSameHeading;
   if (!is_lined_up) stance->pose.yaw = heading;
-  // Algorithm 4 asks for every vertex: the cheapest reason to say no comes first.
+  // Algorithm 4 asks this for every vertex, so the cheapest test comes first.
   const std::optional<GroundedStance> other = OtherEnd(*stance, way.norm(), launches);
   if (!other) return std::nullopt;
   if (launches ? IsNeedless(*stance, *other) : IsNeedless(*other, *stance)) return std::nullopt;
@@ -314,7 +314,7 @@ ManoeuvreBounds LongJump::Bounds() const {
   bounds.landings = [reach = reach_](double rise) -> std::optional<LandingRange> {
     const auto distances = reach.Distances(JumpLibrary::OnGrid({0, rise}).height);
     if (!distances) return std::nullopt;
-    // How near does not matter: nearer ones only join what walking joins.
+    // The lower bound is 0: shorter jumps connect only what walking connects.
     return LandingRange{{Vector2d::Zero(), Vector2d(distances->second, 0)}};
   };
   bounds.flight = BoundFlight(solver_->settings());

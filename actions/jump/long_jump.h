@@ -16,19 +16,19 @@ namespace possibility::actions {
 
 class SharedJumpSolve;
 
-/// The standing long jump (paper, section "Standing Long Jump"): nonholonomic, from a stance of
-/// one gait straight ahead into a stance of another, by distances on the jump library's grid. Its
-/// necessary conditions are those of the paper; what they leave open costs a confirmation job. One
-/// exploring thread per instance, beside any number of its jobs.
+/// The standing long jump (paper, section "Standing Long Jump"): nonholonomic, from a stance of one
+/// gait straight ahead into a stance of another, by distances on the jump library's grid. C_N is
+/// the paper's; edges that meet it need a confirmation job. One exploring thread per instance, and
+/// any number of its jobs at once.
 class LongJump : public Manoeuvre {
  public:
-  /// Of a jump that is not solved yet, s.
+  /// Expected duration of an unsolved jump, s.
   static constexpr double kNominalDuration = 4.5;
 
-  /// Jumps worth examining: the table of the context's library if it has one, otherwise a guess
-  /// for the heights of the context's ground.
+  /// Takes the reach from the context's library if that has a table, otherwise guesses it for the
+  /// heights of the context's ground.
   /// @throws InputError if the context lacks one of the jump's gaits, or the robot cannot be
-  /// brought into its sagittal plane.
+  /// reduced to its sagittal plane.
   LongJump(const PlanningContext& context, const models::Jump& jump);
   ~LongJump() override;
 
@@ -43,9 +43,9 @@ class LongJump : public Manoeuvre {
   using Manoeuvre::CS;
   using Manoeuvre::Explorable;
   bool CN(const graph::PointPair& edge) const override;
-  /// Whether a job has confirmed it.
+  /// True if a job has confirmed the edge.
   bool CS(const graph::PointPair& edge) const override;
-  /// C_N, unless a job has refuted it, or the gaits have a way of their own straight on.
+  /// C_N, unless a job has refuted the edge or the gaits can go straight on without a jump.
   bool Explorable(const graph::PointPair& edge) const override;
 
   double ExpectedDuration(const graph::PointPair& edge) const override;
@@ -55,11 +55,11 @@ class LongJump : public Manoeuvre {
                             const std::function<bool()>& keep_going) const override;
 
   ManoeuvreBounds Bounds() const override;
-  /// Measures a reach that was guessed. Not while FindPath explores in another thread.
+  /// Replaces a guessed reach by solving. Must not run while FindPath explores in another thread.
   bool ReplaceGuesses(const std::function<bool()>& keep_going) override;
   double skip_growth() const override { return skip_growth_; }
 
-  /// `anywhere`: so is every jump of its distance and height.
+  /// `anywhere`: forbids every jump of the same distance and height.
   void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) override;
 
   const JumpReach& reach() const { return reach_; }
@@ -68,34 +68,35 @@ class LongJump : public Manoeuvre {
  private:
   class Job;
 
-  /// An edge, understood.
+  /// An edge as a jump.
   struct Leap {
     GroundedStance launch;
     GroundedStance landing;
     JumpTask task;  ///< on the grid
   };
   std::optional<Leap> AsLeap(const graph::PointPair& edge) const;
-  /// The longest jump from `stance`, of at most `distance`, with ground to bear on at the other
-  /// end: forward from a launch, or backward from a landing.
+  /// The other end of the longest jump from `stance`, of at most `distance` (m), that has ground to
+  /// bear on there: forward from a launch, or backward from a landing.
   std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
                                          bool forward) const;
-  /// The stance at v (a launch or a landing) turned along `way` (m), if a jump of at most that
-  /// length leads there and is not needless.
+  /// The stance at v (a launch or a landing) turned along `way` (m); none unless a jump of at most
+  /// that length connects there and is not needless.
   std::optional<graph::Point> LinedUp(const graph::Point& v, const Eigen::Vector2d& way,
                                       bool launches) const;
-  /// Whether C_S lets the robot walk straight on from the launch and change gait into the landing,
-  /// or the other way round: such a jump leads nowhere new, and Algorithm 4 would make one from
+  /// Whether C_S allows walking straight on from the launch and changing gait into the landing, or
+  /// in the opposite order. Such a jump leads nowhere new, and Algorithm 4 would make one from
   /// every new landing.
   bool IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const;
   bool GroundIsWide(const GroundedStance& launch, double begin, double end) const;
-  /// Whether nothing at all is near the straight way on from `launch`, `distance` (m) long.
+  /// Sufficient: the straight way on from `launch`, `distance` (m) long, is free all around and on
+  /// wide ground.
   bool WayIsOpen(const GroundedStance& launch, double distance) const;
   bool SomeParabolaIsFree(const graph::PointPair& edge) const;
   bool ParabolaIsFree(const graph::PointPair& edge, double rise) const;
 
   void RecordImpossible(const JumpTask& task) const;
   bool IsImpossible(const JumpTask& task) const;
-  /// With what it hits wherever it happens, if anything.
+  /// A solved jump, its poses, and what it hits even on bare ground; empty if nothing.
   struct Solved {
     std::shared_ptr<const SolvedJump> jump;
     std::shared_ptr<const MotionPoses> poses;
@@ -109,19 +110,19 @@ class LongJump : public Manoeuvre {
   JumpReach reach_;
   double skip_growth_;
   const LocomotionModel::TransitionEntry* transition_ = nullptr;  ///< from launch to landing gait
-  Eigen::AlignedBox3d room_;  ///< that the gaits and the transition take, in the launch stance
+  Eigen::AlignedBox3d room_;  ///< of the gaits and the transition, in the launch stance
   double highest_rise_ = 0;   ///< m, of a flight above its launch
   models::CollisionChecker pelvis_checker_;
   PelvisClearance pelvis_;
 
-  /// What jobs found out; everything below under mutex_.
+  /// Results of jobs; everything below is guarded by mutex_.
   mutable std::mutex mutex_;
   mutable std::vector<JumpTask> impossible_;
   mutable std::vector<Solved> solved_;
   mutable std::vector<std::shared_ptr<SharedJumpSolve>> solves_;
 };
 
-/// How the planner comes by the jumps of a robot's file.
+/// Factories of the jumps in a robot's file, for the planner.
 std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot);
 
 }  // namespace possibility::actions

@@ -7,7 +7,7 @@ namespace possibility::actions {
 std::string FirstHitOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
                                  const SolvedJump& jump, const MotionPoses& poses) {
   constexpr double kVast = 20;  // m
-  // No floor in between, where the two would be on top of each other.
+  // No floor in between, where the two would overlap.
   const double launch_end = model.Position(model.toe(), model.ready()).x();
   double landing_begin = model.Position(model.heel(), model.landed()).x();
   for (const dynamics::ContactPoint& hand : model.hands()) {

@@ -7,8 +7,8 @@
 
 namespace possibility::actions {
 
-/// What a jump hits in a world of nothing but two floors, at the heights of launch and landing, and
-/// so anywhere; empty if nothing. `poses`: of the jump's phases.
+/// Name of what a jump hits in a world of only two floors, at the heights of launch and landing,
+/// and therefore in any world; empty if nothing. `poses`: of the jump's phases.
 std::string FirstHitOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
                                  const SolvedJump& jump, const MotionPoses& poses);
 

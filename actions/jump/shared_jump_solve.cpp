@@ -7,14 +7,16 @@
 namespace possibility::actions {
 namespace {
 
-/// An iteration of a jump takes about 25 ms on the machines we know: as long as some checkpoints of
-/// other work. A jump out of reach of one turn of 1000 is a difficult one (median: 54 iterations).
+/// An iteration of a jump takes about 25 ms on our machines, as long as several checkpoints of
+/// other work. A jump that does not fit into one turn of 1000 checkpoints is a difficult one
+/// (median: 54 iterations).
 constexpr std::int64_t kCheckpointsPerIteration = 10;
 
 }  // namespace
 
-/// A job's stay, from the moment it wants the answer until it has it or gives up. Wants it while it
-/// is inside and not paused: pauses and their ends may come before, in any number and order.
+/// A job's wait, from its request until it has the answer or gives up. The solve works for it while
+/// it is inside and not paused. Pauses and resumes may come before it is inside, in any number and
+/// order.
 class SharedJumpSolve::Visit {
  public:
   Visit(SharedJumpSolve* solve, graph::JobControl* visitor) : solve_(*solve), visitor_(visitor) {

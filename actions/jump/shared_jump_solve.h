@@ -14,10 +14,9 @@
 
 namespace possibility::actions {
 
-/// The answer to one task, for all jobs that want it. Jobs come and go with the edges that the
-/// search takes an interest in; what is solved so far must not go with them. Works only while some
-/// job asks for it, and counts on their checkpoints by its iterations. The library has to outlive
-/// it.
+/// Solves one task for all jobs that need the answer. Jobs start and end as the search's interest
+/// in edges changes; the progress of the solve must survive them. Works only while some job waits
+/// for it, and charges its iterations to those jobs as checkpoints. The library must outlive it.
 class SharedJumpSolve {
  public:
   SharedJumpSolve(JumpLibrary* library, const JumpTask& task);
@@ -25,9 +24,9 @@ class SharedJumpSolve {
 
   const JumpTask& task() const { return task_; }
 
-  /// To be called by a job: waits for the answer, wanting it while the job is not paused. None if
-  /// the job is cancelled.
-  /// @throws what JumpLibrary::FindOrSolve throws.
+  /// For jobs: waits for the answer. The solve works for the job while the job is not paused. None
+  /// if the job is cancelled.
+  /// @throws as JumpLibrary::FindOrSolve.
   std::optional<JumpAnswer> Await(graph::JobControl* control);
 
  private:
@@ -35,9 +34,9 @@ class SharedJumpSolve {
 
   void Work();
   void ChargeVisitors();
-  /// One job more, or one less, wants it now.
+  /// Changes the number of waiting jobs by `change` (1 or -1).
   void Want(int change);
-  /// None if `gave_up`, which Wake announces, became true.
+  /// None once `gave_up` is true; Wake announces that.
   std::optional<JumpAnswer> Wait(const std::atomic<bool>& gave_up);
   void Wake();
 

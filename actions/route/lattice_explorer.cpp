@@ -8,19 +8,19 @@
 namespace possibility::actions {
 namespace {
 
-/// Stances that a turn examines: some microseconds each, more with manoeuvres.
+/// Stances examined per turn: a few microseconds each, more with manoeuvres.
 constexpr std::int64_t kStancesPerTurn = 500;
 
-/// So long a search that comes no closer to a goal is given the time alone.
+/// Turns without progress towards a goal after which a search shares its time with other explorers.
 constexpr int kPatientTurns = 8;
 
-/// Routes that jobs refute and that are replaced by others.
+/// Largest number of refuted routes that are replaced.
 constexpr int kMostProposals = 8;
 
-/// What is left to gain is for the ShortcutExplorer to find.
+/// Few passes: the ShortcutExplorer finds the rest.
 constexpr int kShortcutPasses = 2;
 
-/// A route is looked for that is quicker by this share of the known one.
+/// Required gain of a quicker route, as a fraction of the known duration.
 constexpr double kWorthwhileGain = 0.02;
 
 }  // namespace
@@ -71,8 +71,8 @@ graph::Findings LatticeExplorer::Explore() {
   return {OutlookOfSearch(), {}};
 }
 
-/// A first route that is refuted is replaced by another on the same lattice. With a greed of 1
-/// there is none that is quicker; shortened, even one that is not quicker as it is may become so.
+/// A refuted first route is replaced by another on the same lattice. With a greed of 1 no quicker
+/// one exists there. A route that is not quicker may become so once shortened.
 graph::Findings LatticeExplorer::Propose() {
   graph::Findings findings{graph::Outlook::kOver, search_->Route()};
   ++proposals_;

@@ -11,16 +11,15 @@
 
 namespace possibility::actions {
 
-/// The settings that a first route is searched with, in their order: coarse lattices in a hurry
-/// first.
+/// Settings for the search of a first route, in order: coarse and greedy lattices first.
 std::span<const LatticeSettings> FirstRouteLadder();
 
-/// The settings that a quicker route than a known one is searched with: patiently.
+/// Settings for the search of a quicker route than a known one: patient.
 std::span<const LatticeSettings> ImprovementLadder();
 
-/// Proposes routes that searches on lattices find, one lattice after the other. When jobs refute
-/// edges of a route, the lattice that gave it is searched again. Once a route is confirmed, it
-/// looks for quicker ones.
+/// Proposes routes found on lattices, one lattice after the other. If jobs refute edges of a route,
+/// its lattice is searched again. Once a route is confirmed, the explorer searches for quicker
+/// ones.
 class LatticeExplorer : public graph::Explorer {
  public:
   LatticeExplorer(const RouteSpace& space, const GroundedStance& start,
@@ -48,7 +47,7 @@ class LatticeExplorer : public graph::Explorer {
   std::span<const LatticeSettings> ladder_;
   std::size_t rung_ = 0;
   std::optional<LatticeSearch> search_;  ///< under way
-  double bound_ = 0;                     ///< s, of the route that is known; 0: none is
+  double bound_ = 0;                     ///< s, of the known route; 0: none
   double lower_bound_ = 0;               ///< s
   double closest_ = 0;                   ///< m, of the search under way
   int turns_without_progress_ = 0;

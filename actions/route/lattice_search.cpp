@@ -13,13 +13,13 @@
 namespace possibility::actions {
 namespace {
 
-/// How far ahead a manoeuvre is asked to lead, m: first little, for the least demanding is the most
-/// likely to be confirmed, then more, until it lands somewhere.
+/// First distance ahead at which a landing of a manoeuvre is tried, m. It grows until a landing is
+/// found: the least demanding manoeuvre is the most likely to be confirmed.
 constexpr double kLeastAhead = 0.2;
 constexpr double kMostAhead = 2;
 constexpr double kAheadStep = 0.05;
 
-/// Of strides ahead that are blocked.
+/// Largest number of halvings of a blocked stride ahead.
 constexpr int kMostHalvings = 3;
 
 constexpr double kSamePoint = 1e-9;
@@ -32,7 +32,7 @@ LatticeSearch::LatticeSearch(const RouteSpace& space, const GroundedStance& star
     : space_(space), goals_(goals), settings_(settings) {
   for (const auto& gait : space.model->gaits) {
     const models::GaitParameters& parameters = gait->stance.gait->parameters;
-    // A stride more on a way that has strides already: what it takes to stop comes but once.
+    // An additional stride on a way that already has strides: the time to stop counts only once.
     stride_times_.push_back(gait->motion->ExpectedDuration(2) - gait->motion->ExpectedDuration(1));
     stop_times_.push_back(gait->motion->ExpectedDuration(1) - stride_times_.back());
     least_seconds_per_metre_ =
@@ -116,7 +116,8 @@ void LatticeSearch::Push(const Node& node) {
       {node.cost + later + settings_.greed * left, static_cast<int>(nodes_.size()) - 1, false});
 }
 
-/// Whether a node is new, and the way to it from its parent is one; asked when its turn has come.
+/// Whether a node is new and the way to it from its parent is valid; tested when the node is next
+/// in the queue.
 bool LatticeSearch::IsReached(int index) {
   const Node node = nodes_[index];
   if (node.parent < 0) return true;
@@ -147,8 +148,7 @@ bool LatticeSearch::MayLaunch(int gait) const {
                      [gait](const auto& manoeuvre) { return manoeuvre->from() == gait; });
 }
 
-/// Where the lattice ends before an edge or a wall, shorter strides lead up to it: manoeuvres
-/// begin there.
+/// Adds shorter strides up to an edge of the ground or a wall, because manoeuvres begin there.
 void LatticeSearch::Halve(int blocked) {
   const Node node = nodes_[blocked];
   if (node.direction != kAhead || node.halvings == kMostHalvings) return;
@@ -171,7 +171,7 @@ void LatticeSearch::StrideTo(int node, int direction, const PlanarPose& displace
   Offer(next);
 }
 
-/// To a stance of the same gait, of another, or beyond a manoeuvre.
+/// Offers a stance of the same gait, of another gait, or after a manoeuvre.
 bool LatticeSearch::Offer(int node, const GroundedStance& next, int action, double duration) {
   return Offer(
       {.stance = next, .parent = node, .action = action, .cost = nodes_[node].cost + duration});
@@ -182,8 +182,8 @@ bool LatticeSearch::Offer(const Node& next) {
   return true;
 }
 
-/// What leads on without a manoeuvre comes first, for it costs less to find out: manoeuvres, and
-/// the shorter strides to where they begin, wait as if they took so much longer.
+/// Extra cost that delays manoeuvres and the shorter strides up to them in the queue: steps without
+/// a manoeuvre come first because they are cheaper to test.
 double LatticeSearch::Patience(int gait) const {
   return 2 * StrideTime(gait, {settings_.step, 0, 0});
 }
@@ -193,7 +193,7 @@ double LatticeSearch::StrideTime(int gait, const PlanarPose& displacement) const
          stride_times_[gait];
 }
 
-/// Every straight way ends with a stop.
+/// Time to stop, which ends every straight way.
 double LatticeSearch::StopTime(int node, int direction) const {
   return nodes_[node].direction == direction ? 0 : stop_times_[nodes_[node].stance.gait];
 }
@@ -226,7 +226,7 @@ void LatticeSearch::Change(int node) {
   }
 }
 
-/// Straight to a goal that is near.
+/// Goes straight to a goal that is near.
 void LatticeSearch::Finish(int node) {
   const GroundedStance from = nodes_[node].stance;
   for (const GroundedStance& goal : goals_) {
@@ -268,7 +268,7 @@ void LatticeSearch::Manoeuvres(int node) {
   }
 }
 
-/// Straight to where a manoeuvre begins.
+/// Goes straight to the launch of a manoeuvre.
 void LatticeSearch::WalkTo(const graph::Point& launch, int node) {
   const GroundedStance& from = nodes_[node].stance;
   const std::optional<GroundedStance> stance = AsStance(*space_.model, from.gait, ToPose(launch));
@@ -294,7 +294,7 @@ bool LatticeSearch::Launches(const Manoeuvre& manoeuvre, const graph::Point& v,
   return launch && (*launch - v).norm() < kSamePoint;
 }
 
-/// Where a manoeuvre straight ahead from a node might end, far ones first.
+/// Possible landings of a manoeuvre straight ahead from a node, far ones first.
 std::vector<graph::Point> LatticeSearch::Landings(int node, const Manoeuvre& manoeuvre) const {
   std::vector<graph::Point> landings;
   const graph::Point v = PointOf(nodes_[node].stance);
@@ -326,7 +326,7 @@ std::vector<graph::PathEdge> LatticeSearch::Route() const {
   return edges;
 }
 
-/// The last node of a way that is straight on from nodes `first` - 1 and `first`.
+/// Last node of the straight part of `way` that begins with nodes `first` - 1 and `first`.
 std::size_t LatticeSearch::EndOfStraight(const std::vector<int>& way, std::size_t first) const {
   const auto stance = [&](std::size_t i) { return nodes_[way[i]].stance; };
   const auto is_stride = [&](std::size_t i) {

@@ -14,17 +14,17 @@
 namespace possibility::actions {
 
 struct LatticeSettings {
-  double step = 0.3;                  ///< m, from stance to stance
-  int headings = 16;                  ///< that the circle is divided into
-  double greed = 2;                   ///< weight of the distance that is left; 1: shortest routes
-  std::int64_t most_stances = 20000;  ///< examined, after which the search gives up
+  double step = 0.3;                  ///< m, between neighbouring stances
+  int headings = 16;                  ///< number of headings on the circle
+  double greed = 2;                   ///< weight of the remaining distance; 1: shortest routes
+  std::int64_t most_stances = 20000;  ///< examined before the search gives up
 };
 
-/// A search for a route from a start to any of several goals on which every stance meets C_S, every
-/// straight way and every transition too, and every edge of a manoeuvre is worth a confirmation
-/// job: weighted hybrid A* (Dolgov, Thrun, Montemerlo & Diebel 2010) over gait, place and heading,
-/// with strides for primitives and ways tested only when their turn comes. Actions are numbered as
-/// the planner does: gaits, then manoeuvres. That it finds none proves nothing.
+/// Searches for a route from a start to any of several goals. Every stance, straight way and
+/// transition on it meets C_S, and every edge of a manoeuvre is explorable. Weighted hybrid A*
+/// (Dolgov, Thrun, Montemerlo & Diebel 2010) over gait, place and heading; strides are the
+/// primitives, and ways are tested lazily. Actions are numbered as in the planner: gaits, then
+/// manoeuvres. Failure proves nothing.
 class LatticeSearch {
  public:
   enum class Status { kSearching, kFound, kGivenUp };
@@ -32,33 +32,33 @@ class LatticeSearch {
   LatticeSearch(const RouteSpace& space, const GroundedStance& start,
                 const std::vector<GroundedStance>& goals, const LatticeSettings& settings);
 
-  /// Goes on until so many stances more are examined, or the search ends. `keep_going` (may be
-  /// empty): asked at every stance; false returns at once.
+  /// Examines `stances` more stances, or fewer if the search ends. `keep_going` (may be empty):
+  /// called at every stance; false returns at once.
   Status Advance(std::int64_t stances, const std::function<bool()>& keep_going);
 
-  /// If found.
+  /// The route, if found.
   std::vector<graph::PathEdge> Route() const;
 
-  /// Routes that take as long or longer are not looked for any more, s.
+  /// Ignores routes that take this long or longer, s.
   void SetBound(double duration) { bound_ = duration; }
 
-  /// Least distance from any stance that was reached to any goal, m.
+  /// Least distance from any reached stance to any goal, m.
   double closest_approach() const { return closest_approach_; }
 
-  /// No route on this lattice is expected to take less, s: the least cost of what is not expanded
-  /// yet, with the time that the quickest gait takes for the distance that is left. 0 with
-  /// manoeuvres, which may be quicker than gaits. For a greed of 1.
+  /// Lower bound of the expected duration of any route on this lattice, s: the least cost of an
+  /// unexpanded node plus the quickest gait's time for the remaining distance. 0 with manoeuvres,
+  /// which may be quicker than gaits. For a greed of 1.
   double LowerBound() const;
 
  private:
-  /// Of strides: straight ahead first.
+  /// Directions of strides: straight ahead first.
   static constexpr int kNone = -1;
   static constexpr int kAhead = 0;
 
   struct Node {
     GroundedStance stance;
     int parent = -1;
-    int action = 0;    ///< that leads here from the parent
+    int action = 0;    ///< leads here from the parent
     double cost = 0;   ///< s
     int halvings = 0;  ///< of the stride that leads here
     bool is_goal = false;
@@ -67,7 +67,7 @@ class LatticeSearch {
   struct Candidate {
     double priority = 0;
     int node = 0;
-    bool launches = false;  ///< whether it is the manoeuvres' turn there
+    bool launches = false;  ///< the manoeuvres' turn at the node
     bool operator<(const Candidate& other) const {
       return priority != other.priority ? priority > other.priority : node > other.node;
     }

@@ -12,29 +12,29 @@
 
 namespace possibility::actions {
 
-/// One leg of a route, all of it confirmed: straight on with one gait, a transition, or a
-/// manoeuvre. Headings continue from leg to leg without wrapping.
+/// One confirmed leg of a route: a straight way in one gait, a transition, or a manoeuvre. Headings
+/// continue from leg to leg without wrapping.
 struct RouteLeg {
   int gait = 0;                    ///< of an extension
   int transition = -1;             ///< index into the model's transitions, or -1 for an extension
   bool backwards = false;          ///< the transition runs from its second gait to its first
-  Manoeuvre* manoeuvre = nullptr;  ///< if the leg is one
-  PlanarPose from;                 ///< stance of the gait that the leg starts in
-  PlanarPose to;                   ///< stance of the gait that the leg ends in
-  double z = 0;                    ///< m, height of the ground that the leg starts on
-  double z_to = 0;  ///< m, of the ground that it ends on: another one only after a manoeuvre
+  Manoeuvre* manoeuvre = nullptr;  ///< null unless the leg is one
+  PlanarPose from;                 ///< stance of the leg's first gait
+  PlanarPose to;                   ///< stance of the leg's last gait
+  double z = 0;                    ///< m, height of the ground at the start
+  double z_to = 0;  ///< m, height of the ground at the end: differs only for manoeuvres
 };
 
 using Route = std::vector<RouteLeg>;
 
-/// The gait that a leg starts in, and the one it ends in.
+/// First and last gait of a leg.
 int StartGait(const LocomotionModel& model, const RouteLeg& leg);
 int EndGait(const LocomotionModel& model, const RouteLeg& leg);
 
 /// "walk", "walk->crawl", "jump", ...
 std::string LegName(const LocomotionModel& model, const RouteLeg& leg);
 
-/// The same with places, seen from above: "walk from (1.00, 2.00) to (3.00, 2.00)".
+/// The name with horizontal positions: "walk from (1.00, 2.00) to (3.00, 2.00)".
 std::string LegWords(const LocomotionModel& model, const RouteLeg& leg);
 
 /// The edge of E that the leg executes.

@@ -14,10 +14,10 @@
 namespace possibility::actions {
 namespace {
 
-/// Durations are stretched by these in turn until the motion keeps all limits.
+/// Factors that stretch durations, tried in turn until the motion keeps all limits.
 constexpr double kTimeScales[] = {1, 1.4, 2};
 
-/// A leg that goes nowhere is a pause, s.
+/// Duration of the pause for a leg of zero length, s.
 constexpr double kStandingTime = 0.2;
 
 /// Motions of neighbouring legs meet within this: m, rad, m/s, rad/s.
@@ -32,9 +32,9 @@ std::vector<MotionPhase> GaitPhases(const LocomotionModel& model, const RouteLeg
   return gait.motion->Phases(strides, leg.z, time_scale);
 }
 
-/// The leg as seen from its beginning, turned as it is. Motion is generated there and shifted, for
-/// what decides on it is done to tolerances that have nothing to do with the place: 10 km from the
-/// origin the steps between doubles are larger than the tolerance of inverse kinematics.
+/// The leg shifted so that it begins at the origin, with its heading unchanged. Motion is generated
+/// there and shifted back, because tolerances must not depend on the place: 10 km from the origin,
+/// rounding of doubles exceeds the tolerance of inverse kinematics.
 RouteLeg SeenFromItsBeginning(RouteLeg leg) {
   leg.to.x -= leg.from.x;
   leg.to.y -= leg.from.y;
@@ -83,7 +83,7 @@ void RequireStance(const LocomotionModel& model, int gait, const PlanarPose& pos
   }
 }
 
-/// What the rest of the plan relies on; all else is for the verifier to find.
+/// Checks what the rest of the plan relies on. The verifier checks everything else.
 void RequireFit(const LocomotionModel& model, const RouteLeg& leg,
                 const std::vector<Phase>& phases) {
   if (phases.empty()) throw MotionError("the motion has no phases");
@@ -118,7 +118,7 @@ std::vector<Phase> ManoeuvrePhases(const LocomotionModel& model, const RouteLeg&
   }
 }
 
-/// Legs shared out to workers; the first failure in route order wins.
+/// Distributes legs to workers; the first failure in route order wins.
 class LegQueue {
  public:
   LegQueue(const LocomotionModel& model, const Route& route,

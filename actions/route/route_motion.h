@@ -20,16 +20,16 @@ class LegError : public MotionError {
   int leg_;
 };
 
-/// Motion of one leg, from rest to rest; times start at 0. A motion that is too fast for the
-/// limits is stretched. That of a manoeuvre is its own affair, but must have knots of the robot's
-/// sizes and begin and end at rest in the stances that the leg joins.
-/// @throws MotionError if no stretching helps, or for whatever a manoeuvre throws or does wrong;
-/// Abandoned if `keep_going` (may be empty) says no.
+/// Motion of one leg, from rest to rest; times start at 0. A motion that is too fast for the limits
+/// is stretched. A manoeuvre provides its own motion; it must have knots of the robot's sizes and
+/// begin and end at rest in the leg's stances.
+/// @throws MotionError if stretching does not help, or if a manoeuvre throws or returns a motion
+/// that does not fit; Abandoned if `keep_going` (may be empty) returns false.
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
                                const std::function<bool()>& keep_going = {});
 
-/// Motion of a whole route, legs spread over `threads`; the result does not depend on their
-/// number. `keep_going`: asked now and then, from any thread, with the fraction done; false
+/// Motion of a whole route, with its legs distributed over `threads`; the result does not depend on
+/// their number. `keep_going`: called regularly, from any thread, with the fraction done; false
 /// abandons the rest. May be empty.
 /// @throws LegError for the first leg that fails; Abandoned.
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,

@@ -9,8 +9,8 @@
 
 namespace possibility::actions {
 
-/// What a search for routes may use. All of it outlives the search. Edges of routes number their
-/// actions as the planner does: gaits, then manoeuvres.
+/// Input of a search for routes. Everything in it must outlive the search. Edges of routes number
+/// their actions as the planner does: gaits, then manoeuvres.
 struct RouteSpace {
   const LocomotionModel* model = nullptr;
   const std::vector<std::shared_ptr<QuasiStaticAction>>* gaits = nullptr;  ///< by gait

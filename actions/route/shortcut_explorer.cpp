@@ -8,7 +8,7 @@
 namespace possibility::actions {
 namespace {
 
-/// A shorter duration than by rounding alone, s.
+/// Least gain in duration that is not rounding, s.
 constexpr double kQuicker = 1e-6;
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace possibility::actions {
 
-/// Proposes quicker ways through the places of the confirmed route (FindShortcuts), again and again
-/// until none gets any quicker.
+/// Proposes quicker ways through the places of the confirmed route (FindShortcuts), and repeats
+/// until there is no gain.
 class ShortcutExplorer : public graph::Explorer {
  public:
   ShortcutExplorer(const RouteSpace& space, const std::vector<GroundedStance>& goals,

@@ -10,10 +10,10 @@
 namespace possibility::actions {
 namespace {
 
-/// More places than this are not looked at: the cost of a search grows with their cube.
+/// Largest number of places: the cost of a search grows with their cube.
 constexpr std::size_t kMostPlaces = 32;
 
-/// Places within legs of the route are as far apart as this, m.
+/// Spacing of places within legs of the route, m.
 constexpr double kPlaceSpacing = 0.4;
 
 constexpr double kSamePlace = 1e-9;
@@ -87,7 +87,7 @@ void ShortcutRoadmap::AddFoundHops() {
   }
 }
 
-/// Whatever lies between two stances of the route may be a detour.
+/// Connects pairs of stances directly: the route between them may be a detour.
 void ShortcutRoadmap::AddDirectHops() {
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     for (std::size_t j = i + 2; j < stops_.size(); ++j) {
@@ -120,7 +120,7 @@ void ShortcutRoadmap::AddStraightHop(int i, int j, double yaw) {
   AddHop({.from = i, .to = j}, {StanceAt(i, yaw), StanceAt(j, yaw)});
 }
 
-/// In another gait, with a transition before and one after.
+/// Adds a hop in another gait, with a transition before and one after.
 void ShortcutRoadmap::AddExcursion(int i, int j, double yaw, int gait) {
   const std::optional<PlanarPose> displacement = Displacement(places_[i].gait, gait);
   if (!displacement) return;
@@ -131,10 +131,10 @@ void ShortcutRoadmap::AddExcursion(int i, int j, double yaw, int gait) {
   AddHop({.from = i, .to = j}, {a, b, c, d});
 }
 
-/// Between places of two gaits: a transition and then straight on, or straight on and then a
-/// transition. With e the displacement of the transition in the frame of the stance that moves on,
-/// and s the length of the way, the way between the places is R(yaw) (e + (s, 0)) in the first
-/// case, R(yaw) ((s, 0) - e') in the second, e' that of the opposite transition.
+/// Adds hops between places of two gaits: a transition and then straight on, or straight on and
+/// then a transition. Let e be the displacement of the transition in the frame of the stance that
+/// moves on, e' that of the opposite transition, and s the length of the way. The way between the
+/// places is R(yaw) (e + (s, 0)) in the first case and R(yaw) ((s, 0) - e') in the second.
 void ShortcutRoadmap::AddHopsThatEndElsewhere(int i, int j) {
   const Eigen::Vector2d way = places_[j].p - places_[i].p;
   const double direction = std::atan2(way.y(), way.x());

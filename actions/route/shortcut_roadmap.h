@@ -8,10 +8,10 @@
 
 namespace possibility::actions {
 
-/// A stance of a route: whoever passes it passes its place.
+/// A stance of a route.
 struct RouteStop {
   GroundedStance stance;
-  /// Of the route, from the stop before it; of no action for the first.
+  /// The route's edge from the previous stop; without an action for the first stop.
   graph::PathEdge edge;
 };
 
@@ -35,19 +35,19 @@ struct Hop {
   std::vector<graph::PathEdge> edges = {};
 };
 
-/// Where the robot may end up: at a place, with a heading.
+/// Possible end of a route: a place and a heading.
 struct Finish {
   int place = 0;
   double yaw = 0;
 };
 
-/// Places of a route and the ways between them that may be quicker than the route: straight from
-/// one of its stances to a later one as they are, or heading forward or backward, in the gait of
-/// both or with transitions at either end or at both. Turns on the spot between them are left to
-/// the search. Manoeuvres stay as they are.
+/// Places of a route, and the ways between them that may be quicker than the route: straight from
+/// one of its stances to a later one, with their own headings or heading forward or backward, in
+/// the gait of both or with transitions at one or both ends. The search adds the turns on the spot.
+/// Manoeuvres stay unchanged.
 class ShortcutRoadmap {
  public:
-  /// `stops`: at least one, end to end. `goals`: other ends than the last stop, may be empty.
+  /// `stops`: at least one, end to end. `goals`: alternatives to the last stop, may be empty.
   ShortcutRoadmap(const RouteSpace& space, const std::vector<RouteStop>& stops,
                   const std::vector<GroundedStance>& goals);
 
@@ -57,7 +57,7 @@ class ShortcutRoadmap {
   const std::vector<Finish>& finishes() const { return finishes_; }
   bool has_manoeuvres() const { return has_manoeuvres_; }
 
-  /// Turning on the spot; of no duration and with no action if there is nothing to turn.
+  /// A turn on the spot; without duration and edges if the headings are equal.
   Hop Turn(int place, double from_yaw, double to_yaw) const;
 
  private:
@@ -71,9 +71,10 @@ class ShortcutRoadmap {
   void AddHopsThatEndElsewhere(int i, int j);
   void AddHop(Hop hop, const std::vector<GroundedStance>& stances);
 
-  /// From the stance of one gait to that of another after the transition between them.
+  /// Displacement of the stance by the transition between two gaits; none if there is no
+  /// transition.
   std::optional<PlanarPose> Displacement(int from_gait, int to_gait) const;
-  /// The edge between two stances, or nothing if they are the same.
+  /// The edge between two stances; none if they are the same.
   std::optional<graph::PathEdge> Edge(const GroundedStance& from, const GroundedStance& to) const;
   GroundedStance StanceAt(int place, double yaw) const;
 

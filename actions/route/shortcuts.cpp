@@ -20,8 +20,8 @@ constexpr int kStart = -1;
 
 using Edges = std::vector<graph::PathEdge>;
 
-/// A* over the hops of a roadmap, where a hop and the turn before it are tested only once they come
-/// first in the queue.
+/// A* over the hops of a roadmap. A hop and the turn before it are tested only when they come first
+/// in the queue.
 class ShortcutSearch {
  public:
   ShortcutSearch(const RouteSpace& space, const std::vector<RouteStop>& stops,
@@ -44,7 +44,7 @@ class ShortcutSearch {
     if (roadmap_.has_manoeuvres()) pace_ = 0;
   }
 
-  /// Nothing if it was told to stop.
+  /// None if it was told to stop.
   std::optional<Edges> Run() {
     Expand(kStart);
     while (!open_.empty() && (!keep_going_ || keep_going_())) {
@@ -179,7 +179,7 @@ std::vector<graph::PathEdge> FindShortcuts(const RouteSpace& space,
     const std::vector<RouteStop> stops = StopsOf(space, window);
     const Edges quicker =
         ShortcutSearch(space, stops, is_last ? goals : kNoGoals, keep_going).Run().value_or(window);
-    // The next window begins half-way through what this one has found.
+    // The next window begins half-way through the result of this one.
     const std::size_t kept =
         is_last || quicker.size() >= 2 * kWindow ? quicker.size() : (quicker.size() + 1) / 2;
     const auto middle = quicker.begin() + static_cast<std::ptrdiff_t>(kept);

@@ -8,10 +8,10 @@
 
 namespace possibility::actions {
 
-/// The quickest route through the places of a confirmed one, or to any of `goals`, as far as C_S
-/// allows (ShortcutRoadmap); `route` itself if that is as quick. Long routes are searched piece by
-/// piece. `route`: edges between nominal stances, end to end. `keep_going`: asked now and then, may
-/// be empty; false ends with the best route so far.
+/// The quickest route through the places of a confirmed one, or to any of `goals`, within C_S
+/// (ShortcutRoadmap); `route` itself if that is as quick. Long routes are searched piece by piece.
+/// `route`: edges between nominal stances, end to end. `keep_going`: called regularly, may be
+/// empty; false returns the best route so far.
 std::vector<graph::PathEdge> FindShortcuts(const RouteSpace& space,
                                            const std::vector<graph::PathEdge>& route,
                                            const std::vector<GroundedStance>& goals,
