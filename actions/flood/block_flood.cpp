@@ -6,7 +6,7 @@
 namespace possibility::actions {
 namespace {
 
-/// Thrown where a flood has come to its limits.
+/// Thrown when a flood reaches its limits.
 struct CutShort {};
 
 }  // namespace

@@ -10,48 +10,49 @@
 
 namespace possibility::actions {
 
-/// How a flood ended. kCutShort: by its limits, which says nothing.
+/// How a flood ended. kCutShort: at its limits, without a result.
 enum class FloodEnd { kNothingLeft, kGoal, kCutShort };
 
 struct FloodLimits {
-  /// Of the quadtrees, 8 bytes each; what the flood keeps for every block it has reached, 36 bytes
-  /// at most, comes on top: below 1 GB in all.
+  /// Largest number of quadtree nodes, 8 bytes each. The flood keeps at most 36 more bytes per
+  /// reached block: below 1 GB in all.
   static constexpr std::int64_t kMostNodes = 20'000'000;
 
   std::int64_t most_judged = kMostNodes;  ///< blocks of cells
-  std::function<bool()> keep_going = {};  ///< asked at every block that is judged; may be empty
+  std::function<bool()> keep_going = {};  ///< called for every block judged; may be empty
 };
 
-/// A flood over cells in blocks as large as they are all open, those close to a goal first. What is
-/// reached in the end does not depend on that order.
+/// A flood over cells, in blocks as large as possible whose cells are all open, blocks close to a
+/// goal first. The set finally reached does not depend on that order.
 class BlockFlood {
  public:
   struct Reached {
     CellBlock block;
-    std::int32_t from = -1;  ///< index of the one that it was offered from; -1: none
+    std::int32_t from = -1;  ///< index of the block that offered it; -1: none
   };
   using Lead = CellQuadtrees::Lead;
 
-  /// Nothing is flooded if the grid is too large.
+  /// Run is cut short if the grid is too large.
   BlockFlood(int planes, double nx, double ny, CellQuadtrees::Judge judge, FloodLimits limits);
 
-  /// From the cell of `seed`. `distance`: of a block from the goals; `expand`: offers its
-  /// neighbours; `expand_late`, at less haste: more of them, once nothing else is left to expand.
+  /// Floods from the cell of `seed`. `distance`: from a block to the goals. `expand`: offers the
+  /// neighbours of a block. `expand_late`: offers further neighbours once nothing else is left to
+  /// expand.
   FloodEnd Run(const CellBlock& seed, const std::function<bool(const CellBlock&)>& is_goal,
                const std::function<double(const CellBlock&)>& distance,
                const std::function<void(const CellBlock&)>& expand,
                const std::function<void(const CellBlock&)>& expand_late);
 
-  /// For `expand` and `expand_late`. `leads_there`: whether the offer can be taken up by an open
-  /// block; empty: it can.
+  /// For `expand` and `expand_late`. `leads_there`: whether the offer applies to an open block;
+  /// empty: always.
   void Offer(const CellBlock& block, const Lead& leads_there = {});
-  /// Whether an offer of the block might be taken up.
+  /// Whether an offer of the block might enter new cells.
   bool HasLeft(const CellBlock& block) const { return cells_->HasLeft(block); }
 
-  /// In the order in which they were reached: disjoint.
+  /// Disjoint blocks in the order of reaching.
   const std::deque<Reached>& reached() const { return reached_; }
   std::int64_t judged() const { return judged_; }
-  /// From the seed to the goal's block, after FloodEnd::kGoal.
+  /// Blocks from the seed to the goal's block, after FloodEnd::kGoal.
   std::vector<CellBlock> WayToGoal() const;
 
  private:
@@ -73,7 +74,7 @@ class BlockFlood {
   double ny_;
   CellQuadtrees* cells_ = nullptr;  ///< while running
   std::function<double(const CellBlock&)> distance_;
-  std::deque<Reached> reached_;  ///< never copied to grow: there may be many
+  std::deque<Reached> reached_;  ///< a deque: growing never copies, and there may be many
   std::priority_queue<Candidate> open_;
   std::deque<std::int32_t> late_;
   std::int32_t current_ = -1;  ///< being expanded

@@ -10,7 +10,7 @@
 
 namespace possibility::actions {
 
-/// The place of a flood that is closest to any goal.
+/// The place reached by a flood that is closest to any goal.
 struct ClosestApproach {
   Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< m
   double distance = 0;                              ///< from that goal, m
@@ -25,12 +25,12 @@ class BlocksFromAbove {
                   const std::vector<GroundedStance>& goals)
       : origin_(origin), size_(size), goals_(goals) {}
 
-  /// Of the nearest middle of a cell from the nearest goal, m.
+  /// Distance of the nearest cell centre from the nearest goal, m.
   double Distance(const CellBlock& block) const { return Closest(block).distance; }
   ClosestApproach ClosestOf(const std::deque<BlockFlood::Reached>& reached) const;
 
-  /// Outlines of all blocks together, whatever plane they are in, of a grid of `num_cells`; none
-  /// once `keep_going` (may be empty) says no.
+  /// Outlines of the union of all blocks over all planes, on a grid of `num_cells`; none once
+  /// `keep_going` (may be empty) returns false.
   std::vector<std::vector<Eigen::Vector2d>> OutlinesOf(
       const std::vector<CellBlock>& blocks, const Eigen::Vector2i& num_cells,
       const std::function<bool()>& keep_going) const;

@@ -18,7 +18,8 @@ Vector2i Step(int direction) {
   return {kSteps[direction][0], kSteps[direction][1]};
 }
 
-/// The edges of a mask's boundary that have not been walked along yet, its cells to their left.
+/// The edges of a mask's boundary that are not yet part of a polygon, with the mask's cells to
+/// their left.
 class BoundaryEdges {
  public:
   explicit BoundaryEdges(int nx) : stride_(nx + 1) {}
@@ -32,7 +33,7 @@ class BoundaryEdges {
     return edges_.erase(Index(corner, direction)) != 0;
   }
 
-  /// Where edges ahead along x begin: by y, then by x.
+  /// Beginnings of edges ahead along x, ordered by y, then x.
   std::vector<Vector2i> Beginnings() {
     std::sort(ahead_.begin(), ahead_.end());
     std::vector<Vector2i> beginnings;
@@ -55,14 +56,15 @@ class BoundaryEdges {
   std::vector<std::int64_t> ahead_;
 };
 
-/// The corners of the polygon that the edge from `begin`, taken already, is part of.
+/// The corners of the polygon that contains the edge from `begin`, which is already taken.
 std::vector<Vector2i> WalkAround(const Vector2i& begin, int first, BoundaryEdges* edges) {
   std::vector<Vector2i> corners;
   Vector2i corner = begin;
   int direction = first;
   while (true) {
     corner += Step(direction);
-    // Left, straight on, right: where two cells share only this corner, we stay with ours.
+    // Left, straight on, right: left first, so that cells that share only this corner stay
+    // separate.
     for (const int turn : {1, 0, 3}) {
       const int next = (direction + turn) % kNumDirections;
       const bool is_closed = corner == begin && next == first;
@@ -127,7 +129,7 @@ bool CellMask::Contains(int x, int y) const {
   return !is_empty;
 }
 
-/// All full rectangles.
+/// Visits all full rectangles.
 template <typename Visit>
 void CellMask::VisitFull(const Place& place, const Visit& visit) const {
   const Node& node = nodes_[place.node];
@@ -153,7 +155,7 @@ void CellMask::VisitEmptyCells(const Place& place, const Rectangle& strip,
   }
 }
 
-/// `strip`: beside a part of the grid, within it or outside it; outside all cells are empty.
+/// `strip`: beside a part of the grid, inside or outside the grid; cells outside are empty.
 template <typename Visit>
 void CellMask::VisitEmptyCells(const Rectangle& strip, const Visit& visit) const {
   if (strip.x0 >= 0 && strip.y0 >= 0 && strip.x1 <= nx_ && strip.y1 <= ny_) {

@@ -7,20 +7,20 @@
 
 namespace possibility::actions {
 
-/// Some of the cells of a grid of nx x ny, kept as a quadtree: memory grows with their boundary.
+/// A set of cells of an nx x ny grid, stored as a quadtree: memory grows with its boundary.
 class CellMask {
  public:
   CellMask(int nx, int ny);
 
   void Add(int x, int y) { Add(x, y, x + 1, y + 1); }
-  /// [x0, x1) x [y0, y1); what lies outside the grid is left out.
+  /// Adds [x0, x1) x [y0, y1), clipped to the grid.
   void Add(int x0, int y0, int x1, int y1);
   bool Contains(int x, int y) const;
 
-  /// Closed polygons along the edges of cells, corners only, in units of cells: around every part
-  /// counter-clockwise, around every hole in it clockwise. Cells that only share a corner do not
-  /// belong together. Polygons may meet at corners, but never cross. `keep_going`: may be empty; no
-  /// polygons once it says no.
+  /// Closed polygons along the edges of cells, corners only, in units of cells: counter-clockwise
+  /// around parts, clockwise around holes. Cells that only share a corner are not connected.
+  /// Polygons may meet at corners, but never cross. `keep_going`: may be empty; no polygons once it
+  /// returns false.
   std::vector<std::vector<Eigen::Vector2i>> Outlines(
       const std::function<bool()>& keep_going = {}) const;
 

@@ -26,7 +26,7 @@ CellQuadtrees::Place CellQuadtrees::Child(const Place& parent, int index) const 
           parent.y + (index & 2 ? half : 0), half};
 }
 
-/// What of the node's square lies in the grid.
+/// The part of the node's square that lies in the grid.
 CellBlock CellQuadtrees::BlockOf(const Place& place) const {
   return {place.plane, place.x, place.y, std::min(place.x + place.size, nx_),
           std::min(place.y + place.size, ny_)};
@@ -69,7 +69,7 @@ void CellQuadtrees::SettleIfDone(const Place& place) {
   nodes_[place.node].state = State::kSettled;
 }
 
-/// The child that holds all of `block` that lies in the grid, if one does.
+/// The child that holds all of `block` within the grid; none if no single child does.
 std::optional<CellQuadtrees::Place> CellQuadtrees::OnlyChild(const Place& parent,
                                                              const CellBlock& block) const {
   const int x = parent.x + parent.size / 2, y = parent.y + parent.size / 2;

@@ -25,45 +25,44 @@ struct CellBlock {
   bool operator==(const CellBlock&) const = default;
 };
 
-/// What is known of all cells of a block alike.
+/// State of all cells of a block; kMixed: not the same for all, or unknown.
 enum class BlockState { kClosed, kOpen, kMixed };
 
-/// Thrown where cells would take more memory than they may.
+/// Thrown when cells would exceed their memory limit.
 class TooManyCells : public std::runtime_error {
  public:
   TooManyCells() : std::runtime_error("too many cells") {}
 };
 
-/// Cells of several planes, nx x ny in each, judged only when somebody asks for them, and as blocks
-/// as large as they are all alike (a quadtree for every plane): memory grows with the boundary of
-/// what is open, not with the number of cells.
+/// Cells of several planes, nx x ny in each. They are judged only on demand, in the largest blocks
+/// of equal cells (one quadtree per plane): memory grows with the boundary of the open cells, not
+/// with the number of cells.
 class CellQuadtrees {
  public:
-  /// Whether the cells of a block are open. May only be kMixed for more than one cell, and has to
-  /// answer the same for a cell as for every block that holds it.
+  /// Whether the cells of a block are open. kMixed is allowed only for more than one cell. The
+  /// answers for a cell and for every block that holds it must agree.
   using Judge = std::function<BlockState(const CellBlock&)>;
   using Lead = std::function<bool(const CellBlock&)>;
   using Enter = std::function<void(const CellBlock&)>;
 
-  /// More cells than this along an axis, or planes, are too many.
+  /// Largest number of cells along an axis, and of planes.
   static constexpr int kMostLevels = 28;
   static constexpr int kMostAlong = 1 << kMostLevels;
 
-  /// `most_nodes`: of all trees together, 8 bytes each.
+  /// `most_nodes`: limit for all trees together, 8 bytes each.
   /// @throws TooManyCells
   CellQuadtrees(int planes, int nx, int ny, std::int64_t most_nodes, Judge judge);
 
-  /// Enters the open blocks that share cells with `block`, lie in the grid and were not entered
-  /// before, if `leads_there` of them; entered blocks are disjoint, and all cells of one count as
-  /// entered.
+  /// Enters the open blocks that overlap `block`, lie in the grid, were not entered before and
+  /// satisfy `leads_there`. Entered blocks are disjoint, and all cells of one count as entered.
   /// @throws TooManyCells
   void Offer(const CellBlock& block, const Lead& leads_there, const Enter& enter);
 
-  /// Enters the cell, whatever it is, with the open block around it if there is one.
+  /// Enters the cell whatever its state, together with the open block around it if there is one.
   /// @throws TooManyCells; std::out_of_range if the cell lies outside the grid.
   void Seed(int plane, int x, int y, const Enter& enter);
 
-  /// Whether `block` holds a cell that was not judged yet, or is open and was not entered.
+  /// Whether `block` holds a cell that is not judged yet, or is open and not entered.
   bool HasLeft(const CellBlock& block) const;
 
   std::int64_t judged() const { return judged_; }
@@ -75,13 +74,13 @@ class CellQuadtrees {
     kOpen,
     kEntered,
     kSplit,
-    kSettled  ///< split, and nothing below is left to enter
+    kSettled  ///< split, with nothing left to enter below
   };
   struct Node {
     std::int32_t first_child = -1;
     State state = State::kUnjudged;
   };
-  /// A node and the square of cells that it stands for.
+  /// A node and its square of cells.
   struct Place {
     std::int32_t node = 0;
     int plane = 0;

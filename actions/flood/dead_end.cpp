@@ -18,8 +18,8 @@ using Boxes = std::vector<Eigen::AlignedBox3d>;
 constexpr double kCheckerError = 0.0002;
 constexpr double kSamePlace = 1e-6;
 
-/// How far from a stance the frame of the first stride may be, along the axes of both: that is
-/// where the room for it is asked for (C_S of a straight way).
+/// Largest distance of the first stride's frame from the stance, along the axes of both. C_S of a
+/// straight way tests the swept volume in that frame.
 Vector3d HalfStride(StrideClass strides, const models::GaitParameters& parameters) {
   const bool ahead = strides == StrideClass::kStraight || strides == StrideClass::kOblique;
   const bool aside = strides == StrideClass::kSideways || strides == StrideClass::kOblique;
@@ -32,7 +32,7 @@ class DeadEnds {
            const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres)
       : model_(model), world_(world), manoeuvres_(manoeuvres), checker_(*world.environment) {}
 
-  /// Of a way that begins at a stance, or of one that ends there.
+  /// Whether no way begins (or, if not `begins`, ends) at a stance.
   bool IsDeadEnd(const GroundedStance& stance, bool begins) const {
     const bool may_leap =
         std::any_of(manoeuvres_.begin(), manoeuvres_.end(), [&](const auto& manoeuvre) {
@@ -55,7 +55,7 @@ class DeadEnds {
   }
 
  private:
-  /// What a way of the class that begins or ends at a stance asks for there, however it goes on.
+  /// Volume that every way of the class that begins or ends at a stance needs there.
   Boxes LeastRoom(StrideClass strides, int gait) const {
     const LocomotionModel::GaitEntry& entry = *model_.gaits[gait];
     const Vector3d less = HalfStride(strides, entry.stance.gait->parameters);
@@ -76,7 +76,8 @@ class DeadEnds {
     return checker_.AreFree(models::UprightBoxes(boxes), pose.At(z));
   }
 
-  /// Into another gait or out of it: the same room either way.
+  /// Whether a transition into or out of another gait has room; the room is the same in both
+  /// directions.
   bool MayChange(const GroundedStance& stance) const {
     return std::any_of(
         model_.transitions.begin(), model_.transitions.end(), [&](const auto& transition) {

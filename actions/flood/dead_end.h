@@ -9,10 +9,10 @@
 
 namespace possibility::actions {
 
-/// A start that nothing meeting C_S leads away from, or goals that nothing leads to: neither
-/// strides of any class nor a transition has the room, and there is no manoeuvre. Floods, whose
-/// cells err towards open, do not see that. Nothing if some way may begin at the start and end at a
-/// goal, or the start is a goal.
+/// Detects a start that no motion within C_S leaves, or goals that no such motion reaches: no class
+/// of strides and no transition has the room, and there is no manoeuvre. Floods miss this because
+/// their cells are optimistic. None if some way may begin at the start and end at a goal, or if the
+/// start is a goal.
 std::optional<FloodResult> FindDeadEnd(const LocomotionModel& model, const World& world,
                                        const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
                                        const GroundedStance& start,

@@ -72,7 +72,7 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
   return graph::RouteOracleAnswer::kProvenInfeasible;
 }
 
-/// Where the answer is not known or is "exhausted"; a proof has nothing to pass through.
+/// For answers "unknown" and "exhausted"; after a proof no way is left to examine.
 void FloodOracle::FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
                               const std::vector<FloodManoeuvre>& manoeuvres) {
   passage_ =
@@ -81,13 +81,13 @@ void FloodOracle::FindPassage(const GroundedStance& start, const std::vector<Gro
           : SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, keep_going_);
 }
 
-/// The flood over C_S; finer ones, as far as they get, where coarser cells find no barrier: a flood
-/// that finds its way is soon done.
+/// The flood over C_S. If coarse cells find no barrier, finer floods follow within their limits: a
+/// flood that finds a way ends quickly.
 FloodResult FloodOracle::CoarseToFine(const GroundedStance& start,
                                       const std::vector<GroundedStance>& goals,
                                       const std::vector<FloodManoeuvre>& manoeuvres) const {
   constexpr int kMostHalvings = 3;
-  constexpr std::int64_t kMostJudged = 4'000'000;  // no limit of time: the same answer anywhere
+  constexpr std::int64_t kMostJudged = 4'000'000;  // no time limit: same answer anywhere
   FloodResult flood;
   for (int halvings = 0; halvings <= kMostHalvings; ++halvings) {
     flood = FloodSufficient(model_, world_, start, goals,
@@ -102,7 +102,7 @@ FloodLimits FloodOracle::Limits(std::int64_t most_judged) const {
   return {.most_judged = most_judged, .keep_going = keep_going_};
 }
 
-/// Nothing if some manoeuvre does not say where it leads: then no closed barrier is a proof.
+/// None if some manoeuvre does not declare its landings: then a closed barrier is no proof.
 std::optional<std::vector<FloodManoeuvre>> FloodOracle::FloodManoeuvres() const {
   std::vector<FloodManoeuvre> result;
   for (const auto& manoeuvre : manoeuvres_) {
@@ -114,7 +114,7 @@ std::optional<std::vector<FloodManoeuvre>> FloodOracle::FloodManoeuvres() const 
   return result;
 }
 
-/// Nothing if some manoeuvre does not say how it flies.
+/// None if some manoeuvre does not declare its flight.
 std::optional<std::vector<FlightBounds>> FloodOracle::Flights() const {
   std::vector<FlightBounds> result;
   for (const auto& manoeuvre : manoeuvres_) {
@@ -125,7 +125,7 @@ std::optional<std::vector<FlightBounds>> FloodOracle::Flights() const {
   return result;
 }
 
-/// Whether any has changed. @throws Abandoned at the time limit.
+/// Returns whether any bound has changed. @throws Abandoned at the time limit.
 bool FloodOracle::ReplaceGuesses() {
   bool replaced = false;
   for (const auto& manoeuvre : manoeuvres_) {

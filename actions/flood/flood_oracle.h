@@ -14,25 +14,26 @@
 
 namespace possibility::actions {
 
-/// Whether a route can exist at all, asked by the search once cycles have found none. The flood
-/// over C_S says what these actions could confirm, the one over C_N what any motion could do.
+/// Decides whether a route can exist at all; called by the search once cycles have found none. The
+/// flood over C_S bounds what these actions could confirm, the flood over C_N what any motion could
+/// do.
 class FloodOracle {
  public:
-  /// All that is passed by reference outlives the oracle; `manoeuvres` may be filled later.
-  /// `resolution`: of a cell, m. `keep_going`: false once time is up.
+  /// All references must outlive the oracle; `manoeuvres` may be filled later. `resolution`: cell
+  /// size, m. `keep_going`: returns false once time is up.
   FloodOracle(const LocomotionModel& model, const World& world,
               const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres, double resolution,
               std::function<bool()> keep_going);
 
-  /// Before "no", bounds that manoeuvres have guessed are made true. kUnknown at the time limit.
+  /// Replaces guessed bounds of manoeuvres before a "no". kUnknown at the time limit.
   graph::RouteOracleAnswer Ask(const GroundedStance& start,
                                const std::vector<GroundedStance>& goals);
 
-  /// What closes the way, after an answer that was "no".
+  /// The barrier, after a "no".
   const Barrier& barrier() const { return flood_->barrier; }
 
-  /// After "no": the narrowest place of the way that would be open if less were asked of it. After
-  /// an answer that was none: that of the way which the closest flood believes in. Nothing if there
+  /// After "no": the narrowest place of a way that would be open with relaxed needs. After
+  /// kUnknown: the narrowest place of the way that the finest flood considers open. None if there
   /// is no such place.
   const std::optional<NarrowPassage>& passage() const { return passage_; }
 

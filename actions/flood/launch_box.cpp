@@ -20,10 +20,10 @@ bool GroundIsNear(const models::GroundMap& ground, const Vector2d& p, double z, 
   return false;
 }
 
-/// True only if GroundIsNear is of every point that is `displaced` from p or less.
+/// Sufficient: true only if GroundIsNear is true for every point within `displaced` of p.
 bool GroundIsNearAllAround(const models::GroundMap& ground, const Vector2d& p, double z,
                            double distance, double displaced) {
-  constexpr double kGroundError = 1e-5;  // m, more than that of a Clearance
+  constexpr double kGroundError = 1e-5;  // m, more than the error of a Clearance
   const double needed = displaced - distance + kGroundError;
   const std::vector<double>& levels = ground.levels();
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -49,15 +49,15 @@ bool LandingMayStand(const LocomotionModel& model, const models::GroundMap& grou
                        box.landing.z, place, box.half_heading + box.half_turn);
 }
 
-/// One of the dimensions that a box can be halved along.
+/// A dimension along which a box can be halved.
 struct Dimension {
-  double width = 0;  ///< m, how far it moves a landing
+  double width = 0;  ///< m, its effect on a landing
   double* middle = nullptr;
   double* half = nullptr;
 };
 
 Dimension Widest(LaunchBox* box) {
-  constexpr double kLever = 0.3;  // m, of bearing points about their stance, roughly
+  constexpr double kLever = 0.3;  // m, rough distance of bearing points from their stance
   const double reach = box->displacement.position().norm() + kLever;
   const Dimension dimensions[] = {
       {box->half_place.x(), &box->middle.x, &box->half_place.x()},

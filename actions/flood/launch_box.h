@@ -13,13 +13,13 @@ namespace possibility::actions {
 bool GroundMayHold(const LocomotionModel& model, const models::GroundMap& ground, int gait,
                    const PlanarPose& pose, double z, double place, double turn);
 
-/// True only if GroundMayHold says so of every stance that is displaced from `pose` by up to
+/// Sufficient: true only if GroundMayHold is true for every stance displaced from `pose` by up to
 /// `displaced`, m.
 bool GroundMayHoldAllAround(const LocomotionModel& model, const models::GroundMap& ground, int gait,
                             const PlanarPose& pose, double z, double place, double turn,
                             double displaced);
 
-/// Launch stances of a manoeuvre and what it displaces them by: all within a box about the middle.
+/// A box of launch stances of a manoeuvre and of their displacements, about its middle.
 struct LaunchBox {
   struct End {
     int gait = 0;
@@ -30,13 +30,13 @@ struct LaunchBox {
   PlanarPose middle = {};                                       ///< of the launch stances
   Eigen::Vector2d half_place = Eigen::Vector2d::Zero();         ///< m
   double half_heading = 0;                                      ///< rad
-  PlanarPose displacement = {};                                 ///< middle of what it displaces by
+  PlanarPose displacement = {};                                 ///< middle of the displacements
   Eigen::Vector2d half_displacement = Eigen::Vector2d::Zero();  ///< m, in the launch stance
   double half_turn = 0;                                         ///< rad
 };
 
-/// False only if no launch of the box stands on ground and lands on ground. By branch and bound:
-/// the box is halved along what it is widest in, at most `halvings` times on a way down.
+/// False only if no launch of the box both stands and lands on ground. Branch and bound: halves the
+/// box along its widest dimension, at most `halvings` times in a row.
 bool MayLand(const LocomotionModel& model, const models::GroundMap& ground, const LaunchBox& box,
              int halvings);
 

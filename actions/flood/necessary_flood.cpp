@@ -13,7 +13,7 @@
 namespace possibility::actions {
 namespace {
 
-/// Upper bound of how far from the root the robot can bear on ground, in any gait.
+/// Upper bound of the distance from the root to a bearing point, in any gait.
 double FarthestBearing(const LocomotionModel& model) {
   double reach = 0;
   for (const auto& gait : model.gaits) {

@@ -6,9 +6,9 @@
 
 namespace possibility::actions {
 
-/// Flood over C_N: cells of the position of the largest ball inside the pelvis that may be free
-/// and within a limb's reach of ground, whatever the orientation. `resolution` is refined until
-/// the ball is larger than a cell. `flights`: of all manoeuvres.
+/// Flood over C_N: cells of positions of the largest ball inside the pelvis that may be free and
+/// within a limb's reach of ground, independent of orientation. `resolution` is refined until the
+/// ball is larger than a cell. `flights`: of all manoeuvres.
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            double resolution, const FloodLimits& limits = {},

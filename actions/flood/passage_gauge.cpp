@@ -20,19 +20,19 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSpacing = 0.1;      // m, between places on the way
-constexpr double kFarthest = 1.5;     // m: what is farther to a side is in nobody's way
-constexpr double kThin = 0.02;        // m, of what is stretched until it touches
+constexpr double kFarthest = 1.5;     // m: obstacles farther to a side do not matter
+constexpr double kThin = 0.02;        // m, width of a feeler
 constexpr double kPrecision = 1e-3;   // m
 constexpr double kGroundStep = 0.01;  // m
-constexpr int kDirections = 36;       // that half a circle is divided into
-constexpr double kGroundGap = 0.01;   // m, over the ground
+constexpr int kDirections = 36;       // in half a circle
+constexpr double kGroundGap = 0.01;   // m, above the ground
 
 Vector2d Direction(int i) {
   const double angle = std::numbers::pi * i / kDirections;
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// The largest `x` in [0, most] for which `holds`, to kPrecision; it holds up to some x.
+/// The largest `x` in [0, most] for which `holds`, to kPrecision, if it holds up to some x.
 template <typename Holds>
 double Largest(double most, const Holds& holds) {
   if (holds(most)) return most;
@@ -54,7 +54,7 @@ models::PosedShape Feeler(const Vector2d& p, const Vector2d& direction, double l
   return {models::Shape::Box({std::max(length, kThin), kThin, high - low}), X};
 }
 
-/// How far a box reaches along `across` to both sides, of a stance that heads for `yaw`.
+/// Extent of a box along `across`, to both sides, in a stance with heading `yaw`.
 double Extent(const AlignedBox3d& box, const Vector2d& across, double yaw) {
   const Vector2d local = Eigen::Rotation2Dd(-yaw) * across;
   const Vector2d size = box.sizes().head<2>();
@@ -99,7 +99,7 @@ bool PassageGauge::HasGround(const Vector2d& p, double z) const {
   return world_.ground->LevelAt(p, z, 1e-3).has_value();
 }
 
-/// Whether nothing is as near as would matter to any gait.
+/// Whether nothing is near enough to matter to any gait.
 bool PassageGauge::IsWide(const Place& place) const {
   double top = 0;
   for (const auto& gait : model_.gaits) {
@@ -112,7 +112,7 @@ bool PassageGauge::IsWide(const Place& place) const {
                          0);
 }
 
-/// From one edge of the ground to the other, whatever way is shortest.
+/// The gap at a place: from one edge of the ground to the other, in the shortest direction.
 std::optional<NarrowPassage> PassageGauge::GapAt(const Place& place) const {
   double shortest = kInfinity;
   for (int i = 0; i < kDirections; ++i) {
@@ -170,7 +170,7 @@ std::optional<NarrowPassage> PassageGauge::PassageAt(const Place& place) const {
   return passage;
 }
 
-/// Nothing where the gait has room, or stands in an obstacle.
+/// None if the gait has room, or stands in an obstacle.
 std::optional<PassageGauge::Fit> PassageGauge::FitOf(int gait, const Place& place) const {
   double top = 0;
   for (const AlignedBox3d& box : model_.gaits[gait]->volumes.sweep(StrideClass::kStraight)) {
@@ -188,7 +188,7 @@ std::optional<PassageGauge::Fit> PassageGauge::FitOf(int gait, const Place& plac
   return fit;
 }
 
-/// Over the ground, `at_most` at most, m.
+/// Clear height above the ground, at most `at_most`, m.
 double PassageGauge::ClearHeight(const Place& place, double at_most) const {
   return Largest(at_most, [&](double height) {
     const models::PosedShape column = Feeler(place.p, Vector2d::UnitX(), 0, place.z + kGroundGap,
@@ -197,7 +197,7 @@ double PassageGauge::ClearHeight(const Place& place, double at_most) const {
   });
 }
 
-/// Across that direction in which least is left of the width, with the best heading for it.
+/// Fit across the direction with the least remaining width, with the best heading for it.
 std::optional<PassageGauge::Fit> PassageGauge::WidthFor(int gait, const Place& place,
                                                         double clear_height) const {
   std::optional<Fit> worst;
@@ -233,13 +233,14 @@ std::optional<PassageGauge::Fit> PassageGauge::WidthFor(int gait, const Place& p
       }
       if (!worst_here || best.missing > worst_here->missing) worst_here = best;
     }
-    if (!worst_here) return std::nullopt;  // one alternative has room to all sides
+    if (!worst_here) return std::nullopt;  // one alternative has room on all sides
     if (!worst || worst_here->missing < worst->missing) worst = worst_here;
   }
   return worst;
 }
 
-/// Up to kFarthest, of a slab between two heights over the ground, m.
+/// Free length towards `direction`, up to kFarthest, for a slab between two heights above the
+/// ground, m.
 double PassageGauge::RoomTowards(const Place& place, const Vector2d& direction, double low,
                                  double high) const {
   return Largest(kFarthest, [&](double length) {
@@ -249,7 +250,7 @@ double PassageGauge::RoomTowards(const Place& place, const Vector2d& direction, 
   });
 }
 
-/// What a feeler that is a little longer than there is room touches.
+/// Names what a feeler slightly longer than the room touches.
 void PassageGauge::NameSides(const Fit& fit, const Place& place, NarrowPassage* passage) const {
   constexpr double kLonger = 0.02;  // m
   std::vector<models::PosedShape> feelers;

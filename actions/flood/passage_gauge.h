@@ -14,17 +14,17 @@
 
 namespace possibility::actions {
 
-/// Measures how much room there is on a way, and how much each gait and manoeuvre needs. For
-/// messages: nothing here decides what is possible.
+/// Measures the room on a way and the room that each gait and manoeuvre needs. For messages only:
+/// nothing here decides what is possible.
 class PassageGauge {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   PassageGauge(const LocomotionModel& model, const World& world,
                const std::vector<FloodManoeuvre>& manoeuvres);
 
-  /// The place of a way where most is missing, or least to spare, for whatever gets on best there;
-  /// nothing if it is wide and high everywhere. `keep_going` (may be empty): asked at every place;
-  /// false leaves out the rest.
+  /// The place of a way with the most missing room, or the smallest margin, for the action that
+  /// fits best there; none if the way is wide and high everywhere. `keep_going` (may be empty):
+  /// called at every place; false skips the rest.
   std::optional<NarrowPassage> Narrowest(const std::vector<GroundedStance>& way,
                                          const std::function<bool()>& keep_going) const;
 
@@ -34,12 +34,12 @@ class PassageGauge {
     Eigen::Vector2d p;
     double z;
   };
-  /// How a gait gets on in a place.
+  /// How a gait fits into a place.
   struct Fit {
     PassageNeed need = {};
-    double missing = 0;                                 ///< m; negative: to spare
-    Eigen::Vector2d across = Eigen::Vector2d::UnitX();  ///< of a width: unit
-    Eigen::AlignedBox3d gauged = {};  ///< of a width: the slab of height that it was measured in
+    double missing = 0;                                 ///< m; negative: margin
+    Eigen::Vector2d across = Eigen::Vector2d::UnitX();  ///< for a width: unit vector
+    Eigen::AlignedBox3d gauged = {};  ///< for a width: the slab of height measured
   };
   struct Slab {
     Eigen::AlignedBox3d box;

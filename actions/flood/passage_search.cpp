@@ -9,7 +9,7 @@ namespace possibility::actions {
 namespace {
 
 constexpr double kMostLeniency = 0.3;  // m
-/// Leaves 2 cm of it open.
+/// Determines the leniency to 2 cm.
 constexpr int kHalvings = 4;
 constexpr std::int64_t kMostJudged = 200'000;
 

@@ -8,11 +8,10 @@
 
 namespace possibility::actions {
 
-/// Where a flood over C_S that has found a barrier would come through first if less were asked of
-/// it: the narrowest place of the way that it finds with the least leniency. Nothing if it finds
-/// none with gaits up to 0.6 m narrower and 0.3 m lower, and ground that reaches 0.3 m farther. An
-/// aid for messages, of about so many floods' time as there are halvings of that leniency, each cut
-/// short where it grows large.
+/// For a flood over C_S that found a barrier: the narrowest place of the way that it finds with the
+/// least leniency. None if there is no way even with gaits 0.6 m narrower and 0.3 m lower and
+/// ground that extends 0.3 m farther. For messages only. Takes about one flood per halving of the
+/// leniency; large floods are cut short.
 std::optional<NarrowPassage> SearchPassage(const LocomotionModel& model, const World& world,
                                            const GroundedStance& start,
                                            const std::vector<GroundedStance>& goals,

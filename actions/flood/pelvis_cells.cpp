@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr double kCheckerError = 0.0002;
 constexpr double kLeastRadius = 1e-4;  // m
 constexpr double kRounding = 1e-9;     // m
-constexpr double kGroundError = 1e-5;  // m, more than that of a Clearance
+constexpr double kGroundError = 1e-5;  // m, more than the error of a Clearance
 
 /// How often a cell is halved along every axis before it counts as open.
 constexpr int kHalvings = 3;
@@ -31,11 +31,11 @@ Isometry3d At(const Vector3d& p) {
 
 }  // namespace
 
-/// The largest ball inside a shape, of these the one closest to the root.
+/// The largest ball inside a shape; among equals, the one closest to the root.
 PelvisCells::Ball PelvisCells::LargestBall(const models::PosedShape& posed) {
   const models::Shape& shape = posed.shape;
   double radius = 0;
-  Vector3d room = Vector3d::Zero();  // of the ball's centre, along the axes of the shape
+  Vector3d room = Vector3d::Zero();  // for the ball's centre, along the axes of the shape
   switch (shape.type) {
     case models::ShapeType::kBox:
       radius = shape.size.minCoeff() / 2;
@@ -95,7 +95,7 @@ Vector3d PelvisCells::BallAt(const GroundedStance& stance) const {
   return model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z) * ball_.centre_R;
 }
 
-/// Of the box of places that the ball's centre can be in: -1 the lowest, 1 the highest.
+/// Corner of the box of possible ball centres: -1 the lowest, 1 the highest.
 Vector3d PelvisCells::Corner(int side) const {
   const Eigen::AlignedBox2d& bounds = world_.environment->bounds;
   const std::vector<double>& levels = world_.ground->levels();
@@ -141,7 +141,7 @@ bool PelvisCells::IsAllOpen(const CellBlock& block, const Vector3d& p, const Vec
   reach.array() += ball_.radius;
   const models::Prism around(Eigen::AlignedBox3d(-reach, reach), At(p));
   if (!checker_.AreCertainlyFree({around})) return false;
-  // The farthest from the bounds, which are convex, is in a corner.
+  // The bounds are convex, so the farthest point from them is in a corner.
   for (const int x : {block.x0, block.x1 - 1}) {
     for (const int y : {block.y0, block.y1 - 1}) {
       const Vector3d corner = Centre(CellBlock::Of(block.plane, x, y));
@@ -156,7 +156,7 @@ bool PelvisCells::IsAllClosed(const Vector3d& p, const Vector2d& half) const {
       !IsWithinBounds(p.head<2>(), half + size_.head<2>() / 2)) {
     return true;
   }
-  // Wherever its centre is, some point of the shrunk ball lies inside the same solid.
+  // Wherever the ball's centre is, some point of the shrunk ball lies inside the same solid.
   const Vector3d reach(half.x(), half.y(), 0);
   for (const double up : {0.0, -solid_radius_, solid_radius_}) {
     const Vector3d middle = p + Vector3d(0, 0, up);
@@ -165,7 +165,8 @@ bool PelvisCells::IsAllClosed(const Vector3d& p, const Vector2d& half) const {
   return false;
 }
 
-/// How far from p ground of a level may be, seen from above; negative: nowhere.
+/// Largest horizontal distance from p of ground of a level within reach; negative: none is within
+/// reach.
 double PelvisCells::Reach(const Vector3d& p, double level) const {
   const double height = p.z() - level;
   const double beyond_legs = std::max(height - flight_.rise, std::min(height, 0.0));
@@ -173,7 +174,7 @@ double PelvisCells::Reach(const Vector3d& p, double level) const {
   return flight_.range + std::sqrt(reach_ * reach_ - beyond_legs * beyond_legs);
 }
 
-/// Of p, or of some point as high that is `displaced` from it.
+/// Whether ground is within reach of p, or of some point at its height within `displaced` of it.
 bool PelvisCells::GroundIsNear(const Vector3d& p, double displaced) const {
   const std::vector<double>& levels = world_.ground->levels();
   for (size_t level = 0; level < levels.size(); ++level) {
@@ -186,7 +187,7 @@ bool PelvisCells::GroundIsNear(const Vector3d& p, double displaced) const {
   return false;
 }
 
-/// True only if ground is near every point as high as p that is `displaced` from it or less.
+/// Sufficient: true only if ground is near every point at p's height within `displaced` of it.
 bool PelvisCells::GroundIsNearAllAround(const Vector3d& p, double displaced) const {
   const std::vector<double>& levels = world_.ground->levels();
   for (size_t i = 0; i < levels.size(); ++i) {
@@ -209,7 +210,8 @@ bool PelvisCells::IsWithinBounds(const Vector2d& p, const Vector2d& half) const 
   return world_.environment->bounds.exteriorDistance(part) <= ball_.centre_R.norm() + kRounding;
 }
 
-/// Whether the ball may be free with its centre in the box about `p`, halved so often already.
+/// Whether the ball may be free with its centre in the box about `p`, the result of `halvings`
+/// halvings.
 bool PelvisCells::MayBeFree(const Vector3d& p, int halvings) const {
   if (!IsWithinBounds(p.head<2>(), size_.head<2>() / (2 << halvings))) return false;
   if (checker_.IsFree(prepared_whole_, At(p), 0)) return true;

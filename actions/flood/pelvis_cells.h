@@ -13,33 +13,33 @@
 
 namespace possibility::actions {
 
-/// Cells of the position of the largest ball inside the pelvis; planes are heights of its centre. A
-/// cell is closed only if nowhere in it the ball is free and within reach of ground, whatever the
-/// orientation. The root keeps within the bounds, the ball as far from it as it is: so far do cells
-/// reach, and no farther. A wall or a floor as long as the bounds is a barrier because the cells at
-/// its ends are halved: where a whole cell might hold a free ball, none of its parts does.
+/// Cells of positions of the largest ball inside the pelvis; planes are heights of its centre. A
+/// cell is closed only if the ball is nowhere in it both free and within reach of ground, in any
+/// orientation. The cells cover all positions of the ball for which the root is within the bounds,
+/// and no more. A wall or a floor as long as the bounds is still a barrier, because the cells at
+/// its ends are halved: a whole cell might hold a free ball where none of its parts does.
 /// Immutable.
 class PelvisCells {
  public:
-  /// `resolution` (m) is refined until the ball is larger than a cell. `leg_reach`: no contact that
-  /// bears is farther from the root, m. `flight`: the farthest of all manoeuvres.
+  /// `resolution` (m) is refined until the ball is larger than a cell. `leg_reach`: upper bound of
+  /// a bearing contact's distance from the root, m. `flight`: maximum over all manoeuvres.
   PelvisCells(const LocomotionModel& model, const World& world, double resolution, double leg_reach,
               const FlightBounds& flight);
 
-  /// Along x, y and z; whole numbers, however large.
+  /// Along x, y and z; whole numbers of any size.
   const Eigen::Vector3d& num_cells() const { return num_cells_; }
   const Eigen::Vector3d& size() const { return size_; }   ///< of a cell, m
   const Eigen::Vector3d& origin() const { return low_; }  ///< of the first cell
 
-  /// The cell of the ball at a stance.
+  /// The cell of the ball in a stance.
   CellBlock CellOf(const GroundedStance& stance) const { return CellOf(BallAt(stance)); }
   Eigen::Vector3d Centre(const CellBlock& block) const;
 
-  /// Whether the ball may be free in each cell of the block, in none of them, or whether that is
-  /// not known of the block as a whole. Never kMixed of a cell.
+  /// Open if the ball may be free in each cell of the block, closed if in none of them, kMixed if
+  /// undecided for the block as a whole. Never kMixed for a cell.
   BlockState Judge(const CellBlock& block) const;
 
-  /// What closes the way from a cell towards a goal: "no ground", or obstacles by name.
+  /// What blocks the way from a cell towards a goal: "no ground", or names of obstacles.
   std::vector<std::string> Blockers(const CellBlock& cell, const GroundedStance& goal) const;
 
  private:
@@ -77,8 +77,8 @@ class PelvisCells {
   Eigen::Vector3d high_;
   Eigen::Vector3d num_cells_;
   Eigen::Vector3d size_;
-  std::vector<models::PreparedShape> shrunk_;  ///< what a ball covers wherever in a part it is
-  double solid_radius_ = 0;  ///< m, of a ball that is in each cell's shrunk one, whatever errs
+  std::vector<models::PreparedShape> shrunk_;  ///< by halvings: covered from all of a part
+  double solid_radius_ = 0;                    ///< m, a ball surely inside each cell's shrunk one
 };
 
 }  // namespace possibility::actions

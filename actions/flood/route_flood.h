@@ -15,20 +15,20 @@
 namespace possibility::actions {
 
 struct FloodResult {
-  /// False is a proof at any resolution: every cell errs towards open, so no continuous path
-  /// crosses a closed barrier of cells. True only says that this resolution finds no barrier.
+  /// False is a proof at any resolution: cells are optimistic, so no continuous path crosses a
+  /// closed barrier of cells. True only means that this resolution finds no barrier.
   bool route_may_exist = true;
-  /// Whether the flood came to its limits: then it says nothing.
+  /// The flood reached its limits: no result.
   bool is_cut_short = false;
-  /// If there is none: what the flood filled, and what closes the cells just beyond the closest.
+  /// If no route exists: the region filled, and what closes the cells next to the closest one.
   Barrier barrier;
-  /// If one may exist, of the flood over C_S: the middles of the blocks of cells it leads through.
+  /// If a route may exist, from the flood over C_S: the middles of the blocks along it.
   std::vector<GroundedStance> way;
   std::int64_t cells = 0;  ///< blocks of cells tested
 };
 
-/// What a manoeuvre adds to the flood over C_S: which landing stances a launch stance leads to
-/// (ManoeuvreBounds::landings, which must be there).
+/// A manoeuvre in the flood over C_S: the landing stances of each launch stance
+/// (ManoeuvreBounds::landings, which must not be empty).
 struct FloodManoeuvre {
   int from = 0;  ///< gaits
   int to = 0;

@@ -9,7 +9,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Largest tilt of an upright box, rad, and what it makes up for with rounding, m.
+/// Largest tilt of an upright box, rad, and a margin for that tilt and rounding, m.
 constexpr double kMaxTilt = 1e-8;
 constexpr double kRounding = 1e-6;
 

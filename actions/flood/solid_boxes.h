@@ -8,13 +8,13 @@
 
 namespace possibility::actions {
 
-/// The obstacles of an environment that are upright boxes: what lies inside one of them lies in an
-/// obstacle, however much it is. Immutable.
+/// The obstacles of an environment that are upright boxes: solid, so anything inside one is in
+/// collision. Immutable.
 class SolidBoxes {
  public:
   explicit SolidBoxes(const models::Environment& environment);
 
-  /// Whether all of `box` lies inside a single one.
+  /// Whether all of `box` lies inside a single obstacle.
   bool OneHolds(const Eigen::AlignedBox3d& box) const;
 
  private:

@@ -21,10 +21,10 @@ using Eigen::Vector3d;
 /// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
 constexpr double kCheckerError = 0.0002;
 
-/// Blocks of up to 2, 4 and 8 cells along an axis are told to be closed as a whole.
+/// Blocks of up to 2, 4 and 8 cells along an axis can be judged closed as a whole.
 constexpr int kSharedSizes[] = {2, 4, 8};
 
-/// `boxes` grown by what their stance may be displaced by along the world's axes either way.
+/// `boxes` swept by displacements of their stance along the world's axes, either way.
 std::vector<models::Prism> Swept(const std::vector<AlignedBox3d>& boxes, const PlanarPose& middle,
                                  double z, const Vector2d& half) {
   const Eigen::Isometry3d X_WS = middle.At(z);
@@ -64,7 +64,7 @@ double StanceCells::HalfDiagonal() const { return settings_.resolution * std::nu
 
 double StanceCells::half_heading() const { return std::numbers::pi / settings_.headings; }
 
-/// Narrower on every side and less high by the leniency.
+/// `boxes` narrower on every side and lower by the leniency.
 std::vector<AlignedBox3d> StanceCells::Lenient(std::vector<AlignedBox3d> boxes) const {
   if (settings_.leniency == 0) return boxes;
   double top = 0;
@@ -79,8 +79,8 @@ std::vector<AlignedBox3d> StanceCells::Lenient(std::vector<AlignedBox3d> boxes) 
   return lenient;
 }
 
-/// Every vertical side moved inward, by so much more for every metre that the box reaches from the
-/// stance's axis.
+/// Moves every vertical side inward by `inward`, plus `inward_per_metre` for every metre that the
+/// box reaches from the stance's axis.
 std::vector<AlignedBox3d> StanceCells::Shrunk(const std::vector<AlignedBox3d>& boxes, double inward,
                                               double inward_per_metre) const {
   std::vector<AlignedBox3d> shrunk;
@@ -102,7 +102,8 @@ StanceCells::Volume StanceCells::MakeVolume(const std::vector<AlignedBox3d>& box
     const double part = 1.0 / (1 << i);
     volume.shrunk.emplace_back(Shrunk(volume.boxes, HalfDiagonal() * part, half_heading() * part));
   }
-  // What all parts of a cell look at may be empty; a block that is halved is open by its middles.
+  // Shrunk boxes may be empty. With halvings, a cell is open if the whole boxes are free at its
+  // middle.
   volume.certainly_free = settings_.halvings == 0 ? volume.shrunk[0].boxes() : volume.boxes;
   for (const int size : kSharedSizes) {
     volume.shared.emplace_back(
@@ -224,7 +225,7 @@ bool StanceCells::CentreStands(int gait, const PlanarPose& centre, double z,
          });
 }
 
-/// True only if every stance of a cell has ground under all its bearing points.
+/// Sufficient: true only if every stance of a cell has ground under all its bearing points.
 bool StanceCells::OneFaceHolds(const CellBlock& cell) const {
   double radius = 0;
   for (const auto& points : model_.gaits[GaitOf(cell)]->stance.bearing_points) {
@@ -240,8 +241,8 @@ bool StanceCells::OneFaceHolds(const CellBlock& cell) const {
   return false;
 }
 
-/// Whether some stance may be possible in the part of a cell about `centre`, halved so often along
-/// every axis already.
+/// Whether some stance may be possible in the part of a cell about `centre`, the result of
+/// `halvings` halvings along every axis.
 bool StanceCells::MayStand(const CellBlock& cell, const PlanarPose& centre, int halvings,
                            bool is_over_ground) const {
   const int gait = GaitOf(cell);

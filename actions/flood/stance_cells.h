@@ -14,23 +14,23 @@
 
 namespace possibility::actions {
 
-/// How closely the flood over C_S looks.
+/// Resolution of the flood over C_S.
 struct StanceCellSettings {
-  double resolution = 0.1;  ///< of a cell, m
-  int headings = 24;        ///< that the circle is divided into
-  int halvings = 0;         ///< of a cell along every axis before it counts as open in doubt
-  /// By so much (m) every gait is taken for narrower on each side and for lower than it is, and
-  /// ground for wider on each side.
+  double resolution = 0.1;  ///< cell size, m
+  int headings = 24;        ///< number of headings on the circle
+  int halvings = 0;         ///< of a cell along every axis before it counts as open if undecided
+  /// Relaxation (m): treats every gait as narrower on each side and lower, and ground as wider on
+  /// each side, by this much.
   double leniency = 0;
 };
 
-/// Cells of stances: planes are a layer (a gait at a height) and a heading, x and y are places. A
-/// cell is closed only if no stance in it meets C_S, whatever alternative of the gait's volumes
-/// (FloodVolumes) is taken. For one thread.
+/// Cells of stances. A plane is a layer (a gait at a height) and a heading; x and y are positions.
+/// A cell is closed only if no stance in it meets C_S with any alternative of the gait's volumes
+/// (FloodVolumes). For one thread.
 class StanceCells {
  public:
-  /// All must outlive it. `heights`: of the ground that stances may be on; `margin`: how far beyond
-  /// the bounds there are cells, m.
+  /// All references must outlive this object. `heights`: ground heights of stances. `margin`:
+  /// extent of the cells beyond the bounds, m.
   StanceCells(const LocomotionModel& model, const World& world, std::vector<double> heights,
               double margin, const StanceCellSettings& settings);
 
@@ -39,7 +39,7 @@ class StanceCells {
   const Eigen::Vector2d& origin() const { return origin_; }
   int num_layers() const { return static_cast<int>(model_.gaits.size() * heights_.size()); }
   int num_planes() const { return num_layers() * settings_.headings; }
-  /// Cells along x and y; whole numbers, however large.
+  /// Cells along x and y; whole numbers of any size.
   Eigen::Vector2d NumCells() const;
 
   int Layer(int gait, size_t height) const;
@@ -47,39 +47,38 @@ class StanceCells {
   int HeadingOf(const CellBlock& block) const { return block.plane % settings_.headings; }
   int GaitOf(const CellBlock& block) const;
   double HeightOf(const CellBlock& block) const;
-  /// The plane of a layer for a heading, which may have gone round.
+  /// The plane of a layer for a heading, which may be any integer (wraps around).
   int Plane(int layer, int heading) const;
-  /// The same, of another gait or another heading.
+  /// The block's plane with another gait or another heading.
   int PlaneOfGait(const CellBlock& block, int gait) const;
   int PlaneTurned(const CellBlock& block, int turn) const;
 
-  /// Nothing at a height that is none of the cells'.
+  /// None at a height without cells.
   std::optional<CellBlock> CellOf(const GroundedStance& stance) const;
   CellBlock CellOf(int layer, const PlanarPose& pose) const;
-  /// Whether all of the block's cells are cells here.
+  /// Whether the grid contains all of the block's cells.
   bool Contains(const CellBlock& block) const;
   PlanarPose Centre(const CellBlock& block) const;
   double half_heading() const;
 
-  /// Whether a stance in each cell of the block may be possible, in none of them, or whether that
-  /// is not known of the block as a whole. Never kMixed of a cell.
+  /// Open if a stance may be possible in each cell of the block, closed if in none of them, kMixed
+  /// if undecided for the block as a whole. Never kMixed for a cell.
   BlockState Judge(const CellBlock& block) const;
 
-  /// Whether the stance in the middle of a cell meets what C_S asks of it (of its volumes, those of
-  /// one alternative).
+  /// Whether the stance in the middle of a cell meets C_S with one alternative of its volumes.
   bool CentreStands(const CellBlock& cell) const;
 
-  /// What closes a cell: "no ground", or obstacles by name.
+  /// What closes a cell: "no ground", or names of obstacles.
   std::vector<std::string> Blockers(const CellBlock& cell) const;
 
  private:
-  /// One alternative of the boxes that a gait may need, as cells see it.
+  /// One alternative of a gait's boxes, prepared for cells. Core: the space that all of them cover.
   struct Volume {
-    std::vector<Eigen::AlignedBox3d> boxes;           ///< whole, but for the leniency
+    std::vector<Eigen::AlignedBox3d> boxes;           ///< reduced by the leniency
     models::UprightBoxes whole;                       ///< the same
-    std::vector<models::UprightBoxes> shrunk;         ///< by halvings: covered from a whole part
-    std::vector<Eigen::AlignedBox3d> certainly_free;  ///< free where free in a block: all open
-    std::vector<models::UprightBoxes> shared;         ///< covered from all of 2, 4, 8 cells
+    std::vector<models::UprightBoxes> shrunk;         ///< by halvings: core of a part's stances
+    std::vector<Eigen::AlignedBox3d> certainly_free;  ///< free all over a block: all open
+    std::vector<models::UprightBoxes> shared;         ///< core of the stances in 2, 4, 8 cells
   };
 
   std::vector<Eigen::AlignedBox3d> Lenient(std::vector<Eigen::AlignedBox3d> boxes) const;
@@ -102,7 +101,7 @@ class StanceCells {
   double margin_;
   models::CollisionChecker checker_;
   std::vector<std::vector<Volume>> volumes_;  ///< by gait and alternative
-  /// By plane and halvings: the part of a cell in doubt that was open last, to be asked first.
+  /// By plane and halvings: the part of an undecided cell that was open last, tested first.
   mutable std::vector<int> free_parts_;
 };
 

@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// How often the launches of a cell are halved, along one dimension each time, before a landing
-/// counts as possible: more did not narrow down the gaps that stay in doubt.
+/// Halvings of a cell's launches, along one dimension each, before a landing counts as possible.
+/// More did not narrow the undecided gaps.
 constexpr int kLaunchHalvings = 16;
 
 double FarthestTransition(const LocomotionModel& model) {
@@ -101,8 +101,7 @@ class SufficientFlood {
     flood_.Offer(Image(block, layer, displacement, 0));
   }
 
-  /// All cells that a stance in one of the block's can be displaced into, or so far (m) beside
-  /// them.
+  /// All cells that a stance in the block can be displaced into, extended by `beside` (m).
   CellBlock Image(const CellBlock& block, int layer, const PlanarPose& displacement,
                   double beside) const {
     const double spread = cells_.settings().resolution / 2 +
@@ -149,7 +148,7 @@ class SufficientFlood {
     }
   }
 
-  /// Of so many displacements ahead those that may lead where nobody has been yet.
+  /// Offers those of the displacements `ahead` that may lead to new cells.
   void OfferLandings(const CellBlock& block, int layer, LaunchBox* launches,
                      std::span<const double> ahead) {
     const double beside = launches->half_displacement.norm();
@@ -167,7 +166,7 @@ class SufficientFlood {
     OfferLandings(block, layer, launches, ahead.subspan(ahead.size() / 2));
   }
 
-  /// Of all cells of the block together; they lead nowhere yet.
+  /// Launches from all cells of the block together, without displacements yet.
   LaunchBox LaunchesFrom(const CellBlock& block, int layer) const {
     const CellBlock landing = CellBlock::Of(cells_.Plane(layer, 0), 0, 0);
     LaunchBox launches{
@@ -182,11 +181,11 @@ class SufficientFlood {
   }
 
   void OfferLandings(const CellBlock& block, int layer, const LaunchBox& launches) {
-    // What no launch of the block can do, none of a cell can.
+    // If no launch of the block can land, no launch of its cells can.
     if (!block.IsCell() && !MayLand(model_, *world_.ground, launches, 0)) return;
     const double beside = launches.half_displacement.norm();
     std::map<std::pair<int, int>, bool>
-        may_land;  // by launch cell: once, and only where it matters
+        may_land;  // by launch cell, computed once and only if needed
     flood_.Offer(Image(block, layer, launches.displacement, beside), [&](const CellBlock&
                                                                              landings) {
       return SomeCellLeads(block, landings, launches, [&](const CellBlock& cell) {
@@ -200,7 +199,7 @@ class SufficientFlood {
     });
   }
 
-  /// Whether some cell of `block` whose image shares cells with `landings` leads there.
+  /// Whether some cell of `block` whose image overlaps `landings` leads there.
   template <typename Leads>
   bool SomeCellLeads(const CellBlock& block, const CellBlock& landings, const LaunchBox& launches,
                      const Leads& leads) const {
@@ -209,7 +208,7 @@ class SufficientFlood {
       return Image(CellBlock::Of(block.plane, x, y), cells_.LayerOf(landings),
                    launches.displacement, beside);
     };
-    // Images move with their cells, but for rounding.
+    // Images move with their cells, up to rounding.
     const CellBlock first = image(block.x0, block.y0);
     const auto low = [](int begin, int landing, int image_end) {
       return std::max(begin, begin + landing - image_end);
@@ -230,7 +229,7 @@ class SufficientFlood {
     return false;
   }
 
-  /// `low`, `high` and what lies between, at half the size of cells.
+  /// Samples from `low` to `high`, half a cell apart.
   std::vector<double> Samples(double low, double high) const {
     const double spacing = cells_.settings().resolution / 2;
     std::vector<double> samples = {low};
@@ -266,7 +265,7 @@ class SufficientFlood {
     return barrier;
   }
 
-  /// What closes the cells next to `cell` in the direction of the goals.
+  /// Names what closes the cells next to `cell` towards the goals.
   std::vector<std::string> ClosedBy(const CellBlock& cell) const {
     std::set<std::string> names;
     const PlanarPose centre = cells_.Centre(cell);
