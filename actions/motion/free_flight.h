@@ -14,20 +14,21 @@ namespace possibility::actions {
 /// All joints over time, num_joints each.
 using JointMotion = std::function<Signal<Eigen::VectorXd>(double t)>;
 
-/// A robot in the air: its joints move as told, and its root as momentum then demands. The centre
-/// of mass follows its parabola exactly and the angular momentum about it is constant; only the
-/// root's orientation is integrated (Runge-Kutta, fourth order). One workspace per thread.
+/// A robot in flight: its joints move as given, and the motion of its root follows from momentum
+/// conservation. The centre of mass follows its parabola exactly and the angular momentum about it
+/// is constant; only the root's orientation is integrated (Runge-Kutta, fourth order). One
+/// workspace per thread.
 class FreeFlight {
  public:
   explicit FreeFlight(std::shared_ptr<const dynamics::MultibodyModel> model);
 
-  /// Take-off at time 0. `q`, `v`: state of the robot, whose joints are those of the motion.
+  /// Take-off at time 0. `q`, `v`: state of the robot; its joints must agree with the motion.
   void TakeOff(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
-  /// Knots at `intervals` equal steps from 0 to `duration`; the first is the take-off. tau is what
-  /// inverse dynamics asks of the motors.
+  /// Knots at `intervals` equal steps from 0 to `duration`; the first is the take-off. tau comes
+  /// from inverse dynamics.
   std::vector<Knot> Fly(const JointMotion& joints, double duration, int intervals);
-  /// The last of these alone.
+  /// The last of these knots only.
   Knot Land(const JointMotion& joints, double duration, int intervals);
 
  private:

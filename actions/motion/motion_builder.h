@@ -11,14 +11,14 @@
 
 namespace possibility::actions {
 
-/// A stretch of motion with one set of contacts, as tasks over time.
+/// A part of a motion with one set of contacts, as tasks over time.
 struct MotionPhase {
   double duration = 0;                          ///< s
-  std::vector<int> contacts;                    ///< patches that bear
+  std::vector<int> contacts;                    ///< bearing patches
   std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
 };
 
-/// Thrown when a caller's `keep_going` said no.
+/// Thrown when a caller's `keep_going` returned false.
 class Abandoned : public std::runtime_error {
  public:
   Abandoned() : std::runtime_error("abandoned") {}
@@ -26,12 +26,12 @@ class Abandoned : public std::runtime_error {
 
 struct MotionSettings {
   double knot_spacing = 0.1;  ///< s, at most
-  /// Of every phase, at least: between knots forces are interpolated linearly while the motion's
-  /// accelerations are not, and the difference eats into the margins below.
+  /// Per phase. Between knots forces are interpolated linearly but the motion's accelerations are
+  /// not; the difference uses up part of the margins below.
   int minimum_intervals = 12;
-  double speed_margin = 0.95;     ///< fraction of each joint's speed limit that may be used
+  double speed_margin = 0.95;     ///< usable fraction of each joint's speed limit
   double friction_margin = 0.85;  ///< fraction of the friction coefficient
-  double normal_reserve = 0.01;   ///< of the weight, kept at every bearing point
+  double normal_reserve = 0.01;   ///< of the weight, least load of every bearing point
   double torque_margin = 0.95;    ///< fraction of each joint's effort limit
 };
 
@@ -41,14 +41,14 @@ void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& 
                         const Eigen::VectorXd& v, double speed_margin, double t);
 
 /// Turns task-level motion into knots with joint motion, torques and contact forces that satisfy
-/// inverse dynamics, limits and friction cones. One per thread.
+/// inverse dynamics, limits and friction cones. One instance per thread.
 class MotionBuilder {
  public:
   explicit MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings = {});
 
-  /// `guess`: q near the start (nq). Times start at 0.
-  /// `keep_going`: asked before every phase; false abandons the rest. May be empty.
-  /// @throws MotionError naming the limit that the motion would break and when; Abandoned.
+  /// `guess`: q near the start (nq). Times start at 0. `keep_going`: called before every phase;
+  /// false abandons the rest. May be empty.
+  /// @throws MotionError naming the limit that the motion would exceed and the time; Abandoned.
   std::vector<Phase> Build(const std::vector<MotionPhase>& phases, const Eigen::VectorXd& guess,
                            const std::function<bool()>& keep_going = {});
 
@@ -63,7 +63,7 @@ class MotionBuilder {
   WholeBodySolver solver_;
 };
 
-/// The same motion backwards in time: quasi-static or not, the same torques and forces realise it.
+/// The same motion backwards in time. The same torques and forces realise it, quasi-static or not.
 std::vector<Phase> Reversed(const std::vector<Phase>& phases);
 
 }  // namespace possibility::actions

@@ -10,13 +10,13 @@
 namespace possibility::actions {
 namespace {
 
-/// The motion goes on between samples; what it comes closer to than this is taken for hit, m.
+/// Distances below this count as hits, because the robot moves between samples, m.
 constexpr double kClearance = 0.01;
-/// The verifier's: links that bear against ground, and all others against anything, m.
+/// Tolerances of the verifier: bearing links against ground, and all other pairs, m.
 constexpr double kGroundTolerance = 1e-3;
 constexpr double kTolerance = 1e-4;
 
-/// So many take a millisecond or less; whether to go on is not asked more often.
+/// Samples between calls of `keep_going`: a millisecond or less.
 constexpr size_t kSamplesPerQuestion = 16;
 
 bool GoOn(size_t sample, const std::function<bool()>& keep_going) {

@@ -11,10 +11,10 @@
 
 namespace possibility::actions {
 
-/// Where every link is during a motion, in the frame that the motion is given in.
+/// Sampled link poses of a motion, in the motion's frame.
 class MotionPoses {
  public:
-  /// Samples are no farther apart than this, s.
+  /// Largest time between samples, s.
   static constexpr double kInterval = 0.005;
 
   MotionPoses(const models::RobotModel& robot, const std::vector<Phase>& motion);
@@ -29,15 +29,15 @@ class MotionPoses {
   std::vector<Sample> samples_;
 };
 
-/// What the whole robot hits when it moves so from a place (S at X_WS); empty if nothing: "hits
-/// 'bar' with Body_LSP at 1.30 s". Obstacles are kept at a distance; ground may be touched, and by
-/// links that bear on it at all be entered by as much as the verifier lets pass.
-/// `keep_going`: asked often, may be empty; once it says no the answer means nothing.
+/// The first hit of the whole robot when it executes the motion from a place (S at X_WS): "hits
+/// 'bar' with Body_LSP at 1.30 s"; empty if none. Requires a clearance from obstacles. Ground may
+/// be touched; links that ever bear on ground may enter it by the verifier's tolerance.
+/// `keep_going`: called often, may be empty; once it returns false the answer is meaningless.
 std::string FirstHit(const models::RobotModel& robot, const models::Environment& environment,
                      const models::CollisionChecker& checker, const MotionPoses& poses,
                      const Eigen::Isometry3d& X_WS, const std::function<bool()>& keep_going = {});
 
-/// Which of its own links the robot hits; empty if none: "hits Body_LSP with Body_RSP at 1.30 s".
+/// The first self-collision: "hits Body_LSP with Body_RSP at 1.30 s"; empty if none.
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
                          const MotionPoses& poses, const std::function<bool()>& keep_going = {});
 

@@ -25,8 +25,8 @@ struct NominalStance {
   }
 };
 
-/// @throws InputError if the posture's contacts cannot be brought to the ground by the joints of
-///   the gait's limbs, or a joint leaves its limits.
+/// @throws InputError if the joints of the gait's limbs cannot bring the posture's contacts to the
+/// ground, or a joint leaves its limits.
 NominalStance SolveNominalStance(const models::RobotModel& robot, const models::Gait& gait);
 
 }  // namespace possibility::actions

@@ -30,7 +30,7 @@ double RestToRestDuration(double distance, double acceleration);
 /// The bump 64 s^3 (1 - s)^3, 0 at both ends with zero rate and acceleration, 1 in the middle.
 ScalarSignal Bump(double t, double duration);
 
-/// The quintic that begins at `value` with `rate` and no acceleration and is at rest at 0 from
+/// The quintic that begins at `value` with `rate` and zero acceleration, and rests at 0 from
 /// `duration` on.
 template <typename T>
 Signal<T> DyingOut(const T& value, const T& rate, double t, double duration) {
@@ -45,7 +45,8 @@ Signal<T> DyingOut(const T& value, const T& rate, double t, double duration) {
             rate * (-s * (36 - 96 * s + 60 * s2) / duration))};
 }
 
-/// The quintic that is `from` at t = 0 and `to` at t = `duration`, in all three.
+/// The quintic that equals `from` at t = 0 and `to` at t = `duration`, in value and both
+/// derivatives.
 template <typename T>
 Signal<T> Quintic(const Signal<T>& from, const Signal<T>& to, double t, double duration) {
   const double s = t / duration;

@@ -17,7 +17,7 @@ class SupportPolygon {
   double Margin(const Eigen::Vector2d& p) const;
 
   /// The point closest to `preferred` that keeps `margin` from every edge; if there is none, the
-  /// closest that keeps the largest margin there is (to 1 mm).
+  /// closest point with the largest possible margin (to 1 mm).
   Eigen::Vector2d Nearest(const Eigen::Vector2d& preferred, double margin) const;
 
  private:

@@ -11,12 +11,12 @@
 
 namespace possibility::actions {
 
-/// A robot that rolls over its toes in the plane y = 0, heels lifted: its joints move as told, and
-/// the ground, which can give no moment about the line of the toes, decides how the whole turns
-/// about it (Runge-Kutta, fourth order). One workspace per thread.
+/// A robot that rolls over its toes in the plane y = 0, heels lifted. Its joints move as given. The
+/// rotation of the whole robot about the line of the toes follows from the ground exerting no
+/// moment about that line (Runge-Kutta, fourth order). One workspace per thread.
 class ToeRoll {
  public:
-  /// `toes`: points that bear, all on one line parallel to y.
+  /// `toes`: bearing points, all on one line parallel to y.
   ToeRoll(std::shared_ptr<const dynamics::MultibodyModel> model,
           std::vector<dynamics::ContactPoint> toes, const MotionSettings& settings);
 
@@ -32,8 +32,9 @@ class ToeRoll {
   };
   double Acceleration(const Turn& turn, const Signal<Eigen::VectorXd>& joints);
   Turn Advance(const Turn& turn, double t, double step, const JointMotion& joints);
-  /// Sets the state at which the toes are where they were, and accelerates the root at `pitch`
-  /// (rad/s^2) so that they stay; the moment about their line that the ground would have to give.
+  /// Sets the state in which the toes are at their initial place, and accelerates the root at
+  /// `pitch` (rad/s^2) so that they stay. Returns the ground's required moment about the line of
+  /// the toes.
   double Place(const Turn& turn, const Signal<Eigen::VectorXd>& joints, double pitch);
   Knot KnotAt(const Turn& turn, double t, const JointMotion& joints);
 

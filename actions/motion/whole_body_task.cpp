@@ -63,7 +63,7 @@ WholeBodyState WholeBodySolver::Solve(const WholeBodyTask& task, const VectorXd&
     const double largest = step.lpNorm<Eigen::Infinity>();
     if (largest > kLargestStep) step *= kLargestStep / largest;
     for (size_t i = 0; i < unknowns_.size(); ++i) {
-      // v and q differ by the quaternion's extra entry, and the root's turn is never unknown.
+      // q has one more entry than v (the quaternion), and the root's rotation is never unknown.
       state.q[unknowns_[i] + 1] += step[static_cast<int>(i)];
     }
   }

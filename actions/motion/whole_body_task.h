@@ -18,16 +18,16 @@ class MotionError : public std::runtime_error {
   explicit MotionError(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// Where one limb's contact patch has to be.
+/// Required pose of one limb's contact patch.
 struct LimbTask {
   const models::GaitLimb* limb = nullptr;
-  /// Of the patch centre, world, m.
+  /// Patch centre, world, m.
   Signal<Eigen::Vector3d> position = ConstantVector<Eigen::Vector3d>(Eigen::Vector3d::Zero());
   ScalarSignal yaw;                                           ///< turns `orientation` about +z
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< of the link at yaw 0
 };
 
-/// How the root is turned, in world axes.
+/// Orientation of the root, in world axes.
 struct RootTurn {
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
@@ -37,9 +37,9 @@ struct RootTurn {
 /// Rz(yaw) Ry(pitch) over time.
 RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch);
 
-/// What the whole body has to do at one instant. The unknowns are the joints of the limbs and,
-/// if the centre of mass is tasked, x and y of the root: as many as there are rows, so the motion
-/// is a smooth function of the task, without memory of how it got there.
+/// Task of the whole body at one instant. The unknowns are the joints of the limbs and, if there is
+/// a task for the centre of mass, x and y of the root: as many as rows. The motion is therefore a
+/// smooth function of the task, without memory.
 struct WholeBodyTask {
   ScalarSignal root_yaw;
   ScalarSignal root_pitch;
@@ -49,7 +49,7 @@ struct WholeBodyTask {
   Signal<Eigen::Vector2d> root_position = ConstantVector<Eigen::Vector2d>(Eigen::Vector2d::Zero());
   std::optional<Signal<Eigen::Vector2d>> centre_of_mass;  ///< x and y, world, m
   std::vector<LimbTask> limbs;
-  Signal<Eigen::VectorXd> joints;  ///< all; limb joints are overruled
+  Signal<Eigen::VectorXd> joints;  ///< all joints; the tasks of limbs override theirs
 };
 
 struct WholeBodyState {
@@ -58,13 +58,13 @@ struct WholeBodyState {
   Eigen::VectorXd a;
 };
 
-/// Solves tasks by Newton's method and differentiates the solution exactly in time.
-/// One per thread.
+/// Solves tasks by Newton's method and differentiates the solution exactly in time. One instance
+/// per thread.
 class WholeBodySolver {
  public:
   explicit WholeBodySolver(const models::RobotModel& robot);
 
-  /// `guess`: q to start from (nq). Leaves the kinematics at the solution.
+  /// `guess`: initial q (nq). Leaves the kinematics at the solution.
   /// @throws MotionError if Newton's method does not converge.
   WholeBodyState Solve(const WholeBodyTask& task, const Eigen::VectorXd& guess);
 

@@ -12,7 +12,7 @@ namespace possibility::actions {
 namespace {
 
 constexpr double kVast = 20;               // m
-constexpr const char* kMotion = "motion";  // what the plan's action is called, whatever it is
+constexpr const char* kMotion = "motion";  // action name in the plan
 
 models::Obstacle Floor(const std::string& name, double x, double height) {
   models::Obstacle floor;
@@ -23,8 +23,8 @@ models::Obstacle Floor(const std::string& name, double x, double height) {
   return floor;
 }
 
-/// Floors as far as the contacts of the stances reach, and no farther: where they overlapped, one
-/// would be on top of the other.
+/// Floors end at the contacts of the stances. If they overlapped, one would lie on top of the
+/// other.
 models::Scenario BareGround(const SagittalModel& model, const NominalStance& launch,
                             const NominalStance& landing, double distance, double height) {
   const collocation::Bounds gap = GapBetween(model, distance);

@@ -8,7 +8,7 @@
 namespace possibility::actions {
 namespace {
 
-// A field that is added to the settings belongs here.
+// Every new field of the settings must be added here.
 
 std::vector<double> Fields(const collocation::SagittalLimits& l) {
   return {l.friction,         l.friction_fraction, l.speed_fraction,

@@ -9,13 +9,12 @@
 
 namespace possibility::actions {
 
-/// Hash of what the solved motions of a robot depend on: the robot, the settings of their problem,
-/// and `own`, the fields that a kind of motion adds to them. Solutions of another identity are
-/// stale.
+/// Hash of everything that solved motions depend on: the robot, the settings of the problem, and
+/// `own`, the settings that a kind of motion adds. Solutions with another identity are stale.
 std::string MotionIdentity(const models::RobotModel& robot, const SagittalSettings& settings,
                            const std::vector<double>& own);
 
-/// Where a library keeps the motions of one identity; empty if `library` is.
+/// Folder of a library for the motions of one identity; empty if `library` is.
 std::filesystem::path MotionFolder(const std::filesystem::path& library,
                                    const std::string& identity);
 

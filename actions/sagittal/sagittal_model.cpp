@@ -25,7 +25,7 @@ std::set<int> JointsOfLimbs(const models::Gait& gait) {
   return joints;
 }
 
-/// `launch` with every joint that no limb of either gait moves as `landing` has it.
+/// `launch` with every joint outside the limbs of both gaits as in `landing`.
 VectorXd Ready(const NominalStance& launch, const NominalStance& landing) {
   std::set<int> moved = JointsOfLimbs(*launch.gait);
   moved.merge(JointsOfLimbs(*landing.gait));
@@ -48,7 +48,7 @@ Eigen::AlignedBox3d Bounds(const models::Link& link) {
   return box;
 }
 
-/// Of a link's shapes around its joint, at the end of the link that ends there.
+/// Radius of a link's shapes around a joint, at the end of the link.
 double HousingRadius(const Eigen::AlignedBox3d& box) {
   if (box.isEmpty()) return 0;
   const double x = std::max(std::abs(box.min().x()), std::abs(box.max().x()));
@@ -61,7 +61,7 @@ double HousingRadius(const Eigen::AlignedBox3d& box) {
 SagittalModel::SagittalModel(const models::RobotModel& robot, const NominalStance& launch,
                              const NominalStance& landing)
     : reduction_(robot, VectorXd(landing.q.tail(robot.num_joints()))) {
-  // Stances are symmetric up to what their solver leaves.
+  // Stances are symmetric up to the error of their solver.
   constexpr double kSymmetry = 1e-6;
   ready_ = reduction_.ReduceConfiguration(Ready(launch, landing), kSymmetry);
   landed_ = reduction_.ReduceConfiguration(landing.q, kSymmetry);
@@ -151,7 +151,7 @@ void SagittalModel::FindSeparations() {
   const Eigen::AlignedBox3d trunk = bounds(0);
   const Eigen::AlignedBox3d foot = bounds(heel_.link);
   if (trunk.isEmpty() || foot.isEmpty()) return;
-  // Balls as thick as the trunk fill it from the root up; one about the ankle holds the foot.
+  // Balls as thick as the trunk fill it from the root up; a ball about the ankle contains the foot.
   const double radius = trunk.sizes().x() / 2;
   const double distance = radius + foot.sizes().x() / 2 + kMargin;
   const double top = trunk.max().z() - radius;
@@ -176,14 +176,14 @@ void SagittalModel::FindFreeRanges(const models::RobotModel& robot) {
   }
 }
 
-/// How far `joint` can go from where it is in `q` towards `limit`.
+/// Position that `joint` can reach from `q` towards `limit`.
 double SagittalModel::FreeLimit(const models::CollisionChecker& checker, const VectorXd& q,
                                 int joint, double limit) const {
   constexpr double kStep = 0.05;       // rad
   constexpr double kClearance = 2e-3;  // m
   const models::RobotModel& robot = reduction_.full();
   dynamics::TreeKinematics kinematics(robot);
-  // The links that the joint's own limb consists of, the root with it.
+  // Links of the joint's own limb, including the root.
   std::set<int> limb = {0};
   for (int link = reduction_.joints()[joint].left + 1; link > 0;
        link = robot.joints[link - 1].parent) {
@@ -226,7 +226,7 @@ void SagittalModel::FindGuards() {
     if (bearing.contains(link)) continue;
     guards_.push_back({{link, Vector3d::Zero()}, HousingRadius(Bounds(tree.links[link]))});
   }
-  // A hand that bears on a peg sticks out on its other side, and the forearm ends at it.
+  // Guards the end of the forearm (the hand's origin) and the side of the hand opposite its peg.
   for (const ContactPoint& hand : hands_) {
     const Eigen::AlignedBox3d box = Bounds(tree.links[hand.link]);
     guards_.push_back({{hand.link, Vector3d::Zero()}, 0});

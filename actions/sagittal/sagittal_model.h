@@ -12,16 +12,16 @@
 
 namespace possibility::actions {
 
-/// Everything about the standing long jump of one robot that does not depend on the jump: the
-/// robot in its sagittal plane, and the two stances that a jump leads from and to. Joints that
-/// cannot stay in the plane are locked as the landing stance has them.
+/// The part of a robot's standing long jump that does not depend on the jump: the robot in its
+/// sagittal plane, and the launch and landing stances. Joints that cannot stay in the plane are
+/// locked at their positions in the landing stance.
 ///
 /// Planar configurations (pitch, x, z, joints) are relative to the frame of their own stance: on
 /// the ground, below the root.
 class SagittalModel {
  public:
-  /// @throws InputError if the robot is not symmetric, the gaits' postures are not, or the landing
-  /// does not bear on the patches that the launch bears on.
+  /// @throws InputError if the robot or the gaits' postures are not symmetric, or if the landing
+  /// does not bear on all patches of the launch.
   SagittalModel(const models::RobotModel& robot, const NominalStance& launch,
                 const NominalStance& landing);
 
@@ -30,17 +30,17 @@ class SagittalModel {
     return reduction_.model();
   }
 
-  /// The launch stance, all joints that no limb moves already where the landing has them.
+  /// The launch stance, with the joints outside the limbs already at their landing positions.
   const Eigen::VectorXd& ready() const { return ready_; }
   /// The landing stance.
   const Eigen::VectorXd& landed() const { return landed_; }
 
   const dynamics::ContactPoint& heel() const { return heel_; }
   const dynamics::ContactPoint& toe() const { return toe_; }
-  /// What lands besides the feet, a point per patch.
+  /// Contact points that land besides the feet, one per patch.
   const std::vector<dynamics::ContactPoint>& hands() const { return hands_; }
-  /// By hand: the rounded end of its peg, which touches the ground wherever the peg leans; of
-  /// radius 0 if the end is not round.
+  /// By hand: the rounded end of its peg, which touches the ground at any tilt of the peg. Radius 0
+  /// if the end is not round.
   struct Ball {
     dynamics::ContactPoint centre;
     double radius = 0;  ///< m
@@ -54,29 +54,30 @@ class SagittalModel {
   };
   const Limb& leg() const { return leg_; }                 ///< to the ankle
   const std::vector<Limb>& arms() const { return arms_; }  ///< by hand
-  /// Two points of the body that have to stay apart.
+  /// Two points of the body that must stay apart.
   struct Separation {
     dynamics::ContactPoint a, b;
-    double distance = 0;  ///< m, at least
+    double distance = 0;  ///< m, least allowed
   };
   /// Between the trunk and the feet.
   const std::vector<Separation>& separations() const { return separations_; }
 
-  /// Limits of the planar joints within which no link runs into another one of its own limb or
-  /// the trunk, the other joints as in either stance; within their position limits, rad or m.
+  /// Limits of the planar joints within which no link collides with its own limb or the trunk, with
+  /// the other joints as in either stance. Within the position limits, rad or m.
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
-  /// Points of the body that have to stay above the ground, by the radius of what is around them:
-  /// joints in their housings, and corners of the trunk.
+  /// Points of the body that must stay above the ground by the radius of their surroundings: joints
+  /// in their housings, and corners of the trunk.
   struct Guard {
     dynamics::ContactPoint point;
     double radius = 0;  ///< m
   };
   const std::vector<Guard>& guards() const { return guards_; }
-  /// Half-way along the arms' links, for grounds with an edge that fits between the guards.
+  /// Guards half-way along the arms' links, for grounds with an edge that fits between the other
+  /// guards.
   const std::vector<Guard>& middle_guards() const { return middle_guards_; }
 
-  /// x and z of a point of the plane at planar q.
+  /// x and z of a point in the plane at planar q.
   Eigen::Vector2d Position(const dynamics::ContactPoint& point, const Eigen::VectorXd& q) const;
 
  private:

@@ -47,7 +47,7 @@ class LinearFunction : public collocation::Function {
   VectorXd weights_;
 };
 
-/// Ground at least as high as the real one wherever the gap's edges are moved a little towards each
+/// Ground that is at least as high as the real one with the gap's edges moved slightly towards each
 /// other.
 collocation::SmoothStep StepBetween(const Bounds& gap, double height) {
   constexpr double kWidest = 0.1;  // m
@@ -102,8 +102,8 @@ void SagittalProblem::StartAtRest(int phase) {
   }
 }
 
-/// What holds points by their velocities: a sole is one body, whose heel and toe cannot move
-/// apart, so that the toe's x would be a second row for the same thing.
+/// Bounds that hold points by their velocities. Heel and toe belong to one rigid sole, so the toe's
+/// x would be a redundant row.
 std::vector<Bounds> SagittalProblem::HeldSolesAnd(std::size_t hands) {
   std::vector<Bounds> bounds = {kZero, kZero, kFree, kZero};
   bounds.insert(bounds.end(), 2 * hands, kZero);
@@ -141,7 +141,7 @@ void SagittalProblem::HoldFeetAndHands(int phase, At at) {
 void SagittalProblem::KeepUpright(int phase, const ContactPoint& hand, At at,
                                   const std::string& name) {
   const models::RobotModel& tree = model_.planar()->tree();
-  // In the plane a link's angle is the sum of those of the joints that carry it.
+  // In the plane a link's angle is the sum of the angles of the joints that carry it.
   std::vector<Variable> angles = {phases_[phase].q[0]};
   VectorXd signs = VectorXd::Ones(1);
   double upright = model_.landed()[0];
@@ -180,8 +180,8 @@ void SagittalProblem::StartPlaced(int phase, int first_point) {
 
 void SagittalProblem::EndAtRest(int phase) {
   const collocation::SagittalPhase& robot = phases_[phase];
-  // With the contacts held, legs and arms follow from the root; only what no contact determines is
-  // fixed beside it.
+  // With the contacts held, legs and arms follow from the root. Fixes only the root and what no
+  // contact determines.
   const VectorXd& q = model_.landed();
   robot.phase->Fix(robot.q[0], q[0], At::kEnd);
   robot.phase->Fix(robot.q[1], q[1] + distance_, At::kEnd);
@@ -243,7 +243,7 @@ void SagittalProblem::StayWithinRanges(int phase, At at) {
   const double margin = settings_.limits.joint_margin;
   collocation::SagittalPhase& robot = phases_[phase];
   for (int joint = 0; joint < model_.planar()->num_joints(); ++joint) {
-    // The stances themselves are given.
+    // The stances themselves are fixed.
     const double begin = std::min(model_.ready()[3 + joint], model_.landed()[3 + joint]);
     const double end = std::max(model_.ready()[3 + joint], model_.landed()[3 + joint]);
     robot.phase->Bound(robot.q[3 + joint], {std::min(begin, model_.lower()[joint] + margin),

@@ -11,36 +11,35 @@
 
 namespace possibility::actions {
 
-/// What a dynamic action in the sagittal plane may use, and how far it stays from what must not
-/// happen.
+/// Limits and safety margins of a dynamic action in the sagittal plane.
 struct SagittalSettings {
-  /// What is left to the whole robot's asymmetry and to feedback: some of everything.
+  /// Keeps a reserve of every limit for the whole robot's asymmetry and for feedback.
   collocation::SagittalLimits limits = {.friction_fraction = 0.65,
                                         .speed_fraction = 0.9,
                                         .torque_fraction = 0.9,
                                         .max_base_speed = 8,
                                         .min_normal_force = 30,
                                         .joint_margin = 0.03};
-  double body_clearance = 0.02;  ///< m, what is around the guards above the ground in every phase
+  double body_clearance = 0.02;  ///< m, guards above the ground in every phase
   double hand_clearance = 0.03;  ///< m, hands above the ground they leave
   double hand_approach = 0.01;   ///< m, hands above the ground they are about to touch
-  /// Heel and toe each bear at least this fraction of what the sole bears, while it is flat.
+  /// Heel and toe each bear at least this fraction of the sole's load while the sole is flat.
   double sole_margin = 0.1;
-  double max_hand_tilt = 0.35;  ///< rad, of a bearing hand from how the stance has it
-  /// Of a stretched arm's length, while a hand bears: a straight arm could not follow the body to
-  /// either side.
+  double max_hand_tilt = 0.35;  ///< rad, of a bearing hand from its orientation in the stance
+  /// Largest arm length while the hand bears, as a fraction of the stretched arm's: a straight arm
+  /// could not follow the body to either side.
   double arm_reach = 0.96;
 };
 
-/// From where the launch ground ends to where the landing ground begins, along x in the frame of
-/// the launch stance, m, if both are no longer than the contacts need. Empty (upper < lower) if the
-/// robot lands before where it stood.
+/// From the end of the launch ground to the beginning of the landing ground, along x in the launch
+/// stance's frame, m, if both grounds are no longer than the contacts need. Empty (upper < lower)
+/// if the robot lands short of its launch contacts.
 collocation::Bounds GapBetween(const SagittalModel& model, double distance);
 
 /// An optimal-control problem of a robot that moves from SagittalModel's launch stance to its
-/// landing stance, whose frame is at `distance` and `height` (m) in the frame of the launch.
-/// Derived classes say in which phases; this class has what they share. Minimises joint
-/// accelerations and contact forces.
+/// landing stance, whose frame is at `distance` and `height` (m) in the launch stance's frame.
+/// Derived classes add the phases; this class holds what they share. Minimises joint accelerations
+/// and contact forces.
 class SagittalProblem {
  public:
   SagittalProblem(const SagittalProblem&) = delete;
@@ -61,51 +60,51 @@ class SagittalProblem {
 
   /// The phase begins at rest in SagittalModel::ready().
   void StartAtRest(int phase);
-  /// The phase's points do not move: no velocities and no accelerations at the knots. With
-  /// velocities at all nodes instead, two of them would determine the accelerations of the interval
-  /// by those at its start, and what is wrong there would stay wrong in every interval after it.
-  /// `held`: of x and z of each point.
+  /// The phase's points do not move: zero velocity and acceleration at the knots. Zero velocities
+  /// at all nodes instead would determine the accelerations of each interval from those at its
+  /// start, and an error there would persist through all later intervals. `held`: for x and z of
+  /// each point.
   void HoldPoints(int phase, const std::vector<collocation::Bounds>& held, collocation::At at);
   /// Heel and toe, the phase's first two points, do not move, and both bear.
   void HoldSoles(int phase, collocation::At at);
   /// Heel, toe and hands do not move; arms are never straight.
   void HoldFeetAndHands(int phase, collocation::At at);
-  /// The points of the phase begin it without acceleration. Velocities at the nodes leave the
-  /// acceleration at the first one free, and an error there comes back with alternating sign at
-  /// every node after it.
+  /// The points begin the phase with zero acceleration. Velocities at the nodes leave the
+  /// acceleration at the first node free, and an error there recurs with alternating sign at every
+  /// later node.
   void StartHeld(int phase, const std::vector<collocation::Bounds>& held);
   static std::vector<collocation::Bounds> HeldSoles() { return HeldSolesAnd(0); }
   static std::vector<collocation::Bounds> HeldSolesAnd(std::size_t hands);
-  /// The points from `first_point` on begin the phase where the landing stance has them.
+  /// The points from `first_point` on begin the phase at their places in the landing stance.
   void StartPlaced(int phase, int first_point);
   /// The phase ends at rest in the landing stance.
   void EndAtRest(int phase);
-  /// Points at least `clearance` above the ground.
+  /// Keeps points at least `clearance` above the ground.
   void KeepAbove(int phase, const std::string& name,
                  const std::vector<dynamics::ContactPoint>& points, double clearance,
                  collocation::At at);
   void KeepAbove(int phase, const std::string& name,
                  const std::vector<dynamics::ContactPoint>& points,
                  const std::vector<double>& clearances, collocation::At at);
-  /// The guards, by their radii and settings.body_clearance.
+  /// Keeps the guards above the ground by their radii plus settings.body_clearance.
   void KeepBodyAbove(int phase, collocation::At at);
-  /// Hands and the rounded ends of their pegs; a peg that leans when it is set down goes into the
-  /// ground with its round end by a little.
+  /// Keeps hands and the rounded ends of their pegs above the ground. A peg that is tilted at
+  /// touchdown enters the ground slightly with its round end.
   void KeepHandsAbove(int phase, double clearance, collocation::At at);
-  /// Joints where the robot does not run into itself, feet away from the trunk.
+  /// Avoids self-collision: joints within their free ranges, feet away from the trunk.
   void StayWithinRanges(int phase, collocation::At at);
   void KeepUpright(int phase, const dynamics::ContactPoint& hand, collocation::At at,
                    const std::string& name);
   void KeepBent(int phase, const std::string& name, const SagittalModel::Limb& limb, double reach,
                 collocation::At at);
   void AddCosts();
-  /// A straight line between shares of the way from stance to stance.
+  /// Initial guess: a straight line between two fractions of the way from stance to stance.
   void GuessLine(int phase, double duration, double from, double to);
 
   const SagittalModel& model_;
   double distance_;
   double height_;
-  /// The ground, if it is not level.
+  /// The ground; none if it is level.
   std::optional<collocation::SmoothStep> step_;
   SagittalSettings settings_;
   collocation::OptimalControlProblem problem_;

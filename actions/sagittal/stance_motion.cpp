@@ -18,9 +18,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kPreparation = 1.0;   // s: folding what the plan does not use
+constexpr double kPreparation = 1.0;   // s: folds the joints that the plan does not use
 constexpr double kKnotSpacing = 0.01;  // s
-constexpr double kCorrection = 0.5;    // s, at most: until the motion is as planned
+constexpr double kCorrection = 0.5;    // s, longest time until the motion is as planned
 
 Eigen::Quaterniond Orientation(const VectorXd& q) { return {q[0], q[1], q[2], q[3]}; }
 
@@ -46,7 +46,7 @@ Eigen::Matrix3d Exponential(const Vector3d& phi) {
   return Eigen::AngleAxisd(angle, phi / angle).toRotationMatrix();
 }
 
-/// exp(phi(t)) after `turn`.
+/// `turn` followed by exp(phi(t)).
 RootTurn TurnedOnBy(const Signal<Vector3d>& phi, const RootTurn& turn) {
   const Eigen::Matrix3d R = Exponential(phi.value);
   const Eigen::Matrix3d J = LeftJacobian(phi.value);
@@ -61,7 +61,7 @@ RootTurn TurnedOnBy(const Signal<Vector3d>& phi, const RootTurn& turn) {
   return result;
 }
 
-/// A signal of the time that is left as one of time.
+/// Converts a signal of the remaining time into a signal of time.
 Signal<VectorXd> Reversed(const Signal<VectorXd>& signal) {
   return {signal.value, -signal.rate, signal.acceleration};
 }
@@ -86,9 +86,9 @@ StanceMotion::StanceMotion(const models::RobotModel& robot, const SagittalModel&
       all_(ContactsOf(*landing.gait)),
       solver_(robot) {
   settings_.knot_spacing = kKnotSpacing;
-  // A heel unloads to nothing before it lifts.
+  // A heel unloads to zero before it lifts.
   settings_.normal_reserve = 0;
-  // What the plan in the plane has left over is for what only the whole robot sees.
+  // The planar plan's reserve is for effects that only the whole robot has.
   settings_.friction_margin = 0.88;
   settings_.torque_margin = 0.99;
   settings_.speed_margin = 0.99;

@@ -12,7 +12,7 @@
 
 namespace possibility::actions {
 
-/// What bears, and where it stays.
+/// Bearing contacts and their places.
 struct Support {
   std::vector<int> contacts;  ///< whole patches
   std::vector<std::string> names;
@@ -20,13 +20,12 @@ struct Support {
   std::vector<LimbTask> limbs;
 };
 
-/// A sagittal plan turned into motion of the whole robot while it stands on something: soles and
-/// pegs stay exactly where they are, the root and all other joints move as planned, and whatever
-/// the robot's asymmetry has added before dies out. Everything is relative to the launch stance's
-/// frame. One per thread.
+/// Turns a sagittal plan into motion of the whole robot in stance: soles and pegs stay exactly in
+/// place, the root and all other joints move as planned, and earlier deviations due to the robot's
+/// asymmetry decay. Everything is relative to the launch stance's frame. One per thread.
 class StanceMotion {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   StanceMotion(const models::RobotModel& robot, const SagittalModel& model,
                const NominalStance& launch, const NominalStance& landing);
 
@@ -34,31 +33,33 @@ class StanceMotion {
   const SagittalModel& model() const { return model_; }
   const MotionSettings& settings() const { return settings_; }
 
-  Support LaunchFeet() const;  ///< the patches of the launch, where that stance has them
+  Support LaunchFeet() const;  ///< the launch's patches at their places in that stance
   Support Toes() const;        ///< their foremost points; bears no limb task
-  /// The launch's patches where the landing stance has them, its frame at `task`.
+  /// The launch's patches at their places in the landing stance, whose frame is at `distance`,
+  /// `height`.
   Support LandingFeet(double distance, double height) const;
-  Support LandingAll(double distance, double height) const;  ///< hands too
+  Support LandingAll(double distance, double height) const;  ///< including hands
 
   /// At rest, from the launch stance to SagittalModel::ready().
   Phase Prepare() const;
-  /// Root and free joints begin as `from` has them, approach the plan, and end with the joints and
-  /// their rates beside it by what is given; the limbs of the support stay where they are.
-  /// @throws MotionError naming the limit that the whole robot would break.
+  /// Root and free joints begin as in `from` and approach the plan; at the end the joints and their
+  /// rates differ from the plan by `end_offset` and `end_rate`. The limbs of the support stay in
+  /// place.
+  /// @throws MotionError naming the limit that the whole robot would exceed.
   Phase Follow(const collocation::PhaseTrajectory& plan, const Knot& from, const Support& support,
                const Eigen::VectorXd& end_offset, const Eigen::VectorXd& end_rate) const;
   /// The same, ending as planned.
   Phase Follow(const collocation::PhaseTrajectory& plan, const Knot& from,
                const Support& support) const;
-  /// The same, ending with the limbs of `arriving` at their places and at no speed.
+  /// The same, ending with the limbs of `arriving` at their places and at zero speed.
   Phase FollowUntilPlaced(const collocation::PhaseTrajectory& plan, const Knot& from,
                           const Support& support, const Support& arriving);
 
-  /// q and v of the plan at share s of its duration.
+  /// q and v of the plan at fraction s of its duration.
   Knot PlannedKnot(const collocation::PhaseTrajectory& plan, double s) const;
   /// All joints at time t of a plan.
   Signal<Eigen::VectorXd> Joints(const collocation::PhaseTrajectory& plan, double t) const;
-  /// The limbs of a support at their places and at no speed, all else as in `knot`.
+  /// The limbs of a support at their places and at zero speed, everything else as in `knot`.
   /// @throws MotionError if that is out of reach.
   WholeBodyState StateAt(const Knot& knot, const Support& support);
 
