@@ -6,9 +6,9 @@
 
 namespace possibility::actions {
 
-/// Bernstein coefficients of polynomials over an interval: one row per polynomial. Their values
-/// are convex combinations of the columns, the first and the last of which they take at the ends
-/// (Farin 2002, Curves and Surfaces for CAGD, chapter 5).
+/// Bernstein coefficients of polynomials over an interval: one row per polynomial. Values are
+/// convex combinations of the columns; at the ends they equal the first and the last column (Farin
+/// 2002, Curves and Surfaces for CAGD, chapter 5).
 template <int Rows, int Columns>
 struct ControlPolygon {
   Eigen::Matrix<double, Rows, Columns> points;
@@ -16,13 +16,13 @@ struct ControlPolygon {
   auto front() const { return points.col(0); }
   auto back() const { return points.col(Columns - 1); }
 
-  /// Those of the derivative; `duration`: s, of the interval.
+  /// Coefficients of the derivative; `duration`: s, of the interval.
   ControlPolygon<Rows, Columns - 1> Rate(double duration) const {
     return {(points.template rightCols<Columns - 1>() - points.template leftCols<Columns - 1>()) *
             ((Columns - 1) / duration)};
   }
 
-  /// Those over the first and the second half of the interval (de Casteljau).
+  /// Coefficients over the first and the second half of the interval (de Casteljau).
   void Halve(ControlPolygon* first, ControlPolygon* second) const {
     Eigen::Matrix<double, Rows, Columns> level = points;
     for (int k = 0; k < Columns; ++k) {
@@ -35,17 +35,17 @@ struct ControlPolygon {
   }
 };
 
-/// Where a function is greatest, by BoundedMaximum.
+/// Maximum of a function, from BoundedMaximum.
 struct Maximum {
   double value = 0;
-  double place = 0;  ///< within the interval, of which it is the fraction
+  double place = 0;  ///< as a fraction of the interval
 };
 
-/// The greatest value of a function over an interval, to within `accuracy`, or some value that is
-/// not greater than it if all are at most `enough` + `accuracy`.
-/// `Piece`: the function over an interval. Front() and Back() are its values at the ends, Bound()
-/// is at least its greatest value and tends to it as the interval shrinks, Halve(&first, &second)
-/// gives it over the halves.
+/// The maximum of a function over an interval, to within `accuracy`. If the maximum is at most
+/// `enough` + `accuracy`, the result may be any lower value of the function. `Piece`: the function
+/// over an interval. Front() and Back() are its values at the ends, Bound() is at least its
+/// greatest value and tends to it as the interval shrinks, Halve(&first, &second) gives it over the
+/// halves.
 template <typename Piece>
 class BoundedMaximum {
  public:
@@ -58,7 +58,7 @@ class BoundedMaximum {
   const Maximum& best() const { return best_; }
 
  private:
-  // A function that never comes near its bound is taken at its bound.
+  // If a function never comes near its bound, the bound is used.
   static constexpr int kDeepest = 40;
   static constexpr int kMostPieces = 10000;
 

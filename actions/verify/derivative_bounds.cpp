@@ -11,17 +11,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The derivatives of exp(x) at x = 0, from those of x: the complete Bell polynomials. They bound
-/// those of a rotation by the derivatives of its rotation vector phi, since
-/// |D^m exp([phi])(h, ..., h)| <= |h|^m for skew matrices (Duhamel's formula: integrals of products
-/// of m factors [h] and of rotations).
+/// The derivatives of exp(x) at x = 0, from those of x: the complete Bell polynomials. Applied to
+/// the derivatives of a rotation vector phi they bound those of the rotation, since |D^m
+/// exp([phi])(h, ..., h)| <= |h|^m for skew matrices (Duhamel's formula: integrals of products of m
+/// factors [h] and of rotations).
 Derivatives ExponentialOf(const Derivatives& x) {
   const double x1_squared = x[1] * x[1];
   return {1, x[1], x[2] + x1_squared, x[3] + x[1] * (3 * x[2] + x1_squared),
           x[4] + 4 * x[1] * x[3] + 3 * x[2] * x[2] + x1_squared * (6 * x[2] + x1_squared)};
 }
 
-/// Of a product, by Leibniz's rule.
+/// Derivatives of a product, by Leibniz's rule.
 Derivatives Product(const Derivatives& x, const Derivatives& y) {
   return {x[0] * y[0], x[1] * y[0] + x[0] * y[1], x[2] * y[0] + 2 * x[1] * y[1] + x[0] * y[2],
           x[3] * y[0] + 3 * (x[2] * y[1] + x[1] * y[2]) + x[0] * y[3],
@@ -45,9 +45,9 @@ void AddProduct(const X& x, const Y& y, std::array<double, 3>* sum) {
   (*sum)[2] += x[2] * y[0] + 2 * x[1] * y[1] + x[0] * y[2];
 }
 
-/// Value and two derivatives of the derivative of the angular momentum R I R' omega of a body whose
-/// rotation has a vector with derivatives x: omega is at most the derivative of exp(x), and so the
-/// momentum at most spin times exp(3 x)' / 3.
+/// Bounds of the rate of the angular momentum R I R' omega of a body, and of its first two
+/// derivatives; x bounds the derivatives of the rotation vector. omega is at most the derivative of
+/// exp(x), so the momentum is at most spin times exp(3 x)' / 3.
 std::array<double, 3> SpinRate(double spin, const Derivatives& x) {
   const Derivatives cube = ExponentialOf(Scaled(3, x));
   return {spin / 3 * cube[2], spin / 3 * cube[3], spin / 3 * cube[4]};
@@ -113,7 +113,7 @@ void DerivativeBounds::SetLinks() {
       Add(link.joint, &arm);
       link.rotation = parent.rotation;
     } else {
-      // Rotation vectors of factors of a product add up in the exponent.
+      // Rotation vectors of the factors of a product add up in the exponent.
       Add(link.joint, &link.turning);
       link.rotation = ExponentialOf(link.turning);
     }
@@ -165,7 +165,7 @@ void DerivativeBounds::AddContacts(const Knot& k0, const Knot& k1,
     const double change = (k1.forces.col(i) - k0.forces.col(i)).norm() / (k1.t - k0.t);
     const std::array<double, 3> force = {std::max(k0.forces.col(i).norm(), k1.forces.col(i).norm()),
                                          change, 0};
-    // From the origin of each link on the way to the root to the point.
+    // From each link's origin, on the way to the root, to the point.
     Derivatives arm = Scaled(radius, links_[point.link].rotation);
     for (int link = point.link; link > 0; link = robot_->joints[link - 1].parent) {
       const models::Joint& joint = robot_->joints[link - 1];

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kHeight = 1.1e-3;  // m: a plan's points bear within 1 mm of their ground
-constexpr double kEdge = 0.01;      // m: a rigid sole is borne by the edge that it overlaps
+constexpr double kEdge = 0.01;      // m: a rigid sole bears on an edge that it overlaps
 constexpr double kRest = 1e-3;      // m/s and rad/s
 
 /// The knots of a segment as one function of time.
@@ -38,7 +38,7 @@ class Track {
     }
   }
 
-  /// `t` before the start or after the end: the knot there. Where phases meet: the later one's.
+  /// The knot at time `t`, clamped to the track. At the meeting of two phases: the later one's.
   Knot At(double t) const {
     const auto after = std::upper_bound(starts_.begin() + 1, starts_.end(), t);
     return intervals_[after - starts_.begin() - 1].At(t);
@@ -49,7 +49,7 @@ class Track {
   std::vector<KnotInterpolant> intervals_;
 };
 
-/// The levels of the ground on which something of the segment bears.
+/// Ground levels on which the segment bears.
 std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot,
                          const models::GroundMap& ground) {
   std::set<int> levels;
@@ -68,8 +68,8 @@ std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot
   return levels;
 }
 
-/// Every contact point of the robot over every level used, seen from `origin`. Only where there are
-/// several does it matter where each of them ends.
+/// Every contact point of the robot with every level used, relative to `origin`. The extent of
+/// levels matters only if there are several.
 std::vector<dynamics::RolloutContact> ContactsOver(const std::set<int>& levels,
                                                    const dynamics::MultibodyModel& model,
                                                    const models::GroundMap& ground,
@@ -100,8 +100,8 @@ std::vector<dynamics::RolloutContact> ContactsOver(const std::set<int>& levels,
   return contacts;
 }
 
-/// Simulates where the segment begins: the farther from the origin, the less of an integrator's
-/// relative tolerance would be left to the motion.
+/// Simulates relative to the segment's beginning: far from the origin, the integrator's relative
+/// tolerance would be too coarse for the motion.
 class Rollout {
  public:
   Rollout(const Segment& segment, const models::RobotModel& robot, const models::GroundMap& ground,
@@ -133,7 +133,7 @@ class Rollout {
   dynamics::JointControl Control() const {
     dynamics::JointControl control;
     control.stiffness = model_->effort() / settings_.full_effort_error;
-    // A joint without a limit has no use for an infinite gain.
+    // Joints without a limit would get an infinite gain.
     for (double& k : control.stiffness) k = std::isfinite(k) ? k : 0;
     control.damping = settings_.damping_time * control.stiffness;
     control.command = [this](double t, dynamics::JointCommand* command) {
@@ -158,7 +158,7 @@ class Rollout {
     return settings;
   }
 
-  /// Of the independent joints, seen from the origin of the simulation.
+  /// Configuration of the independent joints, relative to the origin of the simulation.
   VectorXd Configuration(const Knot& knot) const {
     VectorXd q(model_->nq());
     q.head<7>() = knot.q.head<7>();

@@ -38,7 +38,7 @@ std::string Line(const StretchRollout& rollout) {
                     drift.end_position, drift.end_orientation);
 }
 
-/// A path may hold line breaks and whatever else would pass for another line of the report.
+/// Escapes a path, which may contain line breaks that imitate another line of the report.
 std::string Line(const char* what, const std::filesystem::path& file) {
   return file.empty() ? std::string() : fmt::format("  {} {:?}\n", what, file.string());
 }

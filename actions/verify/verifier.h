@@ -12,17 +12,17 @@
 
 namespace possibility::actions {
 
-/// What the verifier looks at; each kind has its own tolerance (docs/verification.md).
+/// Kinds of violations; each kind has its own tolerance (docs/verification.md).
 enum class ViolationKind {
-  kFileMismatch,        ///< robot or scenario is not the one planned for
-  kStructure,           ///< no segments, unknown contact, times out of order or apart
-  kAction,              ///< an action that the scenario does not allow, or other than it is called
-  kStart,               ///< the first state is not the scenario's start at rest
-  kGoal,                ///< the last state is not a goal at rest
-  kBounds,              ///< the root leaves the scenario's bounds
+  kFileMismatch,  ///< robot or scenario is not the plan's
+  kStructure,     ///< no segments, unknown contact, times out of order or apart
+  kAction,        ///< an action not allowed by the scenario, or one that does not fit its name
+  kStart,         ///< the first state is not the scenario's start at rest
+  kGoal,          ///< the last state is not a goal at rest
+  kBounds,        ///< the root leaves the scenario's bounds
   kPositionContinuity,  ///< q jumps between phases or segments
   kVelocityContinuity,  ///< v jumps between phases or segments, and no impact is declared
-  kImpact,              ///< impulses that do not make the jump of v, or that no ground gives
+  kImpact,              ///< impulses that do not explain the jump of v, or that no ground can give
   kJointPosition,
   kJointSpeed,  ///< a joint, or the root, is too fast
   kJointTorque,
@@ -45,13 +45,13 @@ struct Violation {
   ViolationKind kind = ViolationKind::kStructure;
   int segment = -1;      ///< index, or -1
   double time = 0;       ///< s
-  std::string quantity;  ///< what, e.g. "LKP torque", "left_sole point 2 against floor"
+  std::string quantity;  ///< e.g. "LKP torque", "left_sole point 2 against floor"
   double value = 0;
-  double limit = 0;  ///< what would have been let pass, tolerance included
+  double limit = 0;  ///< largest or least accepted value, tolerance included
   std::string unit;  ///< empty if the violation has no measure
 };
 
-/// What became of a stretch of motion with flight or impacts in a simulation.
+/// Result of simulating a stretch of motion with flight or impacts.
 struct StretchRollout {
   int segment = 0;       ///< index of the first
   int last_segment = 0;  ///< index
@@ -59,37 +59,37 @@ struct StretchRollout {
 };
 
 struct VerificationReport {
-  std::filesystem::path robot_file;  ///< what the plan was verified with; empty if of no file
+  std::filesystem::path robot_file;  ///< used for verification; empty if not from a file
   std::filesystem::path scenario_file;
-  std::vector<Violation> violations;  ///< at most one (the worst) of each kind; empty: accepted
-  /// By dynamic stretch, in order. Empty if something else is wrong with the plan.
+  std::vector<Violation> violations;  ///< the worst of each kind; empty: accepted
+  /// By dynamic stretch, in order. Empty if the plan has another violation.
   std::vector<StretchRollout> rollouts;
   std::int64_t samples = 0;
   double resolution = 0;  ///< s, largest time between samples
-  /// Bounds on how far anything departs between two samples from the straight line between them:
-  /// bearing points (m), and joint torques and the wrench on the root (N; N m, over 1 m).
+  /// Bounds on deviations from the straight line between two samples: of bearing points (m), and of
+  /// joint torques and the wrench on the root (N; N m, over 1 m).
   double position_resolution = 0;
   double force_resolution = 0;
   double seconds = 0;
-  bool abandoned = false;  ///< VerifierSettings::keep_going said so
+  bool abandoned = false;  ///< VerifierSettings::keep_going returned false
   bool accepted() const { return violations.empty() && !abandoned; }
 };
 
 struct VerifierSettings {
-  /// Asked now and then, from any thread, with the fraction done; false abandons the rest. May be
+  /// Called regularly, from any thread, with the fraction done; false abandons the rest. May be
   /// empty.
   std::function<bool(double)> keep_going;
-  double resolution = 0.005;  ///< s, at most; wild motions are looked at more closely
-  /// Whether stretches with flight or impacts are simulated, too: seconds for each.
+  double resolution = 0.005;  ///< s, largest sample time; fast motions are sampled more densely
+  /// Also simulates stretches with flight or impacts: seconds for each.
   bool simulates = true;
   int threads = 1;  ///< samples are independent; the report does not depend on it
 };
 
-/// Re-derives from the plan, the robot and the scenario alone that the plan can be executed.
-/// Never uses the planner's constraint functions: its own sampling, exact geometry, Simbody
-/// inverse dynamics. If the plan's structure is broken, or the robot or scenario do not fit its
-/// sizes, only kFileMismatch and kStructure are looked at. Stretches with flight or impacts are
-/// simulated if nothing else is wrong.
+/// Verifies from the plan, the robot and the scenario alone that the plan can be executed. Never
+/// uses the planner's constraint functions: has its own sampling, exact geometry and Simbody
+/// inverse dynamics. If the plan's structure is broken, or the robot or scenario does not fit its
+/// sizes, it checks only kFileMismatch and kStructure. Simulates stretches with flight or impacts
+/// if there is no other violation.
 /// @throws std::invalid_argument if the resolution or the number of threads is not positive;
 ///   InputError if the scenario names an action for which the robot has no gait.
 VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,

@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 using models::Proximity;
 
 constexpr double kTolerance = 1e-4;        // m, the checker's accuracy
-constexpr double kGroundTolerance = 1e-3;  // m, of links that bear, against ground
-/// m/s: how much faster a link is thought to be soon. If it is faster, pairs that come near are
+constexpr double kGroundTolerance = 1e-3;  // m, bearing links against ground
+/// m/s: allowance for the increase of a link's speed until the next sample. Larger increases are
 /// found by subdivision.
 constexpr double kSpeedAllowance = 0.05;
 
@@ -25,9 +25,9 @@ double DistanceIn(const std::vector<Proximity>& proximities, const Proximity& pa
   return distance;
 }
 
-/// Whether a pair at distances d0 and d1 at the ends of an interval, in which it approaches or
-/// parts by at most `travel`, may come closer than -tolerance. Below half the tolerance of travel
-/// there is nothing left to find, and a pair that overlaps at an end is reported already.
+/// Whether a pair at distances d0 and d1 at the ends of an interval, in which its distance changes
+/// by at most `travel`, may come closer than -tolerance. False if travel is below half the
+/// tolerance (negligible), or if the pair overlaps at an end (already reported).
 bool MayOverlap(double d0, double d1, double travel, double tolerance) {
   if (std::min(d0, d1) < -tolerance || travel < tolerance / 2) return false;
   return (d0 + d1 - travel) / 2 < -tolerance;
@@ -35,9 +35,9 @@ bool MayOverlap(double d0, double d1, double travel, double tolerance) {
 
 }  // namespace
 
-/// Two instants and what is known of the time between. A vector is there within h^2 / 8 times its
-/// second derivative of the line between its values at the ends, and so is no longer than the
-/// longer of them and that.
+/// Two instants and bounds for the time between. A vector deviates from the line between its values
+/// at the ends by at most h^2 / 8 times its second derivative, so its length is at most that plus
+/// the larger length at the ends.
 struct CollisionVerifier::Between {
   const VerifierState& s0;
   const VerifierState& s1;
@@ -108,8 +108,8 @@ bool CollisionVerifier::NeedsSubdivision(const VerifierState& s0, const Collisio
          any(c1.self, self_needs);
 }
 
-/// Whether pairs that are listed at neither end, for being farther apart than what the state there
-/// suggested, may overlap after all: only if the robot speeds up much within the interval.
+/// Whether pairs listed at neither end, because they were too far apart there, may overlap after
+/// all: only if the robot accelerates strongly within the interval.
 bool CollisionVerifier::UnlistedMayOverlap(const Between& between, const CollisionSnapshot& c0,
                                            const CollisionSnapshot& c1) const {
   double bulge = 0;
@@ -138,7 +138,7 @@ double CollisionVerifier::LinkSpeed(const Between& between, int link) const {
   return std::min(from_ends, between.bounds.Point(link, radius, 1));
 }
 
-/// Bound on the speed of any point of one link as seen from the other: the best of three.
+/// Bound on the speed of any point of one link relative to the other: the best of three bounds.
 double CollisionVerifier::SelfSpeed(const Between& between, int link, int other) const {
   return std::min({SeenFrom(between, link, other), SeenFrom(between, other, link),
                    LinkSpeed(between, link) + LinkSpeed(between, other)});

@@ -9,15 +9,15 @@
 
 namespace possibility::actions {
 
-/// Which pairs are close at one instant, and how far every other pair is at least.
+/// Close pairs at one instant, and the least distance of all other pairs.
 struct CollisionSnapshot {
   std::vector<models::Proximity> environment;
   std::vector<models::Proximity> self;
-  double environment_threshold = 0;  ///< m; pairs not listed are no closer
+  double environment_threshold = 0;  ///< m; unlisted pairs are at least this far apart
   double self_threshold = 0;
 };
 
-/// Exact collision queries at samples, and the proof that nothing touches between them. One per
+/// Exact collision queries at samples, and the proof that nothing touches between samples. One per
 /// thread.
 class CollisionVerifier {
  public:
@@ -25,20 +25,19 @@ class CollisionVerifier {
   CollisionVerifier(const models::RobotModel& robot, const models::Environment& environment,
                     const std::vector<double>& link_radii);
 
-  /// Reports what overlaps at `state`; looks as far around as the links may travel in `interval`
-  /// (s), the time to the next sample.
+  /// Reports overlaps at `state`. Searches as far around as the links may travel in `interval` (s),
+  /// the time to the next sample.
   CollisionSnapshot Check(const VerifierState& state, double interval, const Instant& at,
                           ViolationLog* log);
 
-  /// Whether some pair might overlap between two instants at neither of which it does: its
-  /// distances there are not large enough for how fast it moves. `bounds`: of a time that holds
-  /// both.
+  /// Whether some pair might overlap between two instants although it overlaps at neither: its
+  /// distances are too small for its speed. `bounds`: over an interval that contains both instants.
   bool NeedsSubdivision(const VerifierState& s0, const CollisionSnapshot& c0,
                         const VerifierState& s1, const CollisionSnapshot& c1,
                         const DerivativeBounds& bounds) const;
 
  private:
-  /// Penetration that is let pass between a link and an obstacle, m.
+  /// Tolerated penetration between a link and an obstacle, m.
   double EnvironmentTolerance(int link, int obstacle) const;
   struct Between;
   double LinkSpeed(const Between& between, int link) const;

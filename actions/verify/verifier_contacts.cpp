@@ -18,11 +18,11 @@ constexpr double kMotion = 1e-3;         // m, since the point was set down
 constexpr double kSlip = 2e-3;           // m/s
 constexpr double kHeight = 1e-3;         // m
 constexpr double kEdgeTolerance = 1e-6;  // m
-constexpr double kLiftOffStep = 5e-3;    // s, between looks at a point that may leave the ground
+constexpr double kLiftOffStep = 5e-3;    // s, between tests of a point that may leave the ground
 
 void CheckGround(const Vector3d& p, const BearingPoint& point, const models::RobotModel& robot,
                  const models::GroundMap& ground, const Instant& at, ViolationLog* log) {
-  // The highest level within reach wins in LevelAt, so abutting faces at one height are no seam.
+  // LevelAt returns the highest level within reach, so abutting faces at one height form no seam.
   if (ground.LevelAt(p.head<2>(), p.z(), kHeight)) return;
   const std::vector<double>& levels = ground.levels();
   int nearest = -1;
@@ -80,7 +80,7 @@ class Footprints {
     return footprints_.emplace(key, Footprint{point, state.Position(point)}).first->second.anchor;
   }
 
-  /// What is on the ground beside a point that bears has been set down with it, listed or not.
+  /// Sets down all points of a bearing patch that are on the ground, listed or not.
   void SetDownPatch(int patch, const VerifierState& state) {
     const models::ContactPatch& contact = robot_.contacts[patch];
     for (int i = 0; i < static_cast<int>(contact.points.size()); ++i) {
@@ -110,7 +110,7 @@ class Footprints {
         it = leaves ? idle.erase(it) : std::next(it);
       }
     };
-    // Most feet are off the ground half-way.
+    // Most feet are off the ground half-way through a phase.
     if (!idle.empty()) look(phase.knots[phase.knots.size() / 2]);
     for (std::size_t i = 0; i < phase.knots.size() && !idle.empty(); ++i) look(phase.knots[i]);
     for (std::size_t i = 0; i + 1 < phase.knots.size() && !idle.empty(); ++i) {

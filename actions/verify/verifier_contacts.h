@@ -9,12 +9,12 @@
 
 namespace possibility::actions {
 
-/// What bears during one phase, and where each point was when it was set down: until it has left
-/// the ground it must not have moved from there, whether the phases list it or not.
+/// Bearing points of one phase, and the place where each was set down. A point must not move from
+/// there until it leaves the ground, whether or not the phases list it.
 struct PhaseContacts {
   std::vector<BearingPoint> points;
   Eigen::Matrix3Xd anchors;  ///< world, one column per point, m
-  bool lands = false;        ///< some point is set down when the phase begins
+  bool lands = false;        ///< some point is set down at the start of the phase
 };
 
 /// The contacts of all phases of all segments, in order.
@@ -22,7 +22,7 @@ std::vector<PhaseContacts> FollowContacts(const Plan& plan, const models::RobotM
                                           const models::GroundMap& ground,
                                           StateEvaluator* evaluator);
 
-/// Bearing points stay where they were, at rest, on ground.
+/// Checks that bearing points are at rest on ground, at their anchors.
 void CheckContacts(const VerifierState& state, const PhaseContacts& contacts,
                    const models::RobotModel& robot, const models::GroundMap& ground,
                    const Instant& at, ViolationLog* log);

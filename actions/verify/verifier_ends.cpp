@@ -11,19 +11,19 @@ namespace possibility::actions {
 namespace {
 
 constexpr double kPoseTolerance = 1e-3;  // m and rad
-/// rad (m if prismatic): a posture's contacts may be 0.1 mm off the ground, which the joints of its
-/// limbs make up for; another way to bend them is much farther away.
+/// rad (m if prismatic): a posture's contacts may be 0.1 mm off the ground, which the limbs' joints
+/// compensate. Other solutions of inverse kinematics are much farther away.
 constexpr double kLimbTolerance = 0.02;
 constexpr double kRestSpeed = 1e-6;         // m/s and rad/s
 constexpr double kRestAcceleration = 1e-3;  // m/s^2 and rad/s^2
 
-/// One end of the plan and what the scenario wants there.
+/// One end of the plan and the scenario's requirements there.
 struct End {
   ViolationKind kind;
   Instant at;
   const Knot* knot;
   const Phase* phase;
-  std::string action;  ///< the segment's side that touches the end
+  std::string action;  ///< the segment's action at that end
   const models::Stance* stance;
 };
 
@@ -84,7 +84,8 @@ void CheckPosture(const End& end, const models::RobotModel& robot, const models:
   }
 }
 
-/// The gait's patches are where the nominal posture has them, and not half a stride elsewhere.
+/// Checks that the gait's patches are at their places in the nominal posture, and not half a stride
+/// away.
 void CheckPlaces(const End& end, const models::RobotModel& robot, const models::Gait& gait,
                  StateEvaluator* evaluator, ViolationLog* log) {
   Knot nominal = *end.knot;

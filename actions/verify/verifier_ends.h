@@ -4,7 +4,7 @@
 
 namespace possibility::actions {
 
-/// Whether the plan begins at the scenario's start and ends at its goal, at rest.
+/// Checks that the plan begins at the scenario's start and ends at its goal, at rest.
 void CheckEnds(const Plan& plan, const models::RobotModel& robot, const models::Scenario& scenario,
                StateEvaluator* evaluator, ViolationLog* log);
 

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 constexpr double kPathTolerance = 1e-4;      // m
 constexpr double kMomentumTolerance = 1e-3;  // of the angular momentum
-/// s: a robot with less than weight x 1 m x this of angular momentum hardly turns.
+/// s: a robot with an angular momentum below weight x 1 m x this hardly turns.
 constexpr double kLeastMomentum = 1e-3;
 
 }  // namespace

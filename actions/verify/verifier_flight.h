@@ -8,7 +8,7 @@
 
 namespace possibility::actions {
 
-/// What a robot that touches nothing cannot change, as it was when it left the ground.
+/// Flight invariants at take-off.
 struct Flight {
   double start = 0;                                            ///< s
   Eigen::Vector3d position = Eigen::Vector3d::Zero();          ///< of the centre of mass, m
@@ -16,12 +16,11 @@ struct Flight {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about it, kg m^2/s
 };
 
-/// By phase, over all segments; none where something bears. Phases of flight that follow each
-/// other are one flight.
+/// By phase, over all segments; none in stance. Consecutive phases of flight are one flight.
 std::vector<std::optional<Flight>> FollowFlights(const Plan& plan, StateEvaluator* evaluator);
 
-/// The centre of mass is on its parabola, and the angular momentum about it what it was.
-/// `dynamics` stands at `state`.
+/// Checks that the centre of mass is on its parabola, and that the angular momentum about it is
+/// conserved. `dynamics` must be at `state`.
 void CheckFlight(const VerifierState& state, const Flight& flight, const models::RobotModel& robot,
                  const dynamics::SimbodyDynamics& dynamics, const Instant& at, ViolationLog* log);
 

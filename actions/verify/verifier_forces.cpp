@@ -18,7 +18,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kKnotTolerance = 1e-6;     // of the weight (N), or of weight x 1 m (N m)
-constexpr double kBetweenTolerance = 1e-3;  // likewise, rows that no contact force can reach
+constexpr double kBetweenTolerance = 1e-3;  // likewise, rows that no contact force can change
 constexpr double kConeTolerance = 1e-6;     // of the weight
 constexpr double kLeastLoad = 1e-3;         // of the weight per point, see ChangeWeights
 constexpr double kRankTolerance = 1e-13;    // relative, squared singular values
@@ -35,8 +35,8 @@ Vector6d BaseWrench(const Matrix3Xd& arms, const Matrix3Xd& forces) {
   return wrench;
 }
 
-/// How readily a point's force may be changed: the square of the load it bears. A foot that is
-/// about to lift off must not be asked to pull.
+/// Weight of a change of a point's force: the square of its load. A foot about to lift off must not
+/// be required to pull.
 VectorXd ChangeWeights(const Matrix3Xd& forces, double weight) {
   VectorXd weights(forces.cols());
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
@@ -46,8 +46,8 @@ VectorXd ChangeWeights(const Matrix3Xd& forces, double weight) {
   return weights;
 }
 
-/// The change of forces, least in the norm sum_i |df_i|^2 / w_i, whose wrench is `wrench` as
-/// far as the points can supply it.
+/// The least change of forces, in the norm sum_i |df_i|^2 / w_i, whose wrench is `wrench` as far as
+/// the points can supply it.
 Matrix3Xd LeastChange(const Matrix3Xd& arms, const VectorXd& weights, const Vector6d& wrench) {
   Matrix6d gram = Matrix6d::Zero();
   for (Eigen::Index i = 0; i < arms.cols(); ++i) {
@@ -73,7 +73,8 @@ Matrix3Xd LeastChange(const Matrix3Xd& arms, const VectorXd& weights, const Vect
   return change;
 }
 
-/// Subtracts J' f of the joint rows: each force acts on every joint between its link and the root.
+/// Subtracts J' f from the joint rows: each force acts on every joint between its link and the
+/// root.
 void SubtractJointTorques(const VerifierState& state, const std::vector<BearingPoint>& points,
                           const Matrix3Xd& forces, const models::RobotModel& robot,
                           VectorXd* torques) {

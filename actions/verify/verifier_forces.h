@@ -6,23 +6,22 @@
 
 namespace possibility::actions {
 
-/// Contact forces that leave nothing on the six unactuated rows, and the torques that go with
-/// them.
+/// Contact forces that cancel the six unactuated rows, and the corresponding torques.
 struct RealisedForces {
   Eigen::Matrix3Xd forces;       ///< 3 x points, world, N
   Eigen::VectorXd torques;       ///< num_joints
-  double declared_residual = 0;  ///< largest base row left by the declared forces
+  double declared_residual = 0;  ///< largest base row with the declared forces
   double residual = 0;           ///< largest base row that no change can remove
 };
 
-/// Inverse dynamics of Simbody at `state` (at which `dynamics` stands), less the contact forces
-/// `state.knot.forces` changed as little as possible: each point in proportion to its load.
+/// Inverse dynamics of Simbody at `state` (`dynamics` must be at it) minus the contact forces:
+/// `state.knot.forces`, changed as little as possible, each point in proportion to its load.
 RealisedForces RealiseForces(const VerifierState& state, const std::vector<BearingPoint>& points,
                              const models::RobotModel& robot,
                              const dynamics::SimbodyDynamics& dynamics);
 
-/// Dynamics, friction cones and torque limits. `at_knot`: the declared tau and forces are held
-/// to the recomputation.
+/// Checks dynamics, friction cones and torque limits. `at_knot`: also compares the declared tau and
+/// forces with the recomputed ones.
 void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
                  const models::RobotModel& robot, const dynamics::SimbodyDynamics& dynamics,
                  bool at_knot, const Instant& at, ViolationLog* log);

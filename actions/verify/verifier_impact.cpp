@@ -25,7 +25,7 @@ struct Impact {
   Instant at;
 };
 
-/// The impulses that joints pass on without a motor: a mimic's is borne by its master.
+/// Impulses transmitted by joints without a motor: the master bears its mimics' impulses.
 void FoldMimics(const models::RobotModel& robot, VectorXd* rows) {
   for (int j = 0; j < robot.num_joints(); ++j) {
     const auto& mimic = robot.joints[j].mimic;
@@ -35,7 +35,7 @@ void FoldMimics(const models::RobotModel& robot, VectorXd* rows) {
   }
 }
 
-/// `sum`: by row, of this impact and those before it.
+/// `sum`: by row, over this and all earlier impacts.
 void CheckEquation(const Impact& impact, const MatrixXd& mass, const models::RobotModel& robot,
                    const dynamics::SimbodyDynamics& dynamics, double weight, VectorXd* sum,
                    ViolationLog* log) {
@@ -67,9 +67,10 @@ void CheckImpulse(const Vector3d& impulse, const BearingPoint& point,
                      [&] { return NameOf(robot, point) + " tangential impulse"; });
 }
 
-/// What impacts are let pass adds up over the plan: a little at every phase would carry a robot.
+/// Tolerated errors of impacts, summed over the plan: a small error at every phase could carry a
+/// robot.
 struct ImpactSums {
-  VectorXd rest;          ///< nv, momentum that the impulses do not explain, N s or N m s
+  VectorXd rest;          ///< nv, momentum not explained by impulses, N s or N m s
   double energy_won = 0;  ///< J
 };
 

@@ -8,9 +8,9 @@
 
 namespace possibility::actions {
 
-/// Where phases begin with an impact: the jump of velocity is that of the declared impulses, these
-/// are ones that the ground can give, the points rest afterwards, and no energy is won.
-/// `contacts`: FollowContacts of the plan.
+/// Checks phases that begin with an impact: the declared impulses explain the jump of velocity, the
+/// ground can give them, the points rest afterwards, and no energy is gained. `contacts`:
+/// FollowContacts of the plan.
 void CheckImpacts(const Plan& plan, const models::RobotModel& robot,
                   const std::vector<PhaseContacts>& contacts, StateEvaluator* evaluator,
                   ViolationLog* log);

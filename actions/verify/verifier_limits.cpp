@@ -14,7 +14,8 @@ constexpr double kRelativeTorqueTolerance = 1e-6;  // of the limit
 constexpr double kAccuracy = 1e-10;                // of extrema, relative if above 1
 constexpr double kRootAccuracy = 1e-6;             // of the root's speeds, likewise
 
-// Rounding of positions grows with the square of the time between knots, 1 ms at the least.
+// The effect of rounded positions grows with the inverse square of the time between knots, at least
+// 1 ms.
 constexpr double kAccelerationTolerance = 1e-3;  // rad/s^2 or m/s^2
 
 struct Units {
@@ -55,8 +56,8 @@ struct Length {
   }
 };
 
-/// The angular speed |J(phi) phi-dot|. J changes by at most half of what phi does, since it is the
-/// mean of exp(s [phi]) over s from 0 to 1.
+/// The angular speed |J(phi) phi-dot|. J changes by at most half of the change of phi, since it is
+/// the mean of exp(s [phi]) over s from 0 to 1.
 struct AngularSpeed {
   ControlPolygon<3, 6> phi;
   ControlPolygon<3, 5> rate;
@@ -76,7 +77,7 @@ struct AngularSpeed {
   }
 };
 
-/// What is asked of one interval between two knots.
+/// Checks of one interval between two knots.
 class IntervalCheck {
  public:
   IntervalCheck(const KnotInterpolant& interpolant, int segment, ViolationLog* log)
@@ -99,7 +100,7 @@ class IntervalCheck {
                                std::forward<Name>(name));
   }
 
-  /// A row is at most `limit`.
+  /// Requires a row to be at most `limit`.
   template <int Columns, typename Name>
   bool RequireRow(ViolationKind kind, const Eigen::Matrix<double, 1, Columns>& row, double limit,
                   double tolerance, const char* unit, Name&& name) const {
@@ -108,7 +109,7 @@ class IntervalCheck {
                          std::forward<Name>(name));
   }
 
-  /// The same of the magnitude of a row.
+  /// The same for the magnitude of a row.
   template <int Columns, typename Name>
   bool RequireMagnitude(ViolationKind kind, const Eigen::Matrix<double, 1, Columns>& row,
                         double limit, double tolerance, const char* unit, Name&& name) const {
@@ -117,7 +118,7 @@ class IntervalCheck {
     return above && below;
   }
 
-  /// A row is at least `limit`.
+  /// Requires a row to be at least `limit`.
   template <typename Name>
   void RequireAtLeast(ViolationKind kind, const Eigen::Matrix<double, 1, 6>& row, double limit,
                       double tolerance, const char* unit, Name&& name) const {

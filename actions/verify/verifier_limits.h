@@ -6,22 +6,22 @@
 
 namespace possibility::actions {
 
-/// Root speeds beyond these (m/s, rad/s) are no robot's: they are refused with kJointSpeed, since
-/// the work of looking between samples grows with speed.
+/// Largest accepted root speed (m/s, rad/s), beyond that of any robot. Faster motion is refused
+/// with kJointSpeed, because the work between samples grows with speed.
 inline constexpr double kLargestRootSpeed = 20;
 
-/// Positions and speeds of all joints and the speed of the root against their limits, at all times
-/// between the knots of `interpolant`, not only at samples: from the extrema of its polynomials.
-/// Returns whether all speeds are within their limits. `segment` is to blame.
+/// Checks positions and speeds of all joints and the speed of the root against their limits, at all
+/// times between the knots of `interpolant`, from the extrema of its polynomials. Returns whether
+/// all speeds are within their limits. `segment`: for the report.
 bool CheckJointLimits(const KnotInterpolant& interpolant, const models::RobotModel& robot,
                       int segment, ViolationLog* log);
 
-/// Positions, speeds and accelerations of mimic joints against what follows from their masters,
+/// Checks positions, speeds and accelerations of mimic joints against those of their masters,
 /// likewise.
 void CheckJointCouplings(const KnotInterpolant& interpolant, const models::RobotModel& robot,
                          int segment, ViolationLog* log);
 
-/// `tau` (num_joints) against the effort limits; a master bears its mimics' torques as well.
+/// Checks `tau` (num_joints) against the effort limits; a master also bears its mimics' torques.
 void CheckTorqueLimits(const Eigen::VectorXd& tau, const models::RobotModel& robot,
                        const Instant& at, ViolationLog* log);
 

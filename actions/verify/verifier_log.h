@@ -9,18 +9,18 @@
 
 namespace possibility::actions {
 
-/// When something was looked at.
+/// Time of a check.
 struct Instant {
   int segment = -1;
   double time = 0;  ///< s
 };
 
-/// Keeps the worst violation of each kind: the one most tolerances beyond its limit, and the
-/// earliest of equals, so that the order in which violations are reported does not matter.
+/// Keeps the worst violation of each kind: the one that exceeds its limit by the most tolerances,
+/// and among equals the earliest, so that the order of reports does not matter.
 class ViolationLog {
  public:
-  /// Reports `value` > limit + tolerance, NaN included. `name()` spells the quantity out and is
-  /// only called then. `tolerance` > 0.
+  /// Reports `value` > limit + tolerance, NaN included. `name()` describes the quantity and is only
+  /// called then. `tolerance` > 0.
   template <typename Name>
   bool RequireAtMost(ViolationKind kind, const Instant& at, double value, double limit,
                      double tolerance, const char* unit, Name&& name) {
@@ -40,7 +40,7 @@ class ViolationLog {
     return false;
   }
 
-  /// Something that has no measure; `quantity` says what.
+  /// Reports a violation without a measure; `quantity` describes it.
   void Report(ViolationKind kind, const Instant& at, const std::string& quantity);
 
   void Merge(const ViolationLog& other);

@@ -17,20 +17,20 @@
 namespace possibility::actions {
 namespace {
 
-// How far a motion may depart between two samples from the straight line between them: there are
-// as many samples as this takes.
+// Largest deviations from the straight line between two samples; they determine the number of
+// samples.
 constexpr double kPointResolution = 1e-4;        // m, of bearing points
 constexpr double kPointSpeedResolution = 5e-4;   // m/s, likewise
 constexpr double kForceResolution = 0.01;        // of the weight (N; N m over 1 m), on the root
-constexpr double kTorqueResolution = 0.01;       // of each joint's effort limit, but at least
+constexpr double kTorqueResolution = 0.01;       // of each joint's effort limit, but at least:
 constexpr double kLeastTorqueResolution = 1e-5;  // of the weight (N; N m over 1 m)
-/// Beyond so many samples between two knots a few are looked at before all.
+/// With more samples than this between two knots, a few are checked first.
 constexpr int kManySteps = 64;
-/// Forces that take more samples than this between two knots are thousands of times the weight.
+/// Forces that need more samples than this between two knots are thousands of times the weight.
 constexpr int kMostSteps = 2000;
 
-/// A run of knot intervals of one phase: what a thread takes at a time. The division does not
-/// depend on the number of threads.
+/// A run of knot intervals of one phase: the unit of work of a thread. The division does not depend
+/// on the number of threads.
 struct Chunk {
   int segment = 0;
   const Phase* phase = nullptr;
@@ -57,7 +57,7 @@ std::vector<Chunk> Divide(const Plan& plan) {
   return chunks;
 }
 
-/// What has been looked at, and how closely.
+/// What has been checked, and at which resolution.
 struct Coverage {
   std::int64_t samples = 0;
   double time = 0;      ///< s, between samples
@@ -72,7 +72,7 @@ struct Coverage {
   }
 };
 
-/// Looks at chunks, with Simbody and Bullet systems of its own.
+/// Checks chunks with its own Simbody and Bullet systems.
 class Worker {
  public:
   Worker(const VerifiedPlan& subject, double resolution)
@@ -100,8 +100,8 @@ class Worker {
     CollisionSnapshot collision;
   };
 
-  /// Between knots i and i + 1. `sample`: the one at knot i, unless the chunk begins there; becomes
-  /// the one at knot i + 1.
+  /// Checks between knots i and i + 1. `sample`: the sample at knot i, unless the chunk begins
+  /// there; becomes the sample at knot i + 1.
   void VerifyInterval(std::size_t i, Sample* sample) {
     const std::vector<Knot>& knots = chunk_->phase->knots;
     const Knot& k0 = knots[i];
@@ -124,7 +124,7 @@ class Worker {
           at_knot && i + 1 < chunk_->end ? std::max(interval, StepAfter(i + 1)) : interval;
       Sample next = Take(at_knot ? k1 : interpolant.At(k0.t + step * interval), next_interval);
       CheckAll(next, at_knot);
-      // A motion beyond the speed limits is refused anyway, and would take forever.
+      // A motion beyond the speed limits is refused anyway, and subdivision would take too long.
       if (is_slow) Subdivide(interpolant, *sample, next);
       *sample = std::move(next);
     }
@@ -136,14 +136,14 @@ class Worker {
     return std::max(1, static_cast<int>(std::ceil(duration / resolution_ - 1e-9)));
   }
 
-  /// s, between samples after knot i, unless the motion asks for more of them.
+  /// s, between samples after knot i, unless the motion needs more of them.
   double StepAfter(std::size_t i) const {
     const double duration = chunk_->phase->knots[i + 1].t - chunk_->phase->knots[i].t;
     return duration / StepsInTime(duration);
   }
 
-  /// How many equal steps the motion between two knots takes. What is refused already is not
-  /// looked at more closely than time asks for.
+  /// Number of equal steps between two knots. A motion already refused gets no more steps than the
+  /// time resolution needs.
   int Steps(const KnotInterpolant& interpolant, bool is_slow) {
     const int in_time = StepsInTime(interpolant.duration());
     if (!is_slow || !chunk_log_.Worst().empty()) return in_time;
@@ -164,7 +164,7 @@ class Worker {
     return in_time;
   }
 
-  /// The largest second derivative over the resolution of what it is of, 1/s^2.
+  /// The largest ratio of a quantity's second derivative to its resolution, 1/s^2.
   double BoundOverResolution() const {
     double ratio = std::max({bounds_.point_acceleration() / kPointResolution,
                              bounds_.point_jerk() / kPointSpeedResolution,
@@ -208,7 +208,7 @@ class Worker {
     }
   }
 
-  /// For collisions alone: of everything else the samples have the resolution wanted.
+  /// For collisions alone: for everything else the samples are dense enough.
   void Subdivide(const KnotInterpolant& interpolant, const Sample& s0, const Sample& s1) {
     if (!collision_.NeedsSubdivision(s0.state, s0.collision, s1.state, s1.collision, bounds_)) {
       return;
@@ -225,14 +225,14 @@ class Worker {
   double weight_;
   StateEvaluator evaluator_;
   CollisionVerifier collision_;
-  DerivativeBounds bounds_;  ///< of the interval that is looked at
+  DerivativeBounds bounds_;  ///< of the current interval
   const Chunk* chunk_ = nullptr;
   ViolationLog chunk_log_;
   ViolationLog log_;
   Coverage coverage_;
 };
 
-/// What the threads add up.
+/// Sums over all threads.
 class Tally {
  public:
   void Add(const Worker& worker) {

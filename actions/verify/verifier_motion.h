@@ -11,7 +11,7 @@
 
 namespace possibility::actions {
 
-/// A plan of sound structure, with what was found out about it as a whole.
+/// A plan of valid structure, with its contacts and flights.
 struct VerifiedPlan {
   const Plan& plan;
   const models::RobotModel& robot;
@@ -21,12 +21,12 @@ struct VerifiedPlan {
   std::vector<std::optional<Flight>> flights;  ///< likewise
 };
 
-/// Looks at the motion at all knots and between them, on settings.threads threads. Sets the
-/// samples, resolutions and `abandoned` of the report.
+/// Checks the motion at all knots and between them, on settings.threads threads. Sets the samples,
+/// resolutions and `abandoned` of the report.
 void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings, ViolationLog* log,
                   VerificationReport* report);
 
-/// Runs `work` on as many threads as wanted, this one included.
+/// Runs `work` on `threads` threads, this one included.
 void RunOnThreads(int threads, const std::function<void()>& work);
 
 }  // namespace possibility::actions

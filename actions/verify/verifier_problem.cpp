@@ -26,12 +26,12 @@ const Named* FindNamed(const std::vector<Named>& items, const std::string& name)
   return found == items.end() ? nullptr : &*found;
 }
 
-/// What a segment of some action may do.
+/// What a segment of an action may do.
 struct Licence {
-  std::optional<std::string> from;  ///< the gait that it begins in, if that is known
-  std::optional<std::string> to;    ///< likewise, ends in
+  std::optional<std::string> from;  ///< the gait in which it begins, if known
+  std::optional<std::string> to;    ///< the gait in which it ends, if known
   bool may_fly = false;
-  /// Patches that may bear, by index; nothing: all.
+  /// Indices of patches that may bear; none: all.
   std::optional<std::set<int>> patches;
 };
 
@@ -39,7 +39,7 @@ void AddPatches(const models::Gait& gait, std::set<int>* patches) {
   for (const models::GaitLimb& limb : gait.limbs) patches->insert(limb.contact);
 }
 
-/// Between gaits of the robot.
+/// Licence of a segment between two gaits of the robot.
 Licence Between(const models::RobotModel& robot, const std::string& from, const std::string& to,
                 bool may_fly) {
   Licence licence{from, to, may_fly, std::set<int>()};
@@ -81,7 +81,7 @@ class ActionChecker {
     return false;
   }
 
-  /// Nothing, and a report, if the scenario does not allow such a segment.
+  /// None, and a report, if the scenario does not allow such a segment.
   std::optional<Licence> LicenceOf(const std::string& text) {
     const std::optional<SegmentAction> action = ParseSegmentAction(text);
     if (!action) {
@@ -131,11 +131,11 @@ class ActionChecker {
   const models::Scenario& scenario_;
   ViolationLog* log_;
   Instant at_;
-  std::optional<std::string> before_;  ///< the gait that the segment before ends in, if known
+  std::optional<std::string> before_;  ///< last gait of the previous segment, if known
 };
 
-/// The root's path between two knots, seen from above, in Bernstein form: it stays in the box of
-/// its control points, and halves tell ever more closely where it is (de Casteljau).
+/// The root's horizontal path between two knots, in Bernstein form: it stays in the box of its
+/// control points, and halving (de Casteljau) tightens the box.
 struct RootPath {
   std::array<Vector2d, 6> points;
   double begin = 0;  ///< s
@@ -165,7 +165,7 @@ struct RootPath {
   }
 };
 
-/// Looks for the place where the root is farthest outside.
+/// Finds the place where the root is farthest outside.
 class FarthestOutside {
  public:
   explicit FarthestOutside(const Eigen::AlignedBox2d& bounds) : bounds_(bounds) {}

@@ -7,20 +7,20 @@
 
 namespace possibility::actions {
 
-/// How far beyond the scenario's bounds, which hold for stances, the root may sway between two
-/// stances, m.
+/// Largest sway of the root beyond the scenario's bounds between two stances, m. The bounds hold
+/// for stances.
 inline constexpr double kSway = 0.15;
 
-/// Whether the plan does nothing but what the scenario allows: its actions are among the
-/// scenario's, each begins in the gait in which the one before ends, and what a segment does is
-/// that action: a gait bears on its own limbs' patches and neither flies nor lands, nor does a
-/// transition. What a manoeuvre that the robot's file does not know may do, nobody can say. A
-/// scenario without any actions (none that was read from a file) allows all.
+/// Checks that the plan does only what the scenario allows: its actions are among the scenario's,
+/// each begins in the gait in which the previous one ends, and each segment fits its action. A gait
+/// bears only on its own limbs' patches; gaits and transitions neither fly nor land. Manoeuvres
+/// that the robot's file does not list are unrestricted. A scenario without actions (never one read
+/// from a file) allows all.
 void CheckActions(const Plan& plan, const models::RobotModel& robot,
                   const models::Scenario& scenario, ViolationLog* log);
 
-/// Whether the root keeps within the scenario's bounds and kSway, proven for all instants. Bounds
-/// that are empty bound nothing.
+/// Checks that the root stays within the scenario's bounds plus kSway, proven for all instants.
+/// Empty bounds bound nothing.
 void CheckBounds(const Plan& plan, const models::Scenario& scenario, ViolationLog* log);
 
 }  // namespace possibility::actions

@@ -19,8 +19,8 @@ bool IsAtRest(const Knot& knot) {
          knot.a.lpNorm<Eigen::Infinity>() < kRestAcceleration;
 }
 
-/// Whether the robot stands still between two phases: what follows would be the same, whatever
-/// came before.
+/// Whether the robot is at rest between two phases, so that the later one does not depend on the
+/// earlier.
 bool StandsBetween(const Phase& before, const Phase& after) {
   return !before.contacts.empty() && !after.contacts.empty() && after.impulses.cols() == 0 &&
          IsAtRest(before.knots.back()) && IsAtRest(after.knots.front());
@@ -40,7 +40,7 @@ void Judge(const StretchRollout& rollout, ViolationLog* log) {
     log->Report(ViolationKind::kRollout, at, "simulation " + drift.failure);
     return;
   }
-  // The limits are tolerances about zero, so that the log can say which is exceeded most.
+  // The limits are tolerances about zero, so that the log can compare how far they are exceeded.
   log->RequireAtMost(ViolationKind::kRollout, at, drift.end_position, 0, kRolloutPosition, "m",
                      [] { return std::string("root position at the end of the simulation"); });
   log->RequireAtMost(ViolationKind::kRollout, at, drift.end_orientation, 0, kRolloutOrientation,

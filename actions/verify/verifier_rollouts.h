@@ -9,14 +9,15 @@
 namespace possibility::actions {
 
 /// Part of a plan that is simulated as one: from rest on the ground to rest on the ground, with
-/// flight or impacts between. It does not depend on how its phases are shared out among segments.
+/// flight or impacts between. Independent of how its phases are divided into segments.
 struct DynamicStretch {
   int first_segment = 0;
   int last_segment = 0;
   Segment motion;  ///< all its phases
 };
 
-/// In the order of time. Where nothing rests before or after, the plan's beginning or end ends it.
+/// In the order of time. A stretch without rest before or after it extends to the plan's beginning
+/// or end.
 std::vector<DynamicStretch> DynamicStretches(const Plan& plan);
 
 /// Simulates the dynamic stretches, on settings.threads threads. Sets the rollouts and `abandoned`

@@ -18,19 +18,19 @@ struct BearingPoint {
   Eigen::Vector3d p_L = Eigen::Vector3d::Zero();
 };
 
-/// The bearing points of a phase. @throws InputError if its contacts are not the robot's.
+/// The bearing points of a phase. @throws InputError if a contact is not the robot's.
 std::vector<BearingPoint> BearingPoints(const models::RobotModel& robot, const Phase& phase);
 
 /// "left_sole point 2".
 std::string NameOf(const models::RobotModel& robot, const BearingPoint& point);
 
-/// The robot at one instant, as Simbody places and moves it.
+/// State of the robot at one instant, computed by Simbody.
 struct VerifierState {
   Knot knot;
   std::vector<Eigen::Isometry3d> X_WL;
   std::vector<Eigen::Vector3d> w_WL;  ///< angular velocity of every link, world axes
   std::vector<Eigen::Vector3d> v_WL;  ///< velocity of every link's origin, world axes
-  double max_speed = 0;               ///< m/s, bound on the speed of any point of any link
+  double max_speed = 0;               ///< m/s, upper bound for any point of any link
 
   Eigen::Vector3d Position(const BearingPoint& point) const { return X_WL[point.link] * point.p_L; }
   Eigen::Vector3d Velocity(const BearingPoint& point) const {

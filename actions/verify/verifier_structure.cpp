@@ -18,7 +18,7 @@ constexpr double kQuaternionTolerance = 1e-6;
 constexpr double kLargestNumber = 1e6;  // SI, of q, v, a, tau, forces and impulses
 constexpr double kContinuity = 1e-6;    // m, rad, m/s, rad/s, over the whole plan
 
-/// Thrown out of the walk through the plan: one structural fault is enough.
+/// Thrown to end the walk through the plan: one structural fault is enough.
 struct Fault {
   Instant at;
   std::string quantity;
@@ -61,7 +61,7 @@ void CheckImpulses(const Phase& phase, int num_points, bool is_first, const Inst
   Require(IsSane(phase.impulses), at, "an impulse is not finite, or beyond 1e6");
 }
 
-/// `end`: the time up to which the plan has come; moved on to the end of the phase.
+/// `end`: end time of the plan so far; set to the end of the phase.
 void CheckPhase(const Phase& phase, const models::RobotModel& robot, int segment, bool is_first,
                 double* end) {
   Require(phase.knots.size() >= 2, {segment, *end}, "phase of fewer than two knots");
@@ -104,8 +104,8 @@ auto Jumps(const std::string& what) {
   return [what] { return what + " jumps between phases, in all"; };
 }
 
-/// What phases and segments do not agree about, added up over the plan: a jump below the tolerance
-/// at every phase would carry a robot anywhere.
+/// Discontinuities between phases and segments, summed over the plan: a jump below the tolerance at
+/// every phase could carry a robot anywhere.
 class Jumped {
  public:
   explicit Jumped(const models::RobotModel& robot)
