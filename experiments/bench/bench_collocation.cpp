@@ -20,9 +20,9 @@ namespace {
 using namespace collocation;  // most of this file is calls to it
 
 constexpr int kRounds = 3;
-constexpr double kSecondsPerBatch = 0.02;  // short solves are repeated for about so long
+constexpr double kSecondsPerBatch = 0.02;  // short solves are repeated for about this long
 constexpr double kOnceSeconds = 2;         // longer ones are not repeated in later rounds
-constexpr double kPatience = 15;           // times what the exact solve took
+constexpr double kPatience = 15;           // times the duration of the exact solve
 
 struct Sample {
   SolverTimes times;
@@ -32,7 +32,7 @@ struct Sample {
   double but_callbacks() const { return times.total - times.functions - times.derivatives; }
 };
 
-/// As `possibility regress` does it: from the stated guess, refining the mesh.
+/// Solves as `possibility regress` does: from the stated guess, refining the mesh.
 Sample SolveWhole(const RegressionProblem& problem, LinearSolver linear_solver) {
   const auto posed = problem.build();
   RegressionOptions options;
@@ -43,7 +43,7 @@ Sample SolveWhole(const RegressionProblem& problem, LinearSolver linear_solver) 
 
 enum class Derivatives { kExact, kLimitedMemory, kDifferences };
 
-/// One solve on the mesh that the problem begins with.
+/// One solve on the problem's initial mesh.
 Sample SolveFirstMesh(const OptimalControlProblem& posed, const RegressionProblem& problem,
                       Derivatives derivatives, double time_limit) {
   Transcription program(posed, problem.scheme,
@@ -62,12 +62,12 @@ Sample SolveFirstMesh(const OptimalControlProblem& posed, const RegressionProble
   return {result.times, result.succeeded()};
 }
 
-/// One problem solved in one way, round after round.
+/// One problem with one solver variant, over all rounds.
 class Variant {
  public:
   explicit Variant(std::function<Sample()> solve) : solve_(std::move(solve)) {}
 
-  /// The mean of a batch; of a long solve the first one again.
+  /// The mean of a batch; for a long solve, the first result again.
   const Sample& Measure() {
     if (repeats_ == 0) {
       sample_ = solve_();
@@ -97,7 +97,7 @@ class Variant {
   int repeats_ = 0;
 };
 
-/// The ways in which each problem is solved.
+/// The solver variants of one problem.
 struct Contest {
   std::string name;
   bool is_robot;
@@ -123,7 +123,7 @@ Contest ContestOf(const RegressionProblem& problem, bool is_robot) {
           first_mesh(Derivatives::kDifferences)};
 }
 
-/// A number of every problem and round, summed up over the problems.
+/// A quantity measured for every problem and round, and summed over the problems.
 struct Measure {
   std::string name;
   Variant Contest::*variant;
@@ -151,7 +151,7 @@ const std::vector<Measure>& Measures() {
 
 using Filter = std::function<bool(const Contest&)>;
 
-/// The numbers of all rounds, as rows and ratios.
+/// The quantities of all rounds, as rows and ratios.
 class Tally {
  public:
   void AddRound(const std::vector<Contest>& contests) {

@@ -19,7 +19,7 @@ double Now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// A folder that is gone when this is.
+/// A folder that is removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder()
@@ -38,7 +38,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Of the entries between the first and the last possible one of each height.
+/// Fraction confirmed of the entries between the first and the last possible one of each height.
 double ConfirmedFraction(const std::vector<JumpSweepEntry>& entries,
                          const actions::JumpReach& reach) {
   int inside = 0;
@@ -56,7 +56,7 @@ double ConfirmedFraction(const std::vector<JumpSweepEntry>& entries,
   return inside > 0 ? static_cast<double>(confirmed) / inside : 0;
 }
 
-/// s from a folder that another run filled.
+/// Median time, s, with a folder that another run filled.
 double LibraryMedian(const models::RobotModel& robot, const actions::JumpSolver& solver,
                      const std::filesystem::path& folder,
                      const std::vector<JumpSweepEntry>& entries) {

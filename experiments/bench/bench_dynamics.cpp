@@ -24,7 +24,7 @@ constexpr const char* kDerivatives = "inverse dynamics with all first derivative
 constexpr const char* kSimbodyDifferences = "Simbody: the same by central differences";
 constexpr const char* kDart = "DART: inverse dynamics";
 
-/// Every call takes another state: no engine gains from what it kept of the last one.
+/// Every call takes another state, so that no engine profits from cached results.
 constexpr int kStates = 64;
 
 struct States {
@@ -99,7 +99,7 @@ void AddHeldFeet(const std::shared_ptr<const MultibodyModel>& model,
   const auto forward = std::make_shared<dynamics::ForwardDynamics>(model, settings);
   const VectorXd rest = VectorXd::Zero(model->nv());
   cases->push_back({"forward dynamics, all soles held", [=](int i) {
-                      // At rest: points of a link that turns cannot all stay where they are.
+                      // At rest, because points of a rotating link cannot all stay in place.
                       forward->SetState(states->q[i % kStates], rest);
                       forward->Held(states->a[i % kStates], points);
                     }});
@@ -197,7 +197,7 @@ double Throughput(const std::shared_ptr<const MultibodyModel>& model) {
 
 BenchmarkReport BenchDynamics(const models::RobotModel& robot,
                               const std::function<void(int, int)>& progress) {
-  // Couplings aside: the peers know none.
+  // Without couplings, which the peers do not support.
   models::RobotModel tree = robot;
   for (models::Joint& joint : tree.joints) joint.mimic.reset();
   const auto model = MultibodyModel::Spatial(tree);

@@ -64,8 +64,8 @@ void AddPeers(const SingleGaitSearch& search, double time_limit,
   for (const std::string& planner : OmplPlanners()) {
     contenders->push_back({"OMPL " + planner, true, solve(planner, 0)});
   }
-  // A fifth of the space's extent is far in a crowded field: the best planner gets a chance with
-  // shorter motions, too.
+  // A fifth of the space's extent (the default) is long in a crowded field, so the best planner
+  // also runs with shorter motions.
   const double step = search.scenario().planner.step;
   for (const double range : {step, 4 * step}) {
     contenders->push_back(
@@ -84,7 +84,7 @@ BenchmarkRow RowOf(const std::string& name, const Standing& standing) {
   return row;
 }
 
-/// Everybody searches with the first seed, then everybody with the next.
+/// All contenders search with the first seed, then all with the next.
 std::vector<Standing> Race(const std::vector<Contender>& contenders,
                            const GraphBenchSettings& settings,
                            const std::function<void()>& on_seed) {

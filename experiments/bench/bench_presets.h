@@ -8,7 +8,7 @@
 
 namespace possibility::experiments {
 
-/// How many plans ComparePresets makes.
+/// Number of plans that ComparePresets makes.
 int NumPresetPlans(int seeds);
 
 /// Plans the paper's scenarios with three actions by both presets in turn, seed by seed, on one

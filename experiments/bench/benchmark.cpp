@@ -23,7 +23,7 @@ double TimeCalls(const std::function<void(int)>& call, int calls) {
   return Seconds(start);
 }
 
-/// Calls that take about so many seconds.
+/// Number of calls that take about `seconds`.
 int CallsFor(const std::function<void(int)>& call, double seconds) {
   int calls = 1;
   double taken = TimeCalls(call, calls);

@@ -10,8 +10,7 @@
 
 namespace possibility::experiments {
 
-/// One thing whose time is measured. `call(i)` does it once; i counts up, so that calls can cycle
-/// through inputs.
+/// A timed operation. `call(i)` runs it once; i counts up, so that calls can cycle through inputs.
 struct BenchmarkCase {
   std::string name;
   std::function<void(int)> call;
@@ -21,7 +20,7 @@ struct BenchmarkRow {
   std::string name;
   double microseconds = 0;  ///< per call: median over rounds
   std::vector<double> rounds;
-  /// What else there is to say of it: "success", ...
+  /// Further figures: "success", ...
   std::vector<std::pair<std::string, double>> figures = {};
 };
 
@@ -34,26 +33,25 @@ struct BenchmarkRatio {
 struct BenchmarkReport {
   std::vector<BenchmarkRow> rows;
   std::vector<BenchmarkRatio> ratios;
-  /// What is no ratio: "cold_s_median", ...
+  /// Figures that are not ratios: "cold_s_median", ...
   std::vector<std::pair<std::string, double>> figures;
 
   /// {"rows": [{"name", "microseconds", and each figure}...], "ratios": {name: value...}, and each
   /// figure}
   nlohmann::ordered_json Json() const;
   std::string Text() const;
-  /// Median over rounds of slow / fast, each round's two taken a moment apart. Rows by name.
+  /// Median over rounds of slow / fast, the two of a round measured close together. Rows by name.
   double Ratio(const std::string& slow, const std::string& fast) const;
 };
 
-/// Times the cases in turn, over and over, so that what else the machine does meets all alike:
-/// every round each case runs for about `seconds_per_batch`. Reports rounds through `progress`
+/// Times the cases in turn, round after round, so that other load on the machine affects all alike.
+/// In every round each case runs for about `seconds_per_batch`. Reports rounds through `progress`
 /// (done, of).
 std::vector<BenchmarkRow> TimeInTurn(const std::vector<BenchmarkCase>& cases, int rounds,
                                      double seconds_per_batch,
                                      const std::function<void(int, int)>& progress);
 
-/// How many times as much work two threads do as one in the same time. `worker()` makes what one
-/// thread needs and returns its call.
+/// Throughput of two threads over that of one. `worker()` prepares one thread and returns its call.
 double TwoThreadThroughput(const std::function<std::function<void(int)>()>& worker, int calls,
                            int rounds);
 

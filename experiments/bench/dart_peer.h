@@ -10,8 +10,8 @@
 
 namespace possibility::experiments {
 
-/// A robot in DART. Every joint moves for itself: mimics are not coupled. Where DART is not
-/// installed there is nothing to link this with (POSSIBILITY_WITH_DART is not defined).
+/// A robot in DART. All joints are independent: mimics are not coupled. Available only if DART is
+/// installed (POSSIBILITY_WITH_DART is defined).
 class DartPeer {
  public:
   explicit DartPeer(const models::RobotModel& robot)
@@ -29,7 +29,7 @@ class DartPeer {
     engine_.InverseDynamics(a.data(), forces_.data());
     return forces_;
   }
-  /// Acceleration under generalised forces, gravity not among them; nv.
+  /// Acceleration under generalised forces, which exclude gravity; nv.
   const Eigen::VectorXd& ForwardDynamics(const Eigen::VectorXd& forces) {
     engine_.ForwardDynamics(forces.data(), acceleration_.data());
     return acceleration_;

@@ -24,7 +24,7 @@ VectorXd PointNear(const VectorXd& x, const VectorXd& lower, const VectorXd& upp
   return point;
 }
 
-/// Into the bounds; the rounding error of the sum is no part of the step.
+/// Step from x within the bounds, exact: the rounding error of the sum is not part of it.
 double Step(double x, double upper) {
   const double size =
       std::sqrt(std::numeric_limits<double>::epsilon()) * std::max(1.0, std::abs(x));
@@ -96,7 +96,7 @@ void DifferencedProgram::Jacobian(const VectorXd& x, VectorXd* values) {
     for (const int column : group) x_stepped_[column] += Step(x[column], upper()[column]);
     program_->Constraints(x_stepped_, &stepped_);
     stepped_ -= at_x_;
-    for (const int column : group) {  // what the constant entries added to rows of others
+    for (const int column : group) {  // removes what constant entries added to other rows
       for (const int entry : columns_[column]) {
         if (is_constant_[entry]) {
           stepped_[rows[entry]] -= constants_[entry] * (x_stepped_[column] - x[column]);

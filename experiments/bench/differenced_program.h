@@ -6,18 +6,18 @@
 
 namespace possibility::experiments {
 
-/// A program whose Jacobian comes from forward differences, as it would for somebody without exact
-/// derivatives, done as well as differences can be: entries that are constant are taken as known,
-/// and columns that share no row with a varying entry in both are stepped together (Curtis, Powell
-/// and Reid 1974, "On the estimation of sparse Jacobian matrices"), so that a Jacobian costs one
-/// evaluation of the constraints per group of columns. The gradient of the objective stays exact.
+/// A program whose Jacobian comes from forward differences, as efficiently as differences allow:
+/// constant entries are known, and columns without varying entries in a common row are stepped
+/// together (Curtis, Powell and Reid 1974, "On the estimation of sparse Jacobian matrices"). A
+/// Jacobian costs one evaluation of the constraints per group of columns. The gradient of the
+/// objective stays exact.
 class DifferencedProgram : public collocation::NonlinearProgram {
  public:
-  /// `program` outlives this and has no entry of its Jacobian twice; which entries are constant is
-  /// found by trying points around `x`.
+  /// `program` must outlive this object and must not have duplicate Jacobian entries. Constant
+  /// entries are detected at points around `x`.
   DifferencedProgram(NonlinearProgram* program, const Eigen::VectorXd& x);
 
-  /// Evaluations of the constraints that a Jacobian costs, the one at x aside.
+  /// Evaluations of the constraints per Jacobian, besides the one at x.
   int num_groups() const { return static_cast<int>(groups_.size()); }
 
   int num_variables() const override { return program_->num_variables(); }
@@ -40,7 +40,7 @@ class DifferencedProgram : public collocation::NonlinearProgram {
   const collocation::SparsityPattern& hessian_pattern() const override {
     return program_->hessian_pattern();
   }
-  /// The exact one; with HessianMode::kLimitedMemory nobody asks.
+  /// The exact Hessian; unused with HessianMode::kLimitedMemory.
   void Hessian(const Eigen::VectorXd& x, double objective_factor,
                const Eigen::VectorXd& multipliers, Eigen::VectorXd* values) override {
     program_->Hessian(x, objective_factor, multipliers, values);

@@ -5,8 +5,8 @@
 
 namespace possibility::experiments {
 
-/// The question of `search` in the peers' terms. It must outlive the result. Where OMPL is not
-/// installed there is nothing to ask it of (POSSIBILITY_WITH_OMPL is not defined).
+/// The query of `search` in the peers' terms. `search` must outlive the result. Useful only if OMPL
+/// is installed (POSSIBILITY_WITH_OMPL is defined).
 inline PlanarQuery QueryOf(const SingleGaitSearch& search) {
   const auto plain = [](const actions::PlanarPose& p) { return PeerPose{p.x, p.y, p.yaw}; };
   const auto planar = [](const PeerPose& p) { return actions::PlanarPose{p.x, p.y, p.yaw}; };

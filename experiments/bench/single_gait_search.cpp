@@ -72,7 +72,7 @@ FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t se
                                                       {0, start_, z}, {{0, goal_, z}}),
                           graph::RandomExploration()};
   }
-  // The question is put before the clock starts, as it is to other planners.
+  // The query is set up before the clock starts, as for other planners.
   const graph::Point start = PointAt(start_);
   const std::vector<graph::Point> goals = {PointAt(goal_)};
   const std::vector<std::shared_ptr<const graph::Action>> actions = {gaits_[0]};

@@ -19,16 +19,16 @@ namespace possibility::experiments {
 
 struct FoundPath {
   bool found = false;
-  double seconds = 0;                  ///< until it was found and confirmed, or given up
-  std::vector<std::string> explorers;  ///< that found its edges
+  double seconds = 0;                  ///< until the path was confirmed or the search gave up
+  std::vector<std::string> explorers;  ///< explorers of its edges
   std::vector<actions::PlanarPose> poses;
 };
 
-/// The way from a scenario's start to its first goal by one gait and nothing else, as a question
-/// for whatever searches the plane. Heights, actions and the other goals are not looked at.
+/// Query for a way from a scenario's start to its first goal in one gait, for any planner in the
+/// plane. Heights, actions and the other goals are ignored.
 class SingleGaitSearch {
  public:
-  /// `robot` must outlive this.
+  /// `robot` must outlive this object.
   /// @throws InputError if the gait does not exist or cannot stand at start or goal.
   SingleGaitSearch(const models::RobotModel& robot, const std::string& gait,
                    models::Scenario scenario);
@@ -40,11 +40,11 @@ class SingleGaitSearch {
   const actions::PlanarPose& goal() const { return goal_; }
 
   /// Sufficient conditions on a stance and on the straight way between two: C_S of the gait's
-  /// action. From any number of threads.
+  /// action. Safe to call from any number of threads.
   bool IsValid(const actions::PlanarPose& pose) const;
   bool IsValid(const actions::PlanarPose& from, const actions::PlanarPose& to) const;
 
-  /// The possibility graph's own answer, as either preset of the planner searches.
+  /// The possibility graph's answer, with the search of a planner preset.
   FoundPath Find(actions::PlannerPreset preset, std::uint64_t seed, double time_limit) const;
 
  private:
@@ -61,7 +61,7 @@ class SingleGaitSearch {
   actions::PlanarPose goal_;
 };
 
-/// m, in the plane.
+/// Horizontal length, m.
 double LengthOf(const std::vector<actions::PlanarPose>& path);
 
 }  // namespace possibility::experiments

@@ -50,7 +50,7 @@ struct DartEngine::Impl {
     Map<Vector3d>(world + 3).noalias() = R * body.segment<3>(3);
   }
 
-  /// What a body's own linear velocity changes by because the body turns.
+  /// Change of the linear velocity in body axes due to the body's rotation.
   Vector3d Turning() const { return v.head<3>().cross(v.segment<3>(3)); }
 
   dart::dynamics::SkeletonPtr skeleton = dart::dynamics::Skeleton::create("robot");

@@ -8,10 +8,10 @@ namespace possibility::experiments {
 
 enum class PeerJoint { kRevolute, kPrismatic };
 
-/// One link of a floating-base tree and the joint that moves it. Numbers alone: Eigen's objects
-/// must not cross to a library that was built for another instruction set.
+/// One link of a floating-base tree and the joint that moves it. Plain numbers, because Eigen
+/// objects must not be passed to a library built for another instruction set.
 struct PeerLink {
-  // Of the joint; not looked at for the root, which is the first link and floats.
+  // Joint; ignored for the root, which is the first link and floats.
   int parent = 0;
   PeerJoint joint = PeerJoint::kRevolute;
   std::array<double, 9> R_PJ{};  ///< child frame in the parent's at 0, column by column
@@ -23,9 +23,9 @@ struct PeerLink {
   std::array<double, 9> I_LC{};  ///< about the centre of mass, link axes, kg m^2
 };
 
-/// A tree as a skeleton of DART, the engine that the paper used: somebody else's answer to the same
-/// questions, and how long it takes. Conventions of q, v, a and generalised forces are those of
-/// models::RobotModel and dynamics::TreeKinematics. Sizes are not checked.
+/// A tree as a skeleton of DART, the engine that the paper used: an independent reference for
+/// results and times. Conventions of q, v, a and generalised forces are those of models::RobotModel
+/// and dynamics::TreeKinematics. Sizes are not checked.
 class DartEngine {
  public:
   /// Parents come before children. `gravity`: m/s^2, along -z.
@@ -39,7 +39,7 @@ class DartEngine {
   void SetState(const double* q, const double* v);
   /// Forces that realise `a` (nv), gravity included; into `forces` (nv).
   void InverseDynamics(const double* a, double* forces);
-  /// Acceleration under `forces` (nv), gravity not among them; into `a` (nv).
+  /// Acceleration under `forces` (nv), which exclude gravity; into `a` (nv).
   void ForwardDynamics(const double* forces, double* a);
   /// Into `M`: nv x nv, column by column.
   void MassMatrix(double* M);

@@ -49,7 +49,7 @@ class Motions : public ob::MotionValidator {
     return query_.motion_is_valid(ToPose(from), ToPose(to));
   }
 
-  /// What is left of a motion that is not valid is looked for by halving.
+  /// Finds the valid part of an invalid motion by bisection.
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
     if (checkMotion(from, to)) return true;
@@ -103,7 +103,7 @@ ob::ProblemDefinitionPtr MakeProblem(const ob::SpaceInformationPtr& information,
   const auto problem = std::make_shared<ob::ProblemDefinition>(information);
   problem->setStartAndGoalStates(ob::ScopedState<>(state(query.start)),
                                  ob::ScopedState<>(state(query.goal)));
-  // Any solution will do, from planners that would go on improving it, too.
+  // The first solution ends the search, also for planners that would improve it.
   const auto length = std::make_shared<ob::PathLengthOptimizationObjective>(information);
   length->setCostThreshold(length->infiniteCost());
   problem->setOptimizationObjective(length);
@@ -129,8 +129,8 @@ const std::map<std::string, Maker>& Makers() {
   return makers;
 }
 
-/// For all generators that are made from now on. (OMPL warns, in its log, that those made before
-/// keep their own: none of them outlives its search.)
+/// Seeds all generators created from now on. (OMPL logs a warning that earlier ones keep their
+/// seeds: none of them outlives its search.)
 void SeedGenerators(std::uint32_t seed) {
   ompl::msg::noOutputHandler();
   ompl::RNG::setSeed(seed + 1);  // 0 is refused

@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 const double kSlower = std::sqrt(9.81 / dynamics::kGravity);
 
 constexpr int kAngles = BipedStep::kAngles;
-constexpr int kFull = 7;  // with the root's x and z, which are zero while the foot stands
+constexpr int kFull = 7;  // with the root's x and z, zero while the foot is in stance
 
 using Angles = BipedStep::Angles;
 
@@ -36,8 +36,8 @@ MatrixXd Full() {
   return full;
 }
 
-/// Angles after the legs have changed their parts: the chain is read from its other end. The same
-/// for rates, and its own inverse.
+/// Angles after the legs exchange roles: the chain is read from its other end. Also valid for
+/// rates; its own inverse.
 MatrixXd Relabelling() {
   MatrixXd relabelled = MatrixXd::Zero(kAngles, kAngles);
   relabelled.row(0).setOnes();
@@ -71,7 +71,7 @@ void AddAngles(const Angles& first, Biped* biped, Phase* phase) {
   }
 }
 
-/// Inverse dynamics with the foot's force and the joints' torques for variables; no torque at the
+/// Inverse dynamics with the foot's force and the joints' torques as variables; no torque at the
 /// foot.
 void AddStance(const Biped& biped, Phase* phase) {
   constexpr double kForce = 300, kTorque = 30;
@@ -91,7 +91,8 @@ void AddStance(const Biped& biped, Phase* phase) {
                    {kTorque, kForce, kForce, kTorque, kTorque, kTorque, kTorque});
 }
 
-/// Off the ground between the ends, up at first, down on the mark at last.
+/// Swing foot above the ground between the ends, moving up at first, touching down on the mark at
+/// last.
 void AddSwingFoot(const Biped& biped, double length, Phase* phase) {
   const auto position =
       LinearExtension(PointPositions(biped.model, biped.swing), Full(), MatrixXd::Zero(2, kAngles));
@@ -107,8 +108,8 @@ void AddSwingFoot(const Biped& biped, double length, Phase* phase) {
   phase->Constrain("landing", velocity, state, {free, {-kInfinity, 0}}, At::kEnd);
 }
 
-/// What follows the impact of the swing foot is the start again, the legs' names exchanged. The old
-/// stance foot leaves the ground with a velocity that the impact decides.
+/// After the impact of the swing foot the state equals the start with the legs' names exchanged.
+/// The old stance foot takes off with a velocity that the impact determines.
 void AddImpact(const Biped& biped, OptimalControlProblem* problem) {
   const Variables lifting = {problem->AddParameter("lifting vx", {-10, 10}),
                              problem->AddParameter("lifting vz", {-10, 10})};

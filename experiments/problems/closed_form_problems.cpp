@@ -155,7 +155,7 @@ ProblemPtr BrysonDenham() {
   return problem;
 }
 
-/// A chain of length 4 between (0, 1) and (1, 3) with its centre of mass as low as can be.
+/// A chain of length 4 between (0, 1) and (1, 3) with the lowest centre of mass.
 ProblemPtr HangingChain() {
   auto problem = std::make_unique<OptimalControlProblem>("hanging chain");
   Phase& phase = problem->AddPhase("chain");

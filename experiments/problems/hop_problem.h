@@ -6,8 +6,8 @@
 
 namespace possibility::experiments {
 
-/// Hopper jumps `distance` (m) from rest to rest, in three phases with a rigid impact, for the
-/// least integral of squared efforts.
+/// Hopper jumps `distance` (m) from rest to rest, in three phases with a rigid impact. Minimises
+/// the integral of squared efforts.
 std::unique_ptr<collocation::OptimalControlProblem> Hop(double distance);
 
 }  // namespace possibility::experiments

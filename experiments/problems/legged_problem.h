@@ -24,7 +24,8 @@ struct Motor {
   double weight;
 };
 
-/// One control per joint within its effort, by joint, its square in the cost.
+/// Adds one control per joint, within its effort limit, and its square to the cost. Returned by
+/// joint.
 Variables AddMotors(const dynamics::MultibodyModel& model, const std::vector<Motor>& motors,
                     collocation::Phase* phase);
 

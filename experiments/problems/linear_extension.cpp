@@ -27,7 +27,7 @@ class LinearExtensionFunction : public Function {
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
-    // Functions leave alone what their masks exclude.
+    // Functions do not write entries that their masks exclude.
     jacobian_.setZero();
     f_->Jacobian(A_ * z, &jacobian_);
     *J = jacobian_ * A_ + B_;

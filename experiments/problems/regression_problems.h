@@ -10,15 +10,15 @@
 
 namespace possibility::experiments {
 
-/// A solution that a problem may converge to. Where a problem has several extremals each has its
-/// own name and value.
+/// A solution to which a problem may converge. If a problem has several extremals, each has its own
+/// name and value.
 struct KnownOptimum {
   std::string name;  ///< "global", "second basin"
   double objective = 0;
-  double tolerance = 0;  ///< relative: the digits that the source gives
+  double tolerance = 0;  ///< relative: from the digits in the source
 };
 
-/// An optimal-control problem whose answer is known from elsewhere.
+/// An optimal-control problem with a known answer from another source.
 struct RegressionProblem {
   std::string name;
   std::string source;  ///< of the problem and of its optimum
@@ -26,14 +26,14 @@ struct RegressionProblem {
   std::function<std::unique_ptr<collocation::OptimalControlProblem>()> build;
   int intervals = 30;
   double mesh_tolerance = 0;  ///< 0: one mesh
-  /// Where the optimal control jumps or is singular: trapezoidal, whose controls do not leave their
-  /// bounds between the knots.
+  /// Trapezoidal if the optimal control jumps or is singular, because its controls stay within
+  /// their bounds between the knots.
   collocation::TranscriptionScheme scheme = collocation::HermiteSimpson();
 };
 
-/// Every problem of the suite that needs no robot, in the order in which it is run.
+/// All problems of the suite that need no robot, in the order of running.
 std::vector<RegressionProblem> RegressionProblems();
-/// The same and then those of a robot (RobotProblems).
+/// The same, followed by those of a robot (RobotProblems).
 std::vector<RegressionProblem> RegressionProblems(const models::RobotModel& humanoid);
 
 }  // namespace possibility::experiments

@@ -17,7 +17,7 @@ namespace {
 using namespace collocation;  // reads like the mathematics
 using Eigen::VectorXd;
 
-/// A problem that keeps what its functions refer to.
+/// A problem that owns the objects its functions refer to.
 struct RobotProblem {
   explicit RobotProblem(const models::RobotModel& robot)
       : model(dynamics::SagittalReduction(robot).model()) {}
@@ -113,8 +113,8 @@ std::unique_ptr<OptimalControlProblem> SquatToStand(const models::RobotModel& hu
     phase.Fix(robot.v[i], 0, At::kStart);
     phase.Fix(robot.v[i], 0, At::kEnd);
   }
-  // The sole stays: three of its points' four velocities, the fourth follows. At the ends all
-  // velocities are zero anyway.
+  // The sole stays in place: three of its points' four velocity components are held, the fourth
+  // follows. At the ends all velocities are zero anyway.
   std::vector<Variable> arguments = robot.q;
   arguments.insert(arguments.end(), robot.v.begin(), robot.v.end());
   phase.Constrain("sole", PointVelocities(robot.model, robot.points), arguments,

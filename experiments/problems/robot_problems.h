@@ -4,7 +4,7 @@
 
 namespace possibility::experiments {
 
-/// Of a humanoid with DRC-HUBO1's joint names.
+/// Problems of a humanoid with DRC-HUBO1's joint names.
 std::vector<RegressionProblem> RobotProblems(const models::RobotModel& humanoid);
 
 }  // namespace possibility::experiments

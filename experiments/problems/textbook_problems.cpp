@@ -9,7 +9,7 @@ namespace {
 using namespace collocation;  // reads like the mathematics
 using ProblemPtr = std::unique_ptr<OptimalControlProblem>;
 
-/// x' = -x^3 + u from 1 to 1.5 over a time so long that it might be infinite.
+/// x' = -x^3 + u from 1 to 1.5 over a practically infinite time.
 ProblemPtr Hypersensitive() {
   auto problem = std::make_unique<OptimalControlProblem>("hypersensitive");
   Phase& phase = problem->AddPhase("wait");
@@ -134,12 +134,12 @@ std::vector<RegressionProblem> TextbookProblems() {
        published(6.724113809886, 2e-6), &Hypersensitive, 400, 1e-6},
       {"goddard", "COPS 3.0 (Dolan, More & Munson 2004), rocket: 1.01283",
        published(-1.01283, 1e-5), &Goddard, 200, 0, Trapezoidal()},
-      // Singular in the middle: the objective comes down slowly with the mesh. Half a unit of the
-      // last digit published is 1.04e-6 of it.
+      // Singular in the middle: the objective converges slowly with the mesh. Half a unit of the
+      // last published digit is 1.04e-6 of it.
       {"catalyst_mixing", "COPS 3.0, catmix: 4.80556e-2", published(-4.80556e-2, 1.04e-6),
        &CatalystMixing, 10000, 0, Trapezoidal()},
       // Pontryagin's conditions by single shooting (Runge-Kutta, 10,000 and 50,000 steps) give
-      // 2.8672610452; the number in the manual is 5e-7 below that and so of a mesh of theirs.
+      // 2.8672610452. The manual's number is 5e-7 below that, an effect of its mesh.
       {"van_der_pol", "Vassiliadis 1993; indirect shooting (PROPT manual: 2.867259538)",
        published(2.8672610452, 1e-7), &VanDerPol, 320},
       {"rayleigh", "PROPT manual, after Maurer & Augustin 2001: 29.376079656",

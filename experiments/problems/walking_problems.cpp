@@ -11,10 +11,10 @@
 namespace possibility::experiments {
 
 std::vector<RegressionProblem> WalkingProblems() {
-  // Kelly's guess, his angles counted backwards, and one that bends the knees the other way.
+  // Kelly's guess (his angles have the opposite sign), and one that bends the knees the other way.
   const BipedStep::Angles kelly(0.3, -1.0, 0.7, 0.5, 0.1);
   const BipedStep::Angles forward(-0.4, 0.5, 0, 0.3, 0);
-  // The log of Ipopt and the log of SNOPT stopped at different extremals of one problem.
+  // The logs of Ipopt and SNOPT end at different extremals of one problem.
   const std::string logs = "OptimTraj, demo/fiveLinkBiped at 8c43235: logs of GPOPS-II";
   const std::vector<KnownOptimum> extremals = {{"knees forward", 263.69884582, 1e-6},
                                                {"knees backward", 302.25469438, 1e-6},

@@ -34,7 +34,7 @@ using Progress = std::function<void(int, int)>;
 using Bench =
     std::function<BenchmarkReport(const BenchOptions&, const models::RobotModel&, const Progress&)>;
 
-/// A subject that only the robot is asked of.
+/// A subject that needs only the robot.
 template <typename Function>
 Bench OfRobot(Function bench) {
   return [bench](const BenchOptions&, const models::RobotModel& robot, const Progress& progress) {
@@ -61,7 +61,7 @@ const std::map<std::string, Bench>& Benches() {
   return benches;
 }
 
-/// "round 3 of 15" over and over on stderr, if somebody looks.
+/// Rewrites "round 3 of 15" on stderr, if it is a terminal.
 void ShowRound(int round, int rounds) {
   if (isatty(STDERR_FILENO) == 0) return;
   PrintError("\rround {} of {}{}", round, rounds, round == rounds ? "\r\x1b[K" : "");

@@ -8,7 +8,7 @@ class App;
 
 namespace possibility::experiments {
 
-/// What the program ends with (docs/command_line.md). Anything else is a bug.
+/// Exit codes of the program (docs/command_line.md). Any other code is a bug.
 enum ExitCode : int {
   kDone = 0,
   kBadInput = 1,
@@ -17,7 +17,7 @@ enum ExitCode : int {
   kInternalError = 4,
 };
 
-/// A command of the program: its part of the command line, and what it does once that is parsed.
+/// A command of the program: its part of the command line, and its execution after parsing.
 struct Command {
   CLI::App* options = nullptr;
   /// @throws InputError for bad input.

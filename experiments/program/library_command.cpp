@@ -48,7 +48,7 @@ std::vector<double> ParseHeights(const std::string& text) {
   return heights;
 }
 
-/// "jump 12 of 105  1:20 left" over and over on stderr, if somebody looks.
+/// Rewrites "jump 12 of 105 1:20 left" on stderr, if it is a terminal.
 class SweepProgress {
  public:
   bool Show(int done, int all) const {

@@ -25,7 +25,7 @@ bool Fits(const actions::Phase& phase, const models::RobotModel& robot, Eigen::I
 /// The plan, without robot and scenario.
 LoadedPlan LoadAlone(const std::filesystem::path& file_or_directory) {
   LoadedPlan loaded;
-  std::error_code ignored;  // a path that cannot be asked about cannot be read: ReadPlan says so
+  std::error_code ignored;  // ReadPlan reports paths that cannot be read
   const bool is_folder = std::filesystem::is_directory(file_or_directory, ignored);
   loaded.file = is_folder ? file_or_directory / "plan.json" : file_or_directory;
   loaded.plan = actions::ReadPlan(loaded.file);
@@ -51,7 +51,7 @@ LoadedPlan LoadPlanToVerify(const std::filesystem::path& file_or_directory,
   loaded.scenario =
       models::LoadScenario(files.scenario.empty() ? loaded.plan.scenario_file : files.scenario);
   const std::filesystem::path& named = loaded.scenario.robot_file;
-  std::error_code ignored;  // what cannot be asked about cannot be read
+  std::error_code ignored;  // an unreadable path is reported when it is read
   if (files.robot.empty() && !std::filesystem::exists(named, ignored)) {
     throw InputError(fmt::format("{}: robot: no such file: {}, expected one, or --robot FILE",
                                  loaded.scenario.file.string(), named.string()));

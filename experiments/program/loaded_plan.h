@@ -15,7 +15,7 @@ struct LoadedPlan {
   models::Scenario scenario;
   models::RobotModel robot;
 
-  /// Whether robot and scenario are still, byte for byte, the ones planned for.
+  /// Whether robot and scenario are byte for byte the ones planned for.
   bool IsCurrent() const;
 };
 
@@ -23,23 +23,23 @@ struct LoadedPlan {
 /// @throws InputError for anything malformed or missing.
 LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory);
 
-/// The files to verify a plan with, where they are not those that files name; empty: as named.
+/// Replacements for the files named in the plan and scenario; empty: as named.
 struct VerifiedWith {
   std::filesystem::path robot;
   std::filesystem::path scenario;
 };
 
-/// The same for verification: the robot is the one that the scenario names, whatever the plan says.
+/// LoadPlan for verification: takes the robot that the scenario names, not the plan's.
 /// @throws InputError likewise.
 LoadedPlan LoadPlanToVerify(const std::filesystem::path& file_or_directory,
                             const VerifiedWith& files);
 
-/// Makes sure that the sizes of every knot and the contacts of every phase are the robot's, which
-/// the plan's reader cannot know.
+/// Requires that the sizes of every knot and the contacts of every phase fit the robot, which the
+/// plan's reader does not know.
 /// @throws InputError naming the file and the segment.
 void RequireFit(const LoadedPlan& loaded);
 
-/// Makes sure that the plan is no "no", which has no motion to verify or export.
+/// Requires a plan with motion: a "no" has nothing to verify or export.
 /// @throws InputError naming the file and the answer.
 void RequireMotion(const LoadedPlan& loaded);
 

@@ -44,7 +44,7 @@ std::string Version() {
                      actions::kPlanFormat);
 }
 
-/// One line for people; with --json also an object, so that a caller always has one to parse.
+/// Prints one line of text; with --json also an object, so that a caller always has one to parse.
 ExitCode Fail(ExitCode code, const std::string& message, bool json) {
   const std::string line = OneLine(message);
   PrintError("{}\n", line);
@@ -53,7 +53,7 @@ ExitCode Fail(ExitCode code, const std::string& message, bool json) {
   try {
     PrintOut("{}\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } catch (const InputError&) {
-    // It may be what failed.
+    // Standard output may be what failed.
   }
   return code;
 }
@@ -98,10 +98,9 @@ ExitCode Run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   possibility::experiments::PrepareStandardStreams();
-  // Solves allocate and free matrices all the time; giving the pages back to the system and
-  // faulting them in again makes threads queue in the kernel (eight solves at a time on two
-  // cores: 1.58 to 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of
-  // reach).
+  // Solves allocate and free matrices constantly. Returning the pages to the system and faulting
+  // them in again makes threads queue in the kernel (eight solves at a time on two cores: 1.58 to
+  // 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of reach).
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   return possibility::experiments::Run(argc, argv);

@@ -28,8 +28,8 @@ struct MergeOptions {
   bool json = false;
 };
 
-/// The union of the folders' files of that name, as a file of the output folder; what is there
-/// already counts as well.
+/// The union of the folders' files of that name and the output folder's own, written to the output
+/// folder.
 std::vector<TrialRecord> MergeFiles(const MergeOptions& options, const std::string& name) {
   const fs::path target = fs::path(options.out) / name;
   std::vector<std::pair<fs::path, std::vector<TrialRecord>>> parts;

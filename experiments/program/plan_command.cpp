@@ -32,7 +32,7 @@
 namespace possibility::experiments {
 namespace {
 
-/// Numbers are taken as text: CLI11 would wrap a negative seed around and cut "1.5" short.
+/// Numbers are read as text: CLI11 would wrap a negative seed around and truncate "1.5".
 struct PlanOptions {
   std::string scenario;
   std::string out;
@@ -46,7 +46,7 @@ struct PlanOptions {
   bool json = false;
 };
 
-/// out/<name>, whatever characters the name is made of.
+/// out/<name>, safe for any characters in the name.
 std::filesystem::path DefaultFolder(std::string name) {
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
@@ -79,7 +79,7 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
   }
 }
 
-/// The plan is one for the scenario's file, which `verify` reads again.
+/// Requires actions that the scenario's file allows, because `verify` reads that file again.
 void RequireAllowed(const std::vector<std::string>& actions, const models::Scenario& scenario) {
   const std::vector<std::string>& allowed = scenario.actions;
   for (const std::string& action : actions) {

@@ -112,7 +112,7 @@ std::vector<RegressionProblem> Select(const std::string& list, const std::string
   return all;
 }
 
-/// Fails before the work rather than after it.
+/// Checks the output file before the work rather than after it.
 void CheckOutput(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
@@ -123,7 +123,7 @@ void CheckOutput(const std::filesystem::path& file) {
   PrepareOutputFolder("--out", folder.empty() ? "." : folder);
 }
 
-/// "problem 3 of 17: kirk, about 12 s left" over and over on stderr, if somebody looks.
+/// Rewrites "problem 3 of 17: kirk, about 12 s left" on stderr, if it is a terminal.
 class Progress {
  public:
   explicit Progress(int count) : count_(count), is_terminal_(::isatty(STDERR_FILENO) == 1) {}

@@ -8,8 +8,8 @@
 
 namespace possibility::experiments {
 
-/// What commands do with the report of an experiment: its files, and its summary as one JSON object
-/// or its tables on standard output.
+/// Writes the files of an experiment's report, and prints its summary as one JSON object or its
+/// tables to standard output.
 /// @throws InputError if a file cannot be written.
 template <typename Report>
 void PutOutReport(const Report& report, const std::filesystem::path& folder, bool json) {

@@ -35,7 +35,7 @@ std::string RowName(const std::string& parameter, double value) {
   return fmt::format("{}={:.12g}", parameter, value);
 }
 
-/// One value of the sweep: writes scenarios and reads them.
+/// One value of the sweep: writes its scenarios and reads them.
 class SweepScenarios {
  public:
   SweepScenarios(std::shared_ptr<const ScenarioTemplate> scenario_template, fs::path folder,
@@ -45,7 +45,7 @@ class SweepScenarios {
         parameter_(std::move(parameter)),
         value_(value) {}
 
-  /// @throws InputError naming the template, or the scenario that it gave.
+  /// @throws InputError naming the template or the scenario made from it.
   std::shared_ptr<const models::Scenario> Load(std::uint64_t seed) const {
     const fs::path file = folder_ / fmt::format("{}_{}.yaml", RowName(parameter_, value_), seed);
     WriteOutput(file, template_->Instantiate({{parameter_, value_}}, seed, folder_));
@@ -85,7 +85,7 @@ std::vector<ExperimentRow> RowsOf(const SweepOptions& options, const ExperimentS
   std::vector<ExperimentRow> rows;
   for (const double value : values) {
     const SweepScenarios scenarios(scenario_template, folder, options.parameter, value);
-    // Errors in the template are found before the work, not after half of it.
+    // Finds errors in the template before the work starts.
     const auto scenario = scenarios.Load(settings.first_seed);
     ExperimentRow row = robots.RowOf(experiment, RowName(options.parameter, value), *scenario,
                                      scenario_template->content_hash());

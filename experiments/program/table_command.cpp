@@ -61,13 +61,13 @@ class RowLoader {
   std::map<std::string, std::shared_ptr<const models::Scenario>> scenarios_;
 };
 
-/// Rows and twins that were asked for.
+/// Requested rows and twins.
 struct Selection {
   std::vector<TableRow> rows;
   std::vector<std::string> twins;
 };
 
-/// `name`: of a scenario or of a row; empty: everything. A twin that is named is wanted.
+/// `name`: of a scenario or of a row; empty: everything. A twin is selected if `name` names it.
 Selection Select(const std::string& name, bool with_twins) {
   Selection selection;
   std::vector<std::string> known;
@@ -97,7 +97,7 @@ std::vector<TrialRecord> RunRows(const Selection& selection, const ExperimentSet
   return RunExperiment(rows, settings, settings.out / "results.jsonl", TableRowOrder());
 }
 
-/// Only the default planner can say no: without floods there is nothing but the time limit.
+/// Runs the twins with the default planner only: without floods every "no" is the time limit.
 std::vector<TrialRecord> RunTwins(const Selection& selection, ExperimentSettings settings,
                                   RowLoader* loader) {
   if (selection.twins.empty()) return {};

@@ -57,7 +57,7 @@ Page PageOfJump(const ViewOptions& options) {
 }
 
 Page MakePage(const ViewOptions& options) {
-  std::error_code ignored;  // a path that cannot be asked about cannot be read: LoadPlan says so
+  std::error_code ignored;  // LoadPlan reports paths that cannot be read
   if (std::filesystem::is_directory(options.file, ignored)) return PlanPage(options);
   const std::string format = FormatOf(options.file);
   if (format == kJumpFormat) return PageOfJump(options);

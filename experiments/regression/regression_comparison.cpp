@@ -19,15 +19,15 @@ using Kind = RegressionDifference::Kind;
 
 constexpr double kMoreIterations = 1.1;
 constexpr double kMoreError = 1.1;
-constexpr double kLeastError = 1e-8;  // what the solver's own tolerance leaves open
+constexpr double kLeastError = 1e-8;  // below the solver's own tolerance
 constexpr double kMoreSeconds = 1.3;
 constexpr double kLeastSeconds = 0.005;
 
-/// What is compared of a problem.
+/// The compared values of a problem.
 struct Entry {
   std::string name;
   std::string status;
-  std::string optimum;   // empty: none was met
+  std::string optimum;   // empty: none reached
   double objective = 0;  // NaN: none
   double error = 0;      // NaN: none
   double iterations = 0;
@@ -52,7 +52,7 @@ std::string TextMember(const json& object, const std::string& where, const std::
   return Member(object, where, key, &json::is_string, "a text").get<std::string>();
 }
 
-/// JSON has no NaN: null stands for it.
+/// Null stands for NaN, which JSON lacks.
 double NumberMember(const json& object, const std::string& where, const std::string& key) {
   if (object.is_object() && object.contains(key) && object[key].is_null()) {
     return std::numeric_limits<double>::quiet_NaN();
@@ -107,7 +107,7 @@ const Entry* Find(const std::vector<Entry>& entries, const std::string& name) {
   return found == entries.end() ? nullptr : &*found;
 }
 
-/// 0: the best.
+/// Rank of a status; 0: the best.
 int StatusRank(const std::string& status) {
   if (status == "solved") return 0;
   return status == "acceptable" ? 1 : 2;
@@ -120,7 +120,7 @@ std::string Growth(double before, double after) {
                         : fmt::format("{:.3g} times", after / before);
 }
 
-/// Compares one problem and collects what it finds.
+/// Compares one problem and collects the differences.
 class EntryComparison {
  public:
   EntryComparison(const Entry& before, const Entry& after,
@@ -129,7 +129,7 @@ class EntryComparison {
     Status();
     Optimum();
     Error();
-    if (StatusRank(after_.status) < StatusRank(before_.status)) return;  // to get there may cost
+    if (StatusRank(after_.status) < StatusRank(before_.status)) return;  // may cost more
     Iterations();
     Seconds();
   }
@@ -144,7 +144,7 @@ class EntryComparison {
     Add(Kind::kWorse, "status", fmt::format("status {}, now {}", before_.status, after_.status));
   }
 
-  /// Costs are minimised: another optimum is worse if it lies higher.
+  /// Costs are minimised, so another optimum is worse if its cost is higher.
   void Optimum() {
     if (before_.optimum.empty() || before_.optimum == after_.optimum) return;
     if (after_.optimum.empty()) {
@@ -158,7 +158,7 @@ class EntryComparison {
                     after_.optimum, before_.objective, after_.objective));
   }
 
-  /// Only against the same optimum; the error to another one tells nothing.
+  /// Compares errors only to the same optimum; the error to another one is meaningless.
   void Error() {
     if (before_.optimum != after_.optimum || std::isnan(before_.error)) return;
     if (after_.error <= kMoreError * before_.error || after_.error - before_.error <= kLeastError) {
@@ -193,7 +193,7 @@ class EntryComparison {
   std::vector<RegressionDifference>* differences_;
 };
 
-/// Environment and options: each member that is not what it was.
+/// Notes each changed member of environment and options.
 void NoteSettings(const json& old_run, const json& new_run, const char* part,
                   std::vector<RegressionDifference>* differences) {
   const auto dump = [](const json& value) {

@@ -7,15 +7,15 @@
 
 namespace possibility::experiments {
 
-/// One thing that differs between two runs of the regression suite.
+/// A difference between two runs of the regression suite.
 struct RegressionDifference {
   enum class Kind {
     kWorse,   ///< makes the comparison fail
-    kSlower,  ///< more seconds; they depend on what else the machine did
-    kNote     ///< neither: another environment, a problem that is new
+    kSlower,  ///< more seconds, which also depend on other load
+    kNote     ///< neither: another environment, a new problem
   };
   Kind kind = Kind::kNote;
-  std::string problem;  ///< empty: of the whole run
+  std::string problem;  ///< empty: the whole run
   std::string what;     ///< "status", "optimum", "error", "iterations", "seconds", ...
   std::string text;     ///< "iterations 10, now 14 (+40 %)"
 };
@@ -29,13 +29,13 @@ struct RegressionComparison {
   std::string Text() const;
 };
 
-/// A file that `possibility regress --out` wrote.
-/// @throws InputError naming the file, and what in it, unless CompareRegressions can use it.
+/// Reads a file that `possibility regress --out` wrote.
+/// @throws InputError naming the file and the fault in it, unless CompareRegressions can use it.
 nlohmann::json ReadRegressionFile(const std::filesystem::path& file);
 
 /// What got worse from `old_run` to `new_run`, both in the form of RegressionReport::Json().
-/// Problems of the old run that are not in the new one count as lost if that was of the whole
-/// suite (`is_whole`).
+/// Problems of the old run that are missing in the new one count as lost if the new run is of the
+/// whole suite (`is_whole`).
 /// @throws InputError if either is not in that form.
 RegressionComparison CompareRegressions(const nlohmann::json& old_run,
                                         const nlohmann::json& new_run, bool is_whole = true);

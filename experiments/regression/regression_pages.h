@@ -6,8 +6,8 @@
 
 namespace possibility::experiments {
 
-/// Writes into a folder that exists: NAME.svg for each problem that has a motion, and index.html
-/// with the table of results and all pictures.
+/// Writes into an existing folder: NAME.svg for each problem with a motion, and index.html with the
+/// table of results and all pictures.
 /// @throws InputError naming the file that cannot be written.
 void WriteRegressionPages(const RegressionReport& report, const std::filesystem::path& folder);
 

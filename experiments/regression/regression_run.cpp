@@ -21,8 +21,8 @@ double RelativeError(double objective, double known) {
   return known == 0 ? error : error / std::abs(known);
 }
 
-/// The known optimum that the objective is nearest to, measured by each one's own tolerance: of
-/// two that are close together the one that was met.
+/// Finds the known optimum nearest to the objective, in units of each optimum's tolerance, so that
+/// of two close optima the one reached is found.
 void LookUp(const RegressionProblem& problem, RegressionRecord* record) {
   double nearest = std::numeric_limits<double>::infinity();
   record->relative_error = kNaN;

@@ -11,38 +11,38 @@
 
 namespace possibility::experiments {
 
-/// What a run changes of the defaults.
+/// Changes of a run to the defaults.
 struct RegressionOptions {
   std::optional<collocation::TranscriptionScheme> scheme;  ///< none: as each problem says
-  std::optional<int> intervals;  ///< per phase to begin with; none: as each problem says
+  std::optional<int> intervals;  ///< initial, per phase; none: as each problem says
   collocation::LinearSolver linear_solver = collocation::LinearSolver::kSparseLdlt;
   collocation::HessianMode hessian = collocation::HessianMode::kExact;
 
   nlohmann::ordered_json Json() const;
-  /// For one problem.
+  /// Options for one problem.
   collocation::OptimalControlOptions For(const RegressionProblem& problem) const;
 };
 
-/// How one problem came out.
+/// Result of one problem.
 struct RegressionRecord {
   std::string name;
   std::string source;
   std::string scheme;
-  std::string status;  ///< "solved", ...; "error" if it could not even be posed
+  std::string status;  ///< "solved", ...; "error" if it could not be posed
   std::string message;
   double objective = 0;
-  KnownOptimum nearest;       ///< of the known optima
-  double relative_error = 0;  ///< to that one; absolute if its value is 0
+  KnownOptimum nearest;       ///< among the known optima
+  double relative_error = 0;  ///< to `nearest`; absolute if its value is 0
   bool within_tolerance = false;
   int iterations = 0;
   collocation::SolverEvaluations evaluations;
-  std::vector<int> intervals;  ///< of each phase, in the end
+  std::vector<int> intervals;  ///< of each phase, final
   int refinements = 0;
   double mesh_error = 0;
   collocation::SolverTimes seconds;
   int variables = 0;
   int constraints = 0;
-  collocation::StoredSolution solution;  ///< without phases if there is none; not in the JSON
+  collocation::StoredSolution solution;  ///< no phases if there is none; not in the JSON
 
   nlohmann::ordered_json Json() const;
 };
@@ -62,12 +62,12 @@ struct RegressionReport {
 
 std::string StatusName(collocation::SolverStatus status);
 
-/// Solves one problem from its stated guess and looks its answer up. What the problem throws ends
-/// in the record.
+/// Solves one problem from its stated guess and compares with its known optima. Exceptions of the
+/// problem are recorded.
 RegressionRecord RunProblem(const RegressionProblem& problem, const RegressionOptions& options);
 
-/// Solves the problems one after another. `progress` hears before each how many are done, and its
-/// name.
+/// Solves the problems one after another. Before each, `progress` gets the number done and the
+/// problem's name.
 RegressionReport RunRegression(const std::vector<RegressionProblem>& problems,
                                const RegressionOptions& options,
                                const std::function<void(int, const std::string&)>& progress);

@@ -19,7 +19,7 @@ constexpr const char* kRootRates[] = {"root_wx", "root_wy", "root_wz",
 constexpr const char* kRootPose[] = {"root_qw", "root_qx", "root_qy", "root_qz",
                                      "root_x",  "root_y",  "root_z"};
 
-/// Quoted if it must be (RFC 4180).
+/// Quoted if necessary (RFC 4180).
 std::string Field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -9,24 +9,25 @@
 
 namespace possibility::experiments {
 
-/// The robot's state at one instant, and the phase that it belongs to.
+/// The robot's state at one instant, and its phase.
 struct PlanSample {
   int segment = 0;
-  const actions::Phase* phase = nullptr;  ///< of the plan that was sampled
+  const actions::Phase* phase = nullptr;  ///< of the sampled plan
   actions::Knot knot;
 };
 
 using VisitSample = std::function<void(const PlanSample&)>;
 
-/// Every knot of every phase; where two phases meet there are two, as tau and forces may jump.
+/// Visits every knot of every phase; two where phases meet, because tau and forces may jump.
 void VisitKnots(const actions::Plan& plan, const VisitSample& visit);
 
-/// Samples `step` s apart from the beginning, and the end. Where two phases meet: the later one.
-/// @throws InputError if that is more than 1e8 samples.
+/// Visits samples `step` s apart from the beginning, and the end. Where two phases meet: the later
+/// one.
+/// @throws InputError for more than 1e8 samples.
 void VisitEvery(const actions::Plan& plan, double step, const VisitSample& visit);
 
 /// One row per sample: t, segment, action, q, v, a, tau, each component in its own column
-/// (docs/command_line.md). Numbers read back to the same value.
+/// (docs/command_line.md). Numbers read back exactly.
 class TrajectoryTable {
  public:
   /// Both must outlive the table.

@@ -21,7 +21,8 @@ constexpr const char* kStyle =
     "figure{margin:14px 0}figcaption{font-size:13px;color:#495057}img{max-width:100%}\n"
     ".gallery{display:flex;flex-wrap:wrap;gap:18px}.gallery figure{margin:0}\n";
 
-/// As an image, not as an element of the page: styles and ids of one must not reach another.
+/// Embeds a figure as an image rather than as elements, so that styles and ids of figures do not
+/// interfere.
 std::string Html(const Figure& figure) {
   return fmt::format(
       "<figure><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"/>"

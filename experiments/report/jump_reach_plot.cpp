@@ -5,7 +5,7 @@
 namespace possibility::experiments {
 namespace {
 
-/// A point per jump, `value` over distance; those that were found and those that were not.
+/// A point per jump, `value` over distance, separately for jumps found and not found.
 Plot Scatter(const std::vector<actions::JumpSweepEntry>& entries,
              double (*value)(const actions::JumpSweepEntry&)) {
   Plot plot;

@@ -7,8 +7,8 @@
 
 namespace possibility::experiments {
 
-/// An SVG of which jumps were found and which were not, over distance and height, and what an
-/// answer cost over distance.
+/// An SVG of the jumps found and not found, over distance and height, and the cost of answers over
+/// distance.
 std::string JumpReachPicture(const std::vector<actions::JumpSweepEntry>& entries);
 
 }  // namespace possibility::experiments

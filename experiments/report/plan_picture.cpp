@@ -17,13 +17,14 @@ using Eigen::Vector2d;
 constexpr double kMargin = 0.15;      // m, around the bounds
 constexpr double kLineWidth = 0.004;  // of the scene's larger extent
 
-/// Corners of the shadow that a shape casts straight down, counter-clockwise: its support points in
-/// directions all around.
+/// Corners of a shape's vertical projection, counter-clockwise: its support points in directions
+/// all around.
 std::vector<Vector2d> Shadow(const models::Obstacle& obstacle) {
   constexpr int kDirections = 48;
   std::vector<Vector2d> corners;
   for (int i = 0; i < kDirections; ++i) {
-    // Off the axes: the support point of an upright box is a corner, never anywhere on a side.
+    // Off the axes, so that the support point of an upright box is a corner, never a point on a
+    // side.
     const double angle = 2 * M_PI * (i + 0.37) / kDirections;
     const Eigen::Vector3d direction(std::cos(angle), std::sin(angle), 0);
     const Eigen::Vector3d local = obstacle.X_WO.linear().transpose() * direction;
@@ -50,7 +51,7 @@ std::string Obstacles(const models::Environment& environment, bool ground) {
   return svg;
 }
 
-/// A part's holes are clockwise, so they stay open under either fill rule.
+/// Holes are clockwise, so they stay open under either fill rule.
 std::string Reached(const actions::Barrier& barrier) {
   std::string svg;
   for (const actions::ReachedRegion& region : barrier.reached) {
@@ -65,7 +66,7 @@ std::string Reached(const actions::Barrier& barrier) {
   return svg;
 }
 
-/// The shapes that close the way on, and the point where they do.
+/// The shapes that block the way, and the point where they do.
 std::string Closed(const actions::Barrier& barrier, const models::Environment& environment,
                    double dot) {
   std::string svg;
@@ -139,7 +140,7 @@ std::string Route(const actions::Plan& plan, double dot) {
 }  // namespace
 
 std::string ActionColor(const std::string& action) {
-  // Those of the paper's figures have colours of their own, others share what is left.
+  // Actions in the paper's figures have fixed colours; others share the rest.
   static constexpr std::array<std::pair<const char*, const char*>, 3> kKnown = {
       {{"walk", "#0b6fb8"}, {"crawl", "#d9480f"}, {"jump", "#c2255c"}}};
   static constexpr std::array<const char*, 4> kOthers = {"#2b8a3e", "#6741d9", "#b8860b",

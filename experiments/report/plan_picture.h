@@ -7,7 +7,7 @@
 
 namespace possibility::experiments {
 
-/// Colour of an action, the same in every picture: of a gait, a jump, or a transition ("a->b").
+/// Colour of a gait, a jump, or a transition ("a->b"); the same in every picture.
 std::string ActionColor(const std::string& action);
 
 /// The scene from above as an SVG document: ground, obstacles, the explored graph in thin lines and

@@ -32,7 +32,7 @@ std::string RouteText(const actions::Plan& plan) {
   return text;
 }
 
-/// Who found the route, and what was gained after the first one.
+/// The explorers of the route, and the gain over the first one.
 std::string SearchText(const actions::Plan& plan) {
   if (!plan.search || plan.search->explorers.empty()) return {};
   const actions::SearchReport& search = *plan.search;

@@ -9,7 +9,7 @@
 namespace possibility::experiments {
 namespace {
 
-// Told apart by colour-blind readers, too; dark enough for thin lines on white.
+// Distinguishable for colour-blind readers, and dark enough for thin lines on white.
 constexpr std::array<const char*, 10> kPalette = {"#0b6fb8", "#d9480f", "#2b8a3e", "#9c36b5",
                                                   "#b8860b", "#0c8599", "#c2255c", "#5c5f66",
                                                   "#6741d9", "#74480f"};
@@ -21,7 +21,7 @@ bool IsDrawable(double value, bool logarithmic) {
   return std::isfinite(value) && (!logarithmic || value > 0);
 }
 
-/// From a quantity to pixels.
+/// Maps a quantity to pixels.
 class Scale {
  public:
   Scale(std::pair<double, double> range, bool logarithmic, double from, double to)
@@ -38,7 +38,7 @@ class Scale {
   }
   double operator()(double value) const {
     const double share = (Mapped(value) - low_) / (high_ - low_);
-    // Far outside is as good as anywhere outside, and within what renderers can count.
+    // Clamps points far outside, to stay within the number range of renderers.
     return from_ + std::clamp(share, -100.0, 100.0) * (to_ - from_);
   }
 
@@ -152,7 +152,7 @@ std::string Axes(const Panel& panel) {
   return svg + Text(panel.left, panel.top - 11, "class=\"title\"", plot.title);
 }
 
-/// The path through all points that can be drawn, broken where one cannot.
+/// The path through all drawable points, broken where a point is not drawable.
 std::string Path(const Panel& panel, const std::vector<double>& x, const std::vector<double>& y) {
   std::string path;
   bool is_broken = true;
@@ -215,7 +215,7 @@ std::string Marks(const Panel& panel) {
   return svg;
 }
 
-/// What lies within the axes, and the legend beside them.
+/// The contents of the axes, and the legend beside them.
 std::string Content(const Panel& panel, int number) {
   const std::string clip = fmt::format("panel{}", number);
   std::string inside, legend;
@@ -287,7 +287,8 @@ std::vector<double> LinearTicks(double low, double high, int count) {
   const double slack = 1e-9 * step;
   for (double n = std::ceil((low - slack) / step); n * step <= high + slack; ++n) {
     ticks.push_back(n == 0 ? 0 : n * step);
-    if (ticks.size() > 2 * static_cast<std::size_t>(count) + 2) break;  // below the numbers' digits
+    if (ticks.size() > 2 * static_cast<std::size_t>(count) + 2)
+      break;  // steps below the precision of doubles
   }
   return ticks;
 }
@@ -322,7 +323,7 @@ std::pair<double, double> AxisRange(const std::vector<double>& values, bool loga
     const double factor = low == high ? 2 : std::pow(high / low, padding);
     return {low / factor, high * factor};
   }
-  // A constant that rounding makes tremble is a constant.
+  // Variation due to rounding counts as constant.
   const double least = std::max(1e-9 * std::max(std::abs(low), std::abs(high)), 1e-300);
   const bool is_constant = high - low <= least;
   const double margin = !is_constant         ? padding * (high - low)
@@ -363,7 +364,7 @@ std::string XmlText(const std::string& text) {
         safe += "&quot;";
         break;
       default:
-        // XML has no control characters, not even escaped.
+        // XML allows no control characters, not even escaped.
         safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }

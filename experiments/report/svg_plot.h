@@ -7,14 +7,14 @@
 
 namespace possibility::experiments {
 
-/// What is not finite, or not above zero on a logarithmic axis, is left out of a picture: it breaks
-/// lines, is no marker and no corner of a region, and counts for no axis' range.
+/// Plots omit values that are not finite, or not above zero on a logarithmic axis. Such values
+/// break lines, have no marker, are no corner of a region and do not affect an axis' range.
 
 struct PlotAxis {
   std::string label;
   std::string unit;  ///< empty: none
   bool logarithmic = false;
-  std::optional<std::pair<double, double>> range;  ///< none: that of what is drawn
+  std::optional<std::pair<double, double>> range;  ///< none: that of the data
 };
 
 enum class CurveStyle { kLine, kDashed, kScatter };
@@ -39,7 +39,7 @@ struct PlotRegion {
 PlotRegion Band(const std::string& label, const std::vector<double>& x,
                 const std::vector<double>& lower, const std::vector<double>& upper, int color = -1);
 
-/// A vertical line, with a word at its top.
+/// A vertical line with a label at its top.
 struct PlotLine {
   double x = 0;
   std::string label;
@@ -51,7 +51,7 @@ struct Plot {
   std::vector<PlotRegion> regions;  ///< below everything else
   std::vector<PlotCurve> curves;
   std::vector<PlotLine> lines;
-  std::vector<double> rug;  ///< short strokes on the x axis
+  std::vector<double> rug;  ///< short ticks on the x axis
   double width = 860;       ///< pixels, legend included
   double height = 240;      ///< of the panel with its axes; more if the legend needs it
 };
@@ -62,12 +62,12 @@ std::vector<double> LinearTicks(double low, double high, int count);
 /// Powers of ten within [low, high], 0 < low < high; with 2 and 5 times them if there are few,
 /// every n-th if there are many.
 std::vector<double> LogarithmicTicks(double low, double high);
-/// The range of what an axis shows: padded by `padding` of its extent, and never empty.
+/// The range of an axis: padded by `padding` of its extent, and never empty.
 std::pair<double, double> AxisRange(const std::vector<double>& values, bool logarithmic,
                                     double padding);
-/// A number at a tick, with as many digits as the distance to the next one needs.
+/// The number at a tick, with as many digits as the distance to the next tick needs.
 std::string TickLabel(double value, double distance);
-/// Text between XML tags or in an attribute's quotes.
+/// Escapes text between XML tags or in an attribute's quotes.
 std::string XmlText(const std::string& text);
 
 /// An SVG document of plots one above the other.

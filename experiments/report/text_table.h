@@ -5,8 +5,8 @@
 
 namespace possibility::experiments {
 
-/// A table of words, to be printed in several ways. Every row has as many cells as the header; the
-/// first `text_columns` are words, the others numbers.
+/// A table of text that can be printed in several formats. Every row has as many cells as the
+/// header; the first `text_columns` are words, the others numbers.
 struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;

@@ -10,9 +10,9 @@ namespace {
 using collocation::PhaseTrajectory;
 using collocation::StoredSolution;
 
-constexpr std::size_t kMostDottedKnots = 130;  // more dots than that hide the curve
+constexpr std::size_t kMostDottedKnots = 130;  // more dots hide the curve
 
-/// What one panel shows: names of a phase's quantities and their values at a share of it.
+/// Content of one panel: names of a phase's quantities and their values at a fraction of the phase.
 struct Group {
   std::string title;
   std::function<std::vector<std::string>(std::size_t phase)> names;
@@ -27,7 +27,7 @@ PlotCurve& CurveOf(const std::string& name, Plot* plot) {
   return plot->curves.back();
 }
 
-/// Every interval has its own samples from knot to knot: what jumps there is seen to jump.
+/// Every interval has its own samples from knot to knot, so that jumps at knots are visible.
 void AddPhase(const Group& group, std::size_t phase, const PhaseTrajectory& motion, bool dots,
               Plot* plot) {
   const std::size_t intervals = motion.mesh.size() - 1;

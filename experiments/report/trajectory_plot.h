@@ -7,9 +7,9 @@
 
 namespace possibility::experiments {
 
-/// Coordinates, rates and controls over time, one above the other: the very polynomials of the
-/// solution, dots at the knots, a line where a phase begins. Quantities that have one name in
-/// several phases are one curve. What there is none of has no plot.
+/// Coordinates, rates and controls over time, one above the other: the solution's polynomials, dots
+/// at the knots, a line at the start of a phase. Quantities with the same name in several phases
+/// form one curve. Groups without quantities have no plot.
 std::vector<Plot> TrajectoryPlots(const collocation::StoredSolution& solution);
 
 }  // namespace possibility::experiments

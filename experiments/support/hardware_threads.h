@@ -4,7 +4,7 @@ namespace possibility::experiments {
 
 inline constexpr int kMaxThreads = 256;
 
-/// Threads that this machine runs at the same time: 1 to kMaxThreads.
+/// Number of threads that this machine runs at the same time: 1 to kMaxThreads.
 int HardwareThreads();
 
 }  // namespace possibility::experiments

@@ -5,11 +5,11 @@
 
 namespace possibility::experiments {
 
-/// Writes a whole file, replacing what was there only once the new content is complete.
+/// Writes a whole file. An existing file is replaced only once the new content is complete.
 /// @throws InputError naming the file if it cannot be written.
 void WriteOutput(const std::filesystem::path& file, std::string_view content);
 
-/// Makes a folder (and those above it) and makes sure that files can be written there.
+/// Creates a folder (and its parents) and checks that files can be written there.
 /// @throws InputError naming the option and the folder if not.
 void PrepareOutputFolder(std::string_view option, const std::filesystem::path& folder);
 

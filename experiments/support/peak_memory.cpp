@@ -9,7 +9,7 @@ namespace possibility::experiments {
 
 PeakMemory::PeakMemory() {
   ::malloc_trim(0);
-  // "5" sets the peak back to what is resident now (proc(5), clear_refs).
+  // "5" resets the peak to the current resident size (proc(5), clear_refs).
   std::ofstream references("/proc/self/clear_refs");
   references << "5" << std::flush;
   is_reset_ = references.good();

@@ -2,13 +2,13 @@
 
 namespace possibility::experiments {
 
-/// The most memory this process has held since the object was made, all of its threads together.
+/// Peak memory of this process since the object was constructed, all threads together.
 class PeakMemory {
  public:
-  /// Gives freed memory back to the system first, so that what came before does not count.
+  /// Returns freed memory to the system first, so that earlier use does not count.
   PeakMemory();
 
-  /// Resident, MB (10^6 bytes); 0 where the system does not tell, or resets no peaks.
+  /// Resident, MB (10^6 bytes); 0 if the system does not report it or cannot reset the peak.
   double megabytes() const;
 
  private:

@@ -7,12 +7,12 @@
 
 namespace possibility::experiments {
 
-/// What the planner is at, in one line: "exploring  1204 vertices  ...".
+/// State of the planner in one line: "exploring 1204 vertices ...".
 std::string DescribeProgress(const actions::PlanProgress& progress, double elapsed_s,
                              double time_limit_s);
 
-/// A line on stderr that is written over and over while the planner works; says nothing if stderr
-/// is not a terminal. Gone when it is destroyed.
+/// A line on stderr that is rewritten while the planner works; silent if stderr is not a terminal.
+/// Erased by the destructor.
 class ProgressLine {
  public:
   explicit ProgressLine(double time_limit_s);

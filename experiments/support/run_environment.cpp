@@ -7,7 +7,7 @@
 
 #include "experiments/support/hardware_threads.h"
 
-// Given by the build system; unknown to whoever compiles this file in another way.
+// Defined by the build system; unknown in other builds.
 #ifndef POSSIBILITY_VERSION
 #define POSSIBILITY_VERSION "unknown"
 #endif
@@ -26,7 +26,7 @@ std::string Compiler() {
 #endif
 }
 
-/// Of the first processor that the kernel lists with a name.
+/// Name of the first processor that the kernel lists with one.
 std::string Cpu() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

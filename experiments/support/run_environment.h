@@ -5,11 +5,11 @@
 
 namespace possibility::experiments {
 
-/// What a measurement depends on besides the input.
+/// Environment on which a measurement depends besides the input.
 struct RunEnvironment {
   std::string compiler;    ///< "GCC 12.2.0"
   std::string build_type;  ///< "Release"
-  std::string cpu;         ///< the model's name, as the system gives it
+  std::string cpu;         ///< model name reported by the system
   std::string possibility;
   std::string ipopt;
   int hardware_threads = 1;

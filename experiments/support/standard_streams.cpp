@@ -15,7 +15,8 @@ namespace possibility::experiments {
 void PrepareStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // The lowest free descriptor, which is this one. Opened the wrong way round, its use fails.
+    // Takes the lowest free descriptor, which is this one. Opened in the wrong direction, so that
+    // its use fails.
     if (::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
   }
   std::signal(SIGPIPE, SIG_IGN);

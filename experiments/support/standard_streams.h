@@ -7,13 +7,13 @@
 
 namespace possibility::experiments {
 
-/// To be called first: a standard stream that the program was started without must not become the
-/// first file that it opens, and a reader that is gone or a limit on file sizes gives an error in
-/// place of a signal.
+/// Must be called first. Opens standard streams that are closed, so that the first file opened does
+/// not take their place. Makes a closed pipe or a limit on file sizes give an error instead of a
+/// signal.
 void PrepareStandardStreams();
 
-/// Writes to standard output, at once.
-/// @throws InputError if it cannot be written: its disk is full, its reader gone.
+/// Writes to standard output, without buffering.
+/// @throws InputError if it cannot be written: disk full, or reader closed.
 void WriteStandardOutput(std::string_view text);
 
 /// Writes to standard error, if it can be written.

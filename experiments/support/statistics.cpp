@@ -15,13 +15,13 @@ void RequireValues(const std::vector<double>& values) {
   if (values.empty()) throw std::invalid_argument("statistics of an empty sample");
 }
 
-/// Of an ascending sample.
+/// Median of an ascending sample.
 double MedianOf(const std::vector<double>& sorted) {
   const std::size_t half = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
 }
 
-/// Of an ascending sample, by nearest rank.
+/// Percentile of an ascending sample, by nearest rank.
 double PercentileOf(const std::vector<double>& sorted, double percent) {
   const double rank = std::ceil(percent / 100 * static_cast<double>(sorted.size()) - 1e-9);
   const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
@@ -73,7 +73,7 @@ std::pair<double, double> WilsonInterval(std::int64_t successes, std::int64_t tr
   const double z2 = kQuantile * kQuantile;
   const double centre = (p + z2 / (2 * n)) / (1 + z2 / n);
   const double half = kQuantile / (1 + z2 / n) * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-  // Exactly 0 and 1 at the ends, which rounding would miss.
+  // Exactly 0 and 1 at the ends, in spite of rounding.
   return {successes == 0 ? 0 : std::max(0.0, centre - half),
           successes == trials ? 1 : std::min(1.0, centre + half)};
 }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxTrials = 1000000;
 
-/// Of the names and contents of all files below a folder.
+/// Hash of the names and contents of all files below a folder.
 std::string FolderHash(const fs::path& folder) {
   if (!fs::is_directory(folder)) return "";
   std::vector<fs::path> files;
@@ -60,8 +60,8 @@ TrialTask TaskOf(const ExperimentRow& row, actions::PlannerPreset preset, std::u
   return task;
 }
 
-/// Trials of the shard that are not done, first seeds first: what is there after an interruption
-/// is of all rows.
+/// Open trials of the shard, lowest seeds first, so that an interrupted run has results for all
+/// rows.
 std::vector<TrialTask> OpenTasks(const std::vector<ExperimentRow>& rows,
                                  const ExperimentSettings& settings, const ResultsFile& results) {
   std::vector<TrialTask> tasks;
@@ -81,7 +81,7 @@ std::vector<TrialTask> OpenTasks(const std::vector<ExperimentRow>& rows,
   return tasks;
 }
 
-/// What a run that was killed while it wrote a file has left.
+/// Removes leftovers of a run that was killed while writing a file.
 void RemoveUnfinished(const fs::path& folder) {
   if (!fs::is_directory(folder)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {

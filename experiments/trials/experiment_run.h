@@ -20,7 +20,7 @@ class App;
 
 namespace possibility::experiments {
 
-/// Options that all experiments have, as text (CLI11 would wrap negative numbers around).
+/// Options common to all experiments, as text (CLI11 would wrap negative numbers around).
 struct ExperimentOptions {
   std::string trials = "50";
   std::string out;
@@ -38,23 +38,23 @@ struct ExperimentSettings {
   std::filesystem::path out;
   std::vector<actions::PlannerPreset> presets;
   int threads = 1;               ///< trials at a time
-  std::uint64_t first_seed = 1;  ///< the others follow it
+  std::uint64_t first_seed = 1;  ///< first of consecutive seeds
   Shard shard;
   std::optional<double> time_limit;  ///< s; none: the scenario's
 
-  /// Of what has to be the same for results to be comparable, beside scenario and robot.
+  /// Hash of everything besides scenario and robot that comparable results must share.
   std::string Hash(const std::filesystem::path& library) const;
 };
 
-/// Without --shard: that of a Slurm job array, if this is a task of one. Without --out:
+/// Without --shard: the shard of a Slurm job array, if this is one of its tasks. Without --out:
 /// `default_out`.
 /// @throws InputError for anything invalid.
 ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options,
                                           const std::filesystem::path& default_out);
 
-/// What trials have in common but for preset and seed.
+/// Trials that differ only in preset and seed.
 struct ExperimentRow {
-  std::string name;  ///< letters, digits, '_', '-', '.', '=' only: files are called after it
+  std::string name;  ///< letters, digits, '_', '-', '.', '=' only: used in file names
   TrialIdentity identity;
   std::shared_ptr<const models::RobotModel> robot;
   std::function<std::shared_ptr<const models::Scenario>(std::uint64_t seed)> scenario;
@@ -66,12 +66,12 @@ struct ExperimentRow {
 /// The folder `jumps` beside the robot.
 std::filesystem::path LibraryOf(const models::RobotModel& robot);
 
-/// Where the picture of a row's first trial goes within an experiment's folder.
+/// Path of the picture of a row's first trial within an experiment's folder.
 std::filesystem::path PictureFile(const std::filesystem::path& folder, const std::string& row,
                                   const std::string& preset);
 
-/// Runs those trials of the settings' shard that `file` does not have yet, and leaves the file
-/// sorted, rows in the order of `row_order` (names, maybe of more rows than these).
+/// Runs the trials of the settings' shard that `file` lacks, and sorts the file, with rows in the
+/// order of `row_order` (names, possibly of more rows).
 /// @throws InputError as ResultsFile and RunTrial.
 std::vector<TrialRecord> RunExperiment(const std::vector<ExperimentRow>& rows,
                                        const ExperimentSettings& settings,

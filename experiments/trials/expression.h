@@ -7,7 +7,7 @@ namespace possibility::experiments {
 
 /// The value of an arithmetic expression: numbers, names, + - * / and parentheses, with the usual
 /// precedence.
-/// @throws InputError that says what is wrong, without a place: a syntax error, an unknown name, a
+/// @throws InputError describing the fault, without a place: a syntax error, an unknown name, a
 /// division by zero or another result that is not finite.
 double EvaluateExpression(const std::string& expression,
                           const std::map<std::string, double>& names);

@@ -18,7 +18,7 @@ using Part = std::pair<std::filesystem::path, std::vector<TrialRecord>>;
                                other.string()));
 }
 
-/// A record, and the file that it is from.
+/// A record and its file.
 using Origin = std::pair<const TrialRecord*, const std::filesystem::path*>;
 
 void RequireSame(const TrialRecord& record, const std::filesystem::path& file, const Origin& first,

@@ -9,10 +9,10 @@
 
 namespace possibility::experiments {
 
-/// Records of one experiment that were measured in several folders: each trial once, of the first
-/// folder that has it. `parts`: file names, for messages, and their records.
-/// @throws InputError if two parts are of different experiments, settings, scenarios or robots, or
-/// tell the same trial differently (timings aside).
+/// Merges records of one experiment from several folders: each trial once, from the first folder
+/// that has it. `parts`: file names, for messages, and their records.
+/// @throws InputError if two parts have different experiments, settings, scenarios or robots, or
+/// disagree about a trial (except for timings).
 std::vector<TrialRecord> MergeRecords(
     const std::vector<std::pair<std::filesystem::path, std::vector<TrialRecord>>>& parts);
 

@@ -8,8 +8,8 @@
 
 namespace possibility::experiments {
 
-/// The pictures that an experiment's folder has of its groups' first plans (PictureFile).
-/// @throws InputError if one cannot be read.
+/// The pictures of the groups' first plans in an experiment's folder (PictureFile).
+/// @throws InputError if a picture cannot be read.
 PageSection PlanGallery(const std::vector<TrialGroup>& groups, const std::filesystem::path& folder);
 
 }  // namespace possibility::experiments

@@ -12,7 +12,7 @@ namespace {
 
 using models::YamlNode;
 
-/// Numbers that are the same on every machine, unlike those of the standard's distributions.
+/// Uniform numbers, the same on every machine, unlike the standard library's distributions.
 class Uniform {
  public:
   explicit Uniform(std::uint64_t seed) : generator_(seed) {}
@@ -25,7 +25,7 @@ class Uniform {
   std::mt19937_64 generator_;
 };
 
-/// Distance from the nearest middle line of a lane. Lanes are `pitch` apart, the first `pitch` / 2
+/// Distance from the nearest lane's centre line. Lanes are `pitch` apart, the first `pitch` / 2
 /// from the edge.
 double FromLane(double offset, double pitch) {
   return std::abs(std::remainder(offset - pitch / 2, pitch));

@@ -8,8 +8,8 @@
 
 namespace possibility::experiments {
 
-/// Upright boxes and posts in random places of a rectangle, but in no lane and no circle that is to
-/// be kept clear: a field that is equally easy to cross whatever the number of obstacles.
+/// Upright boxes and posts at random places in a rectangle, outside of clear lanes and circles. The
+/// difficulty of crossing the field does not depend on the number of obstacles.
 struct PostField {
   struct Circle {
     double x = 0, y = 0, radius = 0;  ///< m
@@ -32,7 +32,7 @@ PostField ReadPostField(const models::YamlNode& node);
 
 /// The field as obstacles of a scenario, one YAML flow map each: "{name: post_1, shape: ...}".
 /// The same arguments give the same text.
-/// @throws InputError if there is not room for that many.
+/// @throws InputError if there is not enough room.
 std::vector<std::string> PostsOf(const PostField& field, std::uint64_t seed);
 
 }  // namespace possibility::experiments

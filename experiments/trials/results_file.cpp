@@ -86,7 +86,7 @@ void ResultsFile::FailToWrite() const {
 }
 
 void ResultsFile::OpenLocked() {
-  // Again if another program replaced the file (Sort) between opening and locking.
+  // Repeats if another program replaced the file (Sort) between opening and locking.
   do {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
@@ -129,7 +129,7 @@ void ResultsFile::Append(const TrialRecord& record) {
   const std::string line = Line(record);
   const std::lock_guard lock(mutex_);
   if (has_failed_) FailToWrite();
-  has_failed_ = true;  // a line must not follow half a line
+  has_failed_ = true;  // nothing may follow an incomplete line
   std::size_t written = 0;
   while (written < line.size()) {
     const ssize_t count = ::write(descriptor_, line.data() + written, line.size() - written);

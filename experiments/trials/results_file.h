@@ -11,8 +11,8 @@
 
 namespace possibility::experiments {
 
-/// Records of a results file, one JSON object a line. A last line that is not whole (its writer was
-/// killed) is left out; `whole_bytes`, if given, is told where it begins.
+/// Reads the records of a results file, one JSON object per line. Omits an incomplete last line
+/// (its writer was killed); `whole_bytes`, if given, is set to its beginning.
 /// @throws InputError naming file and line for any other damage, and for two records of one trial.
 std::vector<TrialRecord> ReadResults(const std::filesystem::path& file,
                                      std::uintmax_t* whole_bytes = nullptr);
@@ -20,10 +20,10 @@ std::vector<TrialRecord> ReadResults(const std::filesystem::path& file,
 /// All records as the lines of a file.
 std::string FormatResults(const std::vector<TrialRecord>& records);
 
-/// A results file that trials are added to as they end. Nobody else can write it meanwhile.
+/// A results file to which trials are appended as they end. Locked against other writers.
 class ResultsFile {
  public:
-  /// Opens or creates the file; a half-written last line is cut off.
+  /// Opens or creates the file; removes an incomplete last line.
   /// @throws InputError if it cannot be written, is damaged, or another program writes it.
   explicit ResultsFile(std::filesystem::path file);
   ~ResultsFile();
@@ -31,16 +31,16 @@ class ResultsFile {
   ResultsFile& operator=(const ResultsFile&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
-  /// What is in the file.
+  /// Records in the file.
   const std::vector<TrialRecord>& records() const { return records_; }
   bool Contains(const TrialKey& key) const { return keys_.count(key) > 0; }
 
   /// Refuses a file of another experiment: all records must have the experiment and settings of
-  /// `rows`, and those of a row in it its scenario and robot as well.
+  /// `rows`; records of a row in `rows` also its scenario and robot.
   /// @throws InputError naming the line and what differs.
   void RequireSame(const std::map<std::string, TrialIdentity>& rows) const;
 
-  /// Adds a line; it is on the disk when this returns. From any thread.
+  /// Appends a line; it is on the disk when this returns. Safe to call from any thread.
   /// @throws InputError if it cannot be written.
   void Append(const TrialRecord& record);
 

@@ -16,7 +16,7 @@ class RowRobots {
  public:
   explicit RowRobots(const ExperimentSettings& settings) : settings_(settings) {}
 
-  /// Name, identity and robot of a row; `scenario` is, for a template, one that it gave.
+  /// Name, identity and robot of a row. For a template, `scenario` is one of its instances.
   /// @throws InputError if the robot cannot be loaded.
   ExperimentRow RowOf(const std::string& experiment, const std::string& name,
                       const models::Scenario& scenario, const std::string& scenario_hash);

@@ -45,7 +45,7 @@ std::string ValueOf(const std::string& placeholder, const Names& names) {
   if (of != std::string::npos) {
     return FirstOf(placeholder.substr(0, of), placeholder.substr(of + 4), names);
   }
-  // Twelve digits: 0.1 + 0.2 is 0.3.
+  // Twelve digits, so that 0.1 + 0.2 is 0.3.
   return fmt::format("{:.12g}", EvaluateExpression(placeholder, names));
 }
 
@@ -64,7 +64,8 @@ std::string Replaced(const std::string& line, const Names& names) {
   return result + line.substr(at);
 }
 
-/// Without what follows " #" or a # at the beginning: placeholders in comments are not meant.
+/// The line without a comment, which begins with " #" or with # at the start of the line:
+/// placeholders in comments are ignored.
 std::string WithoutComment(const std::string& line) {
   for (std::size_t at = line.find('#'); at != std::string::npos; at = line.find('#', at + 1)) {
     if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') return line.substr(0, at);
@@ -74,7 +75,7 @@ std::string WithoutComment(const std::string& line) {
 
 std::string PostLines(const std::string& indent, const std::string& map, std::uint64_t seed,
                       const fs::path& file, int number) {
-  // As many empty lines above it as in the file, so that messages have its line.
+  // As many empty lines above it as in the file, so that messages have the right line number.
   const std::string text = std::string(static_cast<std::size_t>(number - 1), '\n') + map + '\n';
   const PostField field = ReadPostField(models::YamlNode::Parse(text, file));
   std::string lines;
@@ -130,7 +131,7 @@ std::string ScenarioTemplate::Instantiate(const Names& names, std::uint64_t seed
       }
     } catch (const InputError& error) {
       const std::string message = error.what();
-      if (message.rfind(file_.string(), 0) == 0) throw;  // the reader of posts knows its place
+      if (message.rfind(file_.string(), 0) == 0) throw;  // the message already has its place
       throw InputError(fmt::format("{}:{}: {}", file_.string(), number, message));
     }
   }

@@ -18,11 +18,11 @@ class ScenarioTemplate {
 
   const std::filesystem::path& file() const { return file_; }
   const std::string& content_hash() const { return content_hash_; }
-  /// Whether some placeholder has the name.
+  /// Whether some placeholder uses the name.
   bool Mentions(const std::string& name) const;
 
-  /// The text of a scenario that is going to lie in `folder`: placeholders replaced, fields strewn
-  /// with `seed`, and the path of the robot as seen from there.
+  /// The text of a scenario to be saved in `folder`: placeholders replaced, obstacle fields
+  /// generated from `seed`, and the path of the robot relative to that folder.
   /// @throws InputError naming file and line.
   std::string Instantiate(const std::map<std::string, double>& names, std::uint64_t seed,
                           const std::filesystem::path& folder) const;

@@ -6,8 +6,8 @@
 
 namespace possibility::experiments {
 
-/// One of `count` parts of an experiment, each for another machine: the trials whose index leaves
-/// the remainder `index`.
+/// One of `count` parts of an experiment, for distribution over machines: the trials whose index
+/// modulo `count` is `index`.
 struct Shard {
   int index = 0;
   int count = 1;
@@ -26,8 +26,8 @@ Shard ParseShard(const std::string& option, const std::string& text);
 /// The value of an environment variable, null if it is not set (std::getenv).
 using Environment = std::function<const char*(const char*)>;
 
-/// The shard of this task of a Slurm job array, counted from the array's first; the whole
-/// experiment if there is none.
+/// The shard of this task in a Slurm job array, counted from the array's first task; the whole
+/// experiment if there is no array.
 /// @throws InputError if the variables contradict each other or the array has holes.
 Shard ShardOfSlurmTask(const Environment& environment);
 

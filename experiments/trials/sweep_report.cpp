@@ -56,9 +56,9 @@ std::vector<std::string> PresetsOf(const std::vector<TrialGroup>& groups) {
   return presets;
 }
 
-constexpr double kWide = 30;  // more than so many times the smallest asks for a logarithmic axis
+constexpr double kWide = 30;  // ratio of times above which the axis is logarithmic
 
-/// Over all values, those without a plan as well.
+/// Axis over all values, including those without a plan.
 PlotAxis ParameterAxis(const std::vector<TrialGroup>& groups) {
   double low = ValueOf(groups.front()), high = low;
   for (const TrialGroup& group : groups) {
@@ -70,7 +70,7 @@ PlotAxis ParameterAxis(const std::vector<TrialGroup>& groups) {
   return axis;
 }
 
-/// From zero, or logarithmic if times differ much.
+/// Axis from zero, or logarithmic if times differ much.
 PlotAxis TimeAxis(const TrialMetric& metric, const std::vector<PlotRegion>& bands) {
   double low = HUGE_VAL, high = 0;
   for (const PlotRegion& band : bands) {

@@ -9,7 +9,7 @@
 
 namespace possibility::experiments {
 
-/// What `possibility sweep` found: success and times over a parameter of a scenario.
+/// Result of `possibility sweep`: success and times over a parameter of a scenario.
 struct SweepReport {
   std::vector<TrialRecord> trials;  ///< in the order of a results file; at least one
 
@@ -19,8 +19,8 @@ struct SweepReport {
   std::string Csv() const;
   std::string Markdown() const;
 
-  /// summary.json, sweep.csv, success.svg, times.svg and report.html; pictures of plans are taken
-  /// from the folder (PictureFile).
+  /// Writes summary.json, sweep.csv, success.svg, times.svg and report.html. Takes pictures of
+  /// plans from the folder (PictureFile).
   /// @throws InputError if a file cannot be written.
   void Write(const std::filesystem::path& folder) const;
 };

@@ -31,7 +31,7 @@ std::optional<std::vector<double>> Numbers(const std::string& text, char separat
   return values;
 }
 
-/// Twelve digits, as they are written into the scenario.
+/// Rounds to twelve digits, as written into the scenario.
 double Rounded(double value) { return *Number(fmt::format("{:.12g}", value)); }
 
 std::vector<double> Range(double first, double last, double step) {

@@ -32,7 +32,7 @@ const TableRow* Find(const std::string& name) {
   return row == rows.end() ? nullptr : &*row;
 }
 
-/// As many digits as tell times of any size apart.
+/// Formats times of any size with enough digits to compare them.
 std::string Number(double value) {
   const double size = std::abs(value);
   if (size > 0 && size < 0.01) return fmt::format("{:.5f}", value);
@@ -49,7 +49,7 @@ std::string Printed(const PrintedFigure& figure) {
 
 std::string Percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
 
-/// Whose edges the routes are made of, in any of the trials.
+/// Explorers of the routes' edges, over all trials.
 std::string ExplorersOf(const TrialGroup& group) {
   std::set<std::string> all;
   for (const TrialRecord& trial : group.trials) {
@@ -80,7 +80,7 @@ TextTable SideBySide(const std::vector<TrialGroup>& groups) {
   return table;
 }
 
-/// Everything that was measured, a row per group and metric.
+/// All measurements, one row per group and metric.
 TextTable Distributions(const std::vector<TrialGroup>& groups) {
   TextTable table;
   table.header = {"Row", "Preset", "Figure", "mean (std)", "median", "p95", "max"};
@@ -129,7 +129,7 @@ TextTable Twins(const std::vector<TrialGroup>& groups) {
   return table;
 }
 
-/// What a reader has to know before comparing.
+/// Notes that a reader needs before comparing.
 std::vector<std::string> Notes(const std::vector<TrialRecord>& trials) {
   return {
       fmt::format("Measured on: {}. One thread per trial. Printed figures: {}.",

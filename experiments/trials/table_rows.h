@@ -24,7 +24,7 @@ struct TableRow {
 /// The eight rows in the paper's order.
 const std::vector<TableRow>& TableRows();
 
-/// Scenarios without a way through: file names without .yaml.
+/// Infeasible scenarios: file names without .yaml.
 const std::vector<std::string>& InfeasibleTwins();
 
 }  // namespace possibility::experiments

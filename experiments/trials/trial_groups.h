@@ -16,12 +16,12 @@ struct TrialMetric {
   std::string name;  ///< as in results and summaries: "graph_s"
   std::string title;
   std::string unit;
-  double (*value)(const TrialRecord&);  ///< of a trial that succeeded
+  double (*value)(const TrialRecord&);  ///< of a successful trial
 };
 
-/// All of them: the times first, then what the plan is like.
+/// All metrics: times first, then properties of the plan.
 const std::vector<TrialMetric>& TrialMetrics();
-/// @throws std::invalid_argument if there is none of that name.
+/// @throws std::invalid_argument if there is no metric of that name.
 const TrialMetric& MetricNamed(const std::string& name);
 
 /// The trials of one row and preset.
@@ -32,11 +32,11 @@ struct TrialGroup {
 
   int successes() const;
   int verified() const;
-  /// How often each "no" was the answer.
+  /// Number of trials by "no" answer.
   std::map<std::string, int> answers() const;
   /// The same in words: "19 exhausted, 1 time_limit".
   std::string AnswersText() const;
-  /// Of the trials that succeeded.
+  /// Values of the successful trials.
   std::vector<double> Values(const TrialMetric& metric) const;
   /// None if no trial succeeded.
   std::optional<SampleSummary> Summary(const TrialMetric& metric) const;
@@ -49,7 +49,7 @@ struct TrialGroup {
 /// Trials in the order of a results file, in groups.
 std::vector<TrialGroup> GroupTrials(const std::vector<TrialRecord>& records);
 
-/// The processors that measured, each once: "cpu A; cpu B".
+/// Processors of the measurements, each once: "cpu A; cpu B".
 std::string MachinesOf(const std::vector<TrialRecord>& records);
 
 /// {"mean", "std", "median", "p95", "max"}, or null.

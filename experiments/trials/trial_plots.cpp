@@ -9,7 +9,7 @@
 namespace possibility::experiments {
 namespace {
 
-/// As short as a legend needs it.
+/// Short label for the legend.
 std::string LabelOf(const TrialGroup& group) {
   return group.preset == "default" ? group.row : group.row + " " + group.preset;
 }
@@ -44,7 +44,7 @@ void Add(const std::vector<TrialGroup>& groups, const TrialGroup& group, PlotCur
   plot->curves.push_back(std::move(curve));
 }
 
-/// The decades that all of the plot's curves lie in: a handful of times may have no tick between.
+/// Sets the axis to the decades of all curves: otherwise a small range may contain no tick.
 void ShowDecades(Plot* plot) {
   double low = HUGE_VAL, high = 0;
   for (const PlotCurve& curve : plot->curves) {
@@ -82,11 +82,11 @@ constexpr std::array<std::pair<const char*, const char*>, 5> kParts = {
      {"motion", "#2b8a3e"},
      {"verification", "#9c36b5"}}};
 
-/// Mean seconds of the parts above.
+/// Mean times of kParts, s.
 std::array<double, kParts.size()> MeanParts(const TrialGroup& group) {
   const auto mean = [&](const char* name) { return Mean(group.Values(MetricNamed(name))); };
   const double confirmation = mean("confirmation_s");
-  // Jobs on threads of their own may take longer than the search that waits for them.
+  // Jobs on other threads may take longer in total than the search that waits for them.
   const double graph = std::max(0.0, mean("graph_s") - confirmation);
   return {mean("preparation_s"), graph, confirmation, mean("motion_s"), mean("verification_s")};
 }

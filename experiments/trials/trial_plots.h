@@ -8,15 +8,15 @@
 
 namespace possibility::experiments {
 
-/// Share of the trials with a plan whose metric is at most x, per group; logarithmic. Rows have
-/// colours, presets strokes (default full, others dashed).
+/// Fraction of the trials with a plan whose metric is at most x, per group; logarithmic. Colours
+/// distinguish rows, line styles presets (default solid, others dashed).
 Plot DistributionPlot(const std::vector<TrialGroup>& groups, const TrialMetric& metric);
 
-/// Share of all trials that have a verified plan after so many seconds of preparation, graph,
-/// motion and verification.
+/// Fraction of all trials with a verified plan over the total time of preparation, graph, motion
+/// and verification.
 Plot SuccessPlot(const std::vector<TrialGroup>& groups);
 
-/// Where the time goes: an SVG document with a bar per group, divided like the mean time of its
+/// Breakdown of times: an SVG document with a bar per group, divided as the mean times of its
 /// trials with a plan (graph without confirmation).
 std::string TimeSharesPicture(const std::vector<TrialGroup>& groups);
 

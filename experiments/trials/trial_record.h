@@ -12,7 +12,7 @@
 
 namespace possibility::experiments {
 
-/// Which trial of an experiment: what is planned, by which planner, with which seed.
+/// Identifies a trial of an experiment: scenario row, planner preset and seed.
 struct TrialKey {
   std::string row;
   std::string preset;
@@ -21,7 +21,7 @@ struct TrialKey {
   auto operator<=>(const TrialKey&) const = default;
 };
 
-/// What has to be the same for trials to be counted together.
+/// Must be equal for trials that are counted together.
 struct TrialIdentity {
   std::string experiment;     ///< "table", "twins", "sweep <template> <parameter>"
   std::string scenario_hash;  ///< of the scenario or template
@@ -31,7 +31,7 @@ struct TrialIdentity {
   bool operator==(const TrialIdentity&) const = default;
 };
 
-/// How one trial came out. Times in s.
+/// Result of one trial. Times in s.
 struct TrialRecord {
   TrialKey key;
   TrialIdentity identity;
@@ -40,12 +40,12 @@ struct TrialRecord {
 
   bool success = false;
   bool verified = false;
-  std::string no;  ///< if not: "proven_infeasible", "exhausted" or "time_limit"
+  std::string no;  ///< if no success: "proven_infeasible", "exhausted" or "time_limit"
   actions::PlanTimings timings;
-  double memory_mb = 0;  ///< the process' peak meanwhile, MB; 0: unknown
+  double memory_mb = 0;  ///< the process' peak during the trial, MB; 0: unknown
   std::optional<double> real_time_ratio;
   std::map<std::string, std::int64_t> counters;
-  std::string explorers;  ///< that found the edges of the route: "lattice, shortcuts"
+  std::string explorers;  ///< of the route's edges: "lattice, shortcuts"
 
   double plan_duration = 0;
   double length = 0;      ///< PlanarLength, m
@@ -60,18 +60,19 @@ struct TrialRecord {
   static TrialRecord FromJson(const nlohmann::ordered_json& json);
 };
 
-/// Whether two records differ in nothing but how fast the machine was, and which.
+/// Whether two records are equal except for times and machine.
 bool SameButTimings(const TrialRecord& a, const TrialRecord& b);
 
-/// The order of a results file: rows as in `row_order`, others behind; within, by the parameter's
+/// Sorts as in a results file: rows as in `row_order`, others last; within a row by the parameter's
 /// value, the preset (default first) and the seed.
 void SortRecords(const std::vector<std::string>& row_order, std::vector<TrialRecord>* records);
 
-/// Length of the root link's way in the x-y plane, m: from where each segment begins straight to
-/// where it ends, so that swaying from foot to foot counts for nothing.
+/// Length of the root link's path in the x-y plane, m: straight from the start to the end of each
+/// segment, so that sway does not count.
 double PlanarLength(const actions::Plan& plan);
 
-/// Of everything that executing the plan depends on: actions, contacts and knots, bit by bit.
+/// Hash of everything that the execution of the plan depends on: actions, contacts and knots, exact
+/// to the bit.
 std::string MotionHash(const actions::Plan& plan);
 
 }  // namespace possibility::experiments

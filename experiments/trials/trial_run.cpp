@@ -43,7 +43,7 @@ TrialRecord RecordOf(const TrialTask& task, const actions::PlanResult& result) {
   return record;
 }
 
-/// Trials that several threads take from, one by one.
+/// Pool of trials for several threads.
 class TrialPool {
  public:
   TrialPool(const std::vector<TrialTask>& tasks, ResultsFile* results,

@@ -17,7 +17,7 @@
 
 namespace possibility::experiments {
 
-/// A trial that is to be run.
+/// A trial to run.
 struct TrialTask {
   TrialKey key;
   TrialIdentity identity;
@@ -26,25 +26,25 @@ struct TrialTask {
   std::shared_ptr<const models::RobotModel> robot;
   /// Called once, by the thread that runs the trial.
   std::function<std::shared_ptr<const models::Scenario>()> scenario;
-  actions::PlanRequest request;      ///< but for seed and time limit
+  actions::PlanRequest request;      ///< without seed and time limit
   std::optional<double> time_limit;  ///< s; none: the scenario's
-  std::filesystem::path picture;     ///< where a picture of the plan goes; empty: nowhere
+  std::filesystem::path picture;     ///< picture of the plan; empty: none
 };
 
-/// Plans once; a picture is written even if there is no plan.
-/// @throws InputError as PlanTraversal and for whatever the scenario throws.
+/// Plans once; writes the picture even if there is no plan.
+/// @throws InputError as PlanTraversal; exceptions of `scenario` pass through.
 TrialRecord RunTrial(const TrialTask& task);
 
-/// Called after every trial, one at a time, with how many are done of how many.
+/// Called after every trial, one call at a time, with the numbers of trials done and in all.
 using TrialProgress = std::function<void(std::size_t, std::size_t)>;
 
-/// Runs trials in their order, `threads` at a time, and adds each to `results` as it ends.
-/// @throws what the first trial to fail throws, once those that were running have ended.
+/// Runs trials in order, `threads` at a time, and adds each to `results` as it ends.
+/// @throws the exception of the first failed trial, after the running trials have ended.
 void RunTrials(const std::vector<TrialTask>& tasks, int threads, ResultsFile* results,
                const TrialProgress& progress);
 
-/// "trial 12 of 400, 1:20 left": a line on stderr that is written over and over, if stderr is a
-/// terminal; gone when it is destroyed.
+/// "trial 12 of 400, 1:20 left": a line on stderr that is rewritten, if stderr is a terminal.
+/// Erased by the destructor.
 class TrialProgressLine {
  public:
   TrialProgressLine();
@@ -59,7 +59,7 @@ class TrialProgressLine {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// What that line says after `elapsed_s`.
+/// Text of that line after `elapsed_s`.
 std::string DescribeTrials(std::size_t done, std::size_t all, double elapsed_s);
 
 }  // namespace possibility::experiments

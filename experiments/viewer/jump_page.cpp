@@ -57,14 +57,14 @@ actions::JumpTask TaskOf(const collocation::StoredSolution& solution, const fs::
           std::strtod(match[2].str().c_str(), nullptr)};
 }
 
-/// A library's folders are named after what their jumps depend on.
+/// A library's folders are named by the identity of their jumps.
 bool IsInFolder(const fs::path& file, const fs::path& expected) {
   static const std::regex kIdentity("[0-9a-f]{16}");
   const std::string folder = fs::absolute(file).lexically_normal().parent_path().filename();
   return !std::regex_match(folder, kIdentity) || folder == expected.filename();
 }
 
-/// The least and the greatest x of what bears in a phase's first knot.
+/// The least and the greatest x of the bearing points in a phase's first knot.
 std::pair<double, double> ExtentOnGround(const models::RobotModel& robot,
                                          const actions::Phase& phase) {
   dynamics::TreeKinematics kinematics(robot);
@@ -90,8 +90,8 @@ models::Obstacle Floor(const std::string& name, double begin, double end, double
 }
 
 struct Gap {
-  double begin = 0;  ///< m, where the toes leave the ground
-  double end = 0;    ///< where what lands first along x lands
+  double begin = 0;  ///< m, at the toes at take-off
+  double end = 0;    ///< m, least x of the landing contacts
 };
 
 Gap GapOf(const LoadedJump& loaded) {
@@ -114,7 +114,7 @@ models::Scenario TwoFloors(const LoadedJump& loaded) {
   return scenario;
 }
 
-/// A quantity of one joint that comes closest to its limit.
+/// The quantity of a joint that comes closest to its limit.
 struct Extreme {
   double fraction = 0;
   std::string joint;
@@ -128,7 +128,7 @@ struct Extreme {
   }
 };
 
-/// Flights and impacts, in words.
+/// Adds flights and impacts to the heading.
 void AddFlight(const LoadedJump& loaded, PageHeading* heading) {
   dynamics::TreeKinematics kinematics(loaded.robot);
   for (const actions::Phase& phase : loaded.jump->phases) {

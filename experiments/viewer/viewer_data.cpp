@@ -65,7 +65,7 @@ Json LinksJson(const models::RobotModel& robot) {
   return links;
 }
 
-/// A limit that is none, or cannot be divided by, is null.
+/// Null for a limit that is absent or zero.
 Json LimitJson(double limit) {
   return std::isfinite(limit) && limit > 0 ? Json(Rounded(limit)) : Json();
 }

@@ -10,10 +10,10 @@
 
 namespace possibility::experiments {
 
-/// What a page says of itself.
+/// Title and facts of a page.
 struct PageHeading {
   std::string title;
-  std::vector<std::pair<std::string, std::string>> facts;  ///< in the order in which they are shown
+  std::vector<std::pair<std::string, std::string>> facts;  ///< in the order shown
   bool plots_first = false;  ///< whether the page opens with its plots
 };
 
@@ -21,10 +21,10 @@ struct PageHeading {
 PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot,
                       const models::Scenario& scenario);
 
-/// What experiments/viewer/*.js draw, as JSON that may stand inside a <script> element: joint tree
+/// Data for experiments/viewer/*.js, as JSON that is safe inside a <script> element: joint tree
 /// with limits, shapes, phases with names, knots no closer than a video's frames (5 ms in jumps),
 /// forces, impulses, centre of mass, momenta, joint rates and torques, explored graph. Long lists
-/// of numbers are base64, and each course of a number through a phase is there once
+/// of numbers are base64, and each distinct course of a number through a phase is stored once
 /// (viewer_packing.h).
 /// @throws InputError if the plan names a contact that the robot does not have.
 std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& robot,

@@ -7,7 +7,7 @@
 namespace possibility::experiments {
 namespace {
 
-/// Reads on (true) until the outermost "format" has been met.
+/// Reads on (returns true) until the outermost "format" is found.
 class FormatFinder : public nlohmann::json_sax<nlohmann::json> {
  public:
   const std::string& format() const { return format_; }
@@ -46,7 +46,7 @@ class FormatFinder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   int depth_ = 0;
-  bool is_next_ = false;  ///< the value that comes is that of the outermost "format"
+  bool is_next_ = false;  ///< the next value is that of the outermost "format"
   std::string format_;
 };
 

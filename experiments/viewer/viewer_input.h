@@ -5,8 +5,8 @@
 
 namespace possibility::experiments {
 
-/// What a JSON file says of itself: its outermost "format", looked for no farther than it has to
-/// be. Empty if it has none, or no JSON is found before it.
+/// The outermost "format" of a JSON file, read no farther than necessary. Empty if it has none, or
+/// if the JSON is malformed before it.
 /// @throws InputError if the file cannot be read.
 std::string FormatOf(const std::filesystem::path& file);
 

@@ -8,7 +8,7 @@
 
 namespace possibility::experiments {
 
-/// What the robot does as a whole, world axes.
+/// Centre of mass and momentum of the robot, world axes.
 struct CentroidalState {
   Eigen::Vector3d position;  ///< of the centre of mass, m
   Eigen::Vector3d linear;    ///< momentum, N s
@@ -18,8 +18,8 @@ struct CentroidalState {
 /// The sums over all links. `kinematics` must be the robot's.
 CentroidalState CentroidalStateAt(const actions::Knot& knot, dynamics::TreeKinematics* kinematics);
 
-/// What the motors have to give, num_joints: torques of mimic joints act through their masters,
-/// and are 0 themselves.
+/// Required motor torques, num_joints. Torques of mimic joints are added to their masters' and set
+/// to 0.
 Eigen::VectorXd MotorTorques(const models::RobotModel& robot, const Eigen::VectorXd& tau);
 
 }  // namespace possibility::experiments

@@ -11,12 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Linear interpolation over this time, s, cannot be told from the motion itself by eye.
+/// Linear interpolation over this time, s, is visually indistinguishable from the motion.
 constexpr double kFrame = 0.04;
-/// The same of a jump, which lasts no longer than a few strides, slowed down.
+/// The same for a jump in slow motion; it is short, lasting no longer than a few strides.
 constexpr double kFineFrame = 0.005;
 
-/// Knots at least `frame` apart, and the last one.
+/// Indices of knots at least `frame` apart, and of the last one.
 std::vector<std::size_t> Frames(const actions::Phase& phase, double frame) {
   std::vector<std::size_t> frames;
   for (std::size_t k = 0; k < phase.knots.size(); ++k) {

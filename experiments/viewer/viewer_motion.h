@@ -10,18 +10,18 @@
 
 namespace possibility::experiments {
 
-/// Knots of all phases behind one another, thinned out to the pace of a video (finer in segments
-/// in which the robot flies), with what there is to plot at each.
+/// Knots of all phases in sequence, thinned out to video rate (finer in segments with flight), with
+/// the plotted quantities at each.
 class MotionPacker {
  public:
   /// `robot` must outlive it.
   explicit MotionPacker(const models::RobotModel& robot) : robot_(robot), kinematics_(robot) {}
 
-  /// What the page has to know of a segment besides its knots.
+  /// Adds a segment. Returns the page's data of it besides its knots.
   /// @throws InputError if it names a contact that the robot does not have.
   nlohmann::ordered_json Add(const actions::Segment& segment);
 
-  /// The tables of all knots added, members of the page's data.
+  /// Adds the tables of all knots to the page's data.
   void WriteTo(nlohmann::ordered_json* data) const;
 
  private:
@@ -33,7 +33,7 @@ class MotionPacker {
   const models::RobotModel& robot_;
   dynamics::TreeKinematics kinematics_;
   int count_ = 0;       ///< of knots
-  int num_forces_ = 0;  ///< three a point and knot
+  int num_forces_ = 0;  ///< three per point and knot
   CourseTable courses_;
   std::vector<std::int32_t> indices_;  ///< of the phases' courses, in the order of Drawn
 };

@@ -9,7 +9,7 @@
 
 namespace possibility::experiments {
 
-/// Long lists of numbers as the page holds them.
+/// Storage of long lists of numbers in the page.
 
 /// Base64 of little-endian 32-bit numbers.
 std::string Packed(const std::vector<float>& numbers);
@@ -17,10 +17,11 @@ std::string Packed(const std::vector<std::int32_t>& numbers);
 
 void Append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>* numbers);
 
-/// What one quantity does through a phase, each course once: strides repeat, and most joints rest.
+/// Table of courses, each a quantity over a phase. Each distinct course is stored once, because
+/// strides repeat and most joints rest.
 class CourseTable {
  public:
-  /// The index of a course; one that stays is kept as a single number.
+  /// The index of a course; a constant course is stored as a single number.
   std::int32_t IndexOf(const std::vector<float>& course);
 
   /// {"begins": base64 of 32-bit integers, "numbers": base64 of floats}: course i is the numbers

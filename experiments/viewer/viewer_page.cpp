@@ -30,7 +30,7 @@ std::string EscapeHtml(std::string_view text) {
   return escaped;
 }
 
-/// Replaces every {{name}} of the template in one pass, so that what is put in is never searched.
+/// Replaces every {{name}} of the template in one pass, so that inserted text is never searched.
 std::string FillIn(std::string_view text,
                    const std::map<std::string_view, std::string_view>& parts) {
   std::string filled;

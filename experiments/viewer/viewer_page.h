@@ -9,13 +9,13 @@
 
 namespace possibility::experiments {
 
-/// One HTML file that draws and plays a plan in a browser and needs nothing else, neither other
-/// files nor a network (docs/viewer.md). Names are escaped: they cannot end up as markup or code.
-/// The sizes of the plan must be the robot's (RequireFit).
+/// One self-contained HTML file that draws and plays a plan in a browser without other files or a
+/// network (docs/viewer.md). Names are escaped, so they cannot act as markup or code. The sizes of
+/// the plan must fit the robot (RequireFit).
 /// @throws InputError if the plan names a contact that the robot does not have.
 std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
                        const models::Scenario& scenario);
-/// The same under a heading of its own.
+/// The same with the given heading.
 std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
                        const models::Scenario& scenario, const PageHeading& heading);
 

@@ -13,7 +13,7 @@ namespace {
 
 struct Bearing {
   std::set<int> patches;
-  bool is_partial = false;  ///< of every patch some points only
+  bool is_partial = false;  ///< only some points of every patch
 };
 
 std::vector<Bearing> BearingOf(const models::RobotModel& robot, const actions::Segment& segment) {

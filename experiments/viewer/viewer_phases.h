@@ -8,7 +8,7 @@
 
 namespace possibility::experiments {
 
-/// What to call the phases of a segment, by what bears in them.
+/// Names of a segment's phases, by their bearing contacts.
 ///
 /// If the robot flies in it: "preparation" and "crouch" (the last before the toes or the flight),
 /// "toes" (parts of patches alone), "flight", "settle" (what touched down), "landing" (more than
@@ -18,7 +18,7 @@ namespace possibility::experiments {
 std::vector<std::string> PhaseNames(const models::RobotModel& robot,
                                     const actions::Segment& segment);
 
-/// Whether the robot leaves the ground, or hits it.
+/// Whether the segment has flight or an impact.
 bool IsDynamic(const actions::Segment& segment);
 
 }  // namespace possibility::experiments
