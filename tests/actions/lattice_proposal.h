@@ -7,7 +7,7 @@
 
 namespace possibility::actions {
 
-/// What a LatticeExplorer proposes first; empty if its lattices find nothing.
+/// The first proposal of a LatticeExplorer; empty if its lattices find nothing.
 inline std::vector<graph::PathEdge> FirstProposal(const RouteSpace& space,
                                                   const GroundedStance& start,
                                                   const std::vector<GroundedStance>& goals) {

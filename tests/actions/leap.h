@@ -42,7 +42,7 @@ inline models::Scenario PitScene(bool with_bridge) {
   return scenario;
 }
 
-/// What the planner would give to a manoeuvre, for tests without one.
+/// What the planner would give to a manoeuvre, for tests that run no planner.
 class Context {
  public:
   explicit Context(models::Environment environment)
@@ -64,13 +64,13 @@ class Context {
   PlanningContext context_;
 };
 
-/// A manoeuvre with one edge, across the pit at y = 0, that no robot could execute. What its jobs
-/// and its motion do is up to the test.
+/// A manoeuvre with one edge, across the pit at y = 0, that no robot could execute. The test
+/// decides what its jobs and its motion do.
 class Leap : public Manoeuvre {
  public:
   using RunJob = std::function<graph::JobVerdict(graph::JobControl*)>;
   using MakeMotion = std::function<std::vector<Phase>(const Leap&)>;
-  /// Called with the name of every condition or extension that is asked for.
+  /// Called with the name of each condition or extension that is asked for.
   using OnAsked = std::function<void(const std::string&)>;
   static constexpr double kHalf = 0.6;  ///< m, of its length
 
@@ -124,7 +124,8 @@ class Leap : public Manoeuvre {
     return make_motion_(*this);
   }
 
-  /// The robot slides from one stance in its walking posture, `distance` (m) far, without a force.
+  /// The robot slides from one stance in its walking posture, `distance` (m) far, without any
+  /// force.
   std::vector<Phase> Slide(double distance) const {
     constexpr double kDuration = 2;
     const models::RobotModel& robot = *model().robot;
@@ -171,7 +172,7 @@ class Leap : public Manoeuvre {
   graph::PointPair edge_;
 };
 
-/// A job that takes so long (s) and then confirms; ends at once when it is cancelled.
+/// A job that takes this long (s) and then confirms. It ends at once when it is cancelled.
 inline Leap::RunJob Sleeps(double seconds) {
   return [seconds](graph::JobControl* control) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);

@@ -13,14 +13,14 @@
 
 namespace possibility::actions::testing {
 
-/// What the verifier is asked about.
+/// The plan that the verifier checks, with its robot and scenario.
 struct VerifierSubject {
   Plan plan;
   models::RobotModel robot;
   models::Scenario scenario;
 };
 
-/// A change that makes any valid plan invalid, and what the verifier has to find.
+/// A change that makes any valid plan invalid, and the violation that the verifier must find.
 struct PlanMutation {
   std::string name;
   std::function<void(VerifierSubject*)> apply;
@@ -60,7 +60,7 @@ inline void ShiftTimes(double offset, std::size_t first_phase, Plan* plan) {
   }
 }
 
-/// Leaves the path as it is and runs it `factor` times as fast.
+/// Leaves the path as it is and executes it `factor` times as fast.
 inline void SpeedUp(double factor, Plan* plan) {
   for (Knot* knot : KnotsOf(plan)) {
     knot->t /= factor;
@@ -69,7 +69,7 @@ inline void SpeedUp(double factor, Plan* plan) {
   }
 }
 
-/// The joint for which `use(knot, j)` is largest over the plan, and that value.
+/// The joint for which `use(knot, j)` is greatest over the plan, and that value.
 inline std::pair<int, double> MostUsed(VerifierSubject* subject,
                                        const std::function<double(const Knot&, int)>& use) {
   std::pair<int, double> most(0, -std::numeric_limits<double>::infinity());
@@ -92,7 +92,7 @@ inline double LargestFrictionUsed(VerifierSubject* subject) {
   return most;
 }
 
-/// A cube of 2 cm in the middle of the root link as it is half-way through the first phase.
+/// A cube of 2 cm at the middle of the root link, where that is half-way through the first phase.
 inline void AddBar(VerifierSubject* subject) {
   dynamics::TreeKinematics kinematics(subject->robot);
   kinematics.SetPosition(MiddleKnot(&FirstPhase(subject)).q);
@@ -104,8 +104,8 @@ inline void AddBar(VerifierSubject* subject) {
   subject->scenario.environment.obstacles.push_back(bar);
 }
 
-/// Turns the first joint between the root and the first patch at one knot: the patch slides by
-/// millimetres, and back.
+/// Turns the first joint between the root and the first patch at one knot. The patch slides by
+/// millimetres and back.
 inline void SlideContact(VerifierSubject* subject) {
   Phase& phase = FirstPhase(subject);
   const int patch = subject->robot.ContactIndex(phase.contacts.front());
@@ -126,7 +126,8 @@ inline void DropPatch(VerifierSubject* subject) {
   }
 }
 
-/// Two corners of a sole that pull and two that push as much more: no wrench, but not the ground's.
+/// Two corners of a sole pull and two push as much more. The wrench stays the same, but the ground
+/// cannot pull.
 inline void MakeCornersPull(VerifierSubject* subject) {
   Phase& phase = FirstPhase(subject);
   for (Knot& knot : phase.knots) {
@@ -173,7 +174,7 @@ inline void WeakenJoint(VerifierSubject* subject) {
   subject->robot.joints[joint].effort = 0.999 * largest;
 }
 
-/// Makes the last joint a mimic of the one before, and the plan follow that.
+/// Makes the last joint a mimic of the one before it. The plan obeys the coupling.
 inline void CoupleLastJoint(VerifierSubject* subject) {
   const int mimic = subject->robot.num_joints() - 1;
   subject->robot.joints[mimic].mimic = models::Mimic{mimic - 1, -0.5, 0.1};
@@ -184,7 +185,7 @@ inline void CoupleLastJoint(VerifierSubject* subject) {
   }
 }
 
-/// The last joint is a mimic that strays from its master at one knot.
+/// Makes the last joint a mimic that strays from its master at one knot.
 inline std::function<void(VerifierSubject*)> Uncouple(double dq, double dv, double da) {
   return [=](VerifierSubject* subject) {
     CoupleLastJoint(subject);
@@ -195,8 +196,8 @@ inline std::function<void(VerifierSubject*)> Uncouple(double dq, double dv, doub
   };
 }
 
-/// The plan must have at least two segments, and two patches bearing in its first phase, the first
-/// of them a rectangle; robot and scenario are those of the plan.
+/// The plan must have at least two segments. Its first phase must have two bearing patches, the
+/// first of them a rectangle. Robot and scenario are those of the plan.
 inline std::vector<PlanMutation> PlanMutations() {
   using Subject = VerifierSubject;
   using Kind = ViolationKind;

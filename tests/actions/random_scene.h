@@ -9,7 +9,7 @@
 
 namespace possibility::actions {
 
-/// A floor with a pit and `count` boxes and bars at random places, some of them low, some hanging.
+/// A floor with a pit, and `count` boxes and bars at random places, some of them low, some hanging.
 inline models::Environment RandomEnvironment(std::mt19937* generator, int count) {
   std::uniform_real_distribution<double> unit(0, 1);
   const auto between = [&](double low, double high) {

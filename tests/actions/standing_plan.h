@@ -28,7 +28,7 @@ inline models::Scenario FlatScenario() {
 }
 
 /// Rest-to-rest motion of the pelvis by (x, y, z) away from the nominal stance, or back to it. The
-/// first foot stands `stride` (m) before its place, the others as much behind theirs.
+/// first foot stands `stride` (m) before its place, the others as far behind theirs.
 inline MotionPhase PelvisShift(const NominalStance& stance, const Eigen::Vector3d& shift, bool back,
                                double duration, double stride = 0) {
   MotionPhase phase;
@@ -88,7 +88,7 @@ inline VerifierSubject StandingPlan(const std::string& robot_yaml, double stride
   return subject;
 }
 
-/// DRC-HUBO1's, for tests that work on copies.
+/// DRC-HUBO1's plan, for tests that work on copies.
 inline const VerifierSubject& ValidSubject() {
   static const VerifierSubject subject =
       StandingPlan(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");

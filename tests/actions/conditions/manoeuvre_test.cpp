@@ -39,7 +39,7 @@ void ExpectOneLine(const std::string& message, const std::vector<std::string>& p
   }
 }
 
-TEST(ManoeuvreTest, NamesThatNobodyKnowsAreRefused) {
+TEST(ManoeuvreTest, UnknownActionNamesAreRefused) {
   const models::Scenario scenario = PitScene(true);
   const ManoeuvreFactory leap = LeapFactory(Refutes, Slides);
   ExpectOneLine(MessageOf(scenario, {}), {"pit.yaml: actions", "no action 'leap'"});
@@ -62,7 +62,7 @@ TEST(ManoeuvreTest, NamesThatAreTakenAreRefused) {
   ExpectOneLine(MessageOf(scenario, {leap, leap}), {"pit.yaml: actions", "'leap'"});
 }
 
-TEST(ManoeuvreTest, FactoriesThatMakeNothingAreRefused) {
+TEST(ManoeuvreTest, FactoriesThatMakeNoManoeuvreOfTheirNameAreRefused) {
   models::Scenario scenario = PitScene(true);
   const auto nothing = [](const PlanningContext&) { return std::shared_ptr<Manoeuvre>(); };
   ExpectOneLine(MessageOf(scenario, {{"leap", nothing}}), {"pit.yaml", "'leap' made nothing"});
@@ -81,7 +81,7 @@ TEST(ManoeuvreTest, AManoeuvreWithoutItsGaitsIsRefused) {
                 {"'leap'", "not planned with"});
 }
 
-TEST(ManoeuvreTest, TheLastWordOnAnEdgeCounts) {
+TEST(ManoeuvreTest, TheLatestVerdictOnAnEdgeHolds) {
   const Context context(PitScene(true).environment);
   Leap leap(*context, Refutes, Slides);
   const graph::Point from = *leap.FindLaunchPoint(ToPoint(PlanarPose{-1, 0, 0}.At(1)), {});
@@ -98,8 +98,8 @@ TEST(ManoeuvreTest, TheLastWordOnAnEdgeCounts) {
   EXPECT_EQ(leap.Refusals().front().reason, "a reason");
 }
 
-/// Wherever a declared landing is, the flood finds it: an island around a random landing of a
-/// random launch, with nothing in between.
+/// The goal is on an island around a random landing of a random launch, with no ground in between.
+/// The flood must find the landing.
 TEST(ManoeuvreTest, TheFloodReachesEveryDeclaredLanding) {
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -58,7 +58,7 @@ TEST_P(QuasiStaticActionTest, ExtendTowardsTakesStepsAlongTheAxesOfTheGaitAndArr
   for (int i = 0; i < 200; ++i) {
     Point v = action().Project(space_->RandomSample(&generator));
     const Point target = action().Project(space_->RandomSample(&generator));
-    // Two turns of at most half a circle, and the way.
+    // At most two turns of half a circle, and the way between them.
     const double longest = space_->Distance(v, target) + 2 * 0.137 * std::numbers::pi;
     for (int step = 0; v != target; ++step) {
       ASSERT_LE(step, 3 + longest / kStep);
@@ -84,7 +84,7 @@ TEST_P(QuasiStaticActionTest, ExtendTowardsArrivesFromPosesOfAnyTilt) {
   }
 }
 
-TEST_P(QuasiStaticActionTest, TransitionsLeadIntoTheActionAndAreFoundFromBothSides) {
+TEST_P(QuasiStaticActionTest, TransitionEdgesAreSufficientInBothDirectionsAndForBothGaits) {
   const int other = 1 - GetParam();
   int made = 0;
   for (int i = 0; i < 300; ++i) {

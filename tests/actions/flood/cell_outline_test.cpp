@@ -21,7 +21,7 @@ int TwiceTheArea(const Outline& outline) {
   return area;
 }
 
-/// How often the outlines go around a point that is on none of them.
+/// Winding number of the outlines around a point that is on none of them.
 int Winding(const std::vector<Outline>& outlines, const Vector2d& p) {
   int winding = 0;
   for (const Outline& outline : outlines) {
@@ -36,7 +36,7 @@ int Winding(const std::vector<Outline>& outlines, const Vector2d& p) {
   return winding;
 }
 
-TEST(CellOutlineTest, ARingHasAnOutsideAndAHole) {
+TEST(CellOutlineTest, ARingHasAnOuterOutlineAndAHole) {
   CellMask mask(5, 4);
   for (int x = 1; x < 4; ++x) {
     for (int y = 0; y < 3; ++y) {
@@ -50,7 +50,7 @@ TEST(CellOutlineTest, ARingHasAnOutsideAndAHole) {
   EXPECT_EQ(TwiceTheArea(outlines[1]), -2);
 }
 
-TEST(CellOutlineTest, CellsThatShareACornerAreApart) {
+TEST(CellOutlineTest, CellsThatShareOnlyACornerHaveSeparateOutlines) {
   CellMask mask(2, 2);
   mask.Add(0, 0);
   mask.Add(1, 1);

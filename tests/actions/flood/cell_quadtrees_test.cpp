@@ -1,4 +1,4 @@
-// The flood over blocks of cells, beside one that looks at every cell.
+// The flood over blocks of cells, compared with a flood that looks at every cell.
 
 #include "actions/flood/cell_quadtrees.h"
 
@@ -15,7 +15,7 @@
 namespace possibility::actions {
 namespace {
 
-/// Cells that are open or closed at random, in patches of all sizes, and what links them.
+/// Cells that are open or closed at random, in patches of all sizes, and the links between them.
 struct Maze {
   struct Link {
     CellBlock from;
@@ -74,7 +74,7 @@ bool Overlap(const CellBlock& a, const CellBlock& b) {
   return a.plane == b.plane && a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// Every cell by itself.
+/// The reference: every cell by itself.
 std::vector<char> DenseFlood(Maze* maze, const CellBlock& seed) {
   std::vector<char> reached(maze->open.size(), 0);
   const auto at = [&](const CellBlock& cell) -> char& {
@@ -195,8 +195,8 @@ TEST(BlockFloodTest, MemoryGrowsWithTheBoundaryOnly) {
   EXPECT_TRUE(way.back().Contains(goal));
 }
 
-/// A chessboard has no blocks.
-TEST(BlockFloodTest, ItsLimitsCutItShort) {
+/// A chessboard has no block larger than a cell.
+TEST(BlockFloodTest, LimitsCutTheFloodShort) {
   const auto chess = [](const CellBlock& block) {
     if (!block.IsCell()) return BlockState::kMixed;
     return (block.x0 + block.y0) % 2 == 0 ? BlockState::kOpen : BlockState::kClosed;
@@ -222,7 +222,7 @@ TEST(BlockFloodTest, ItsLimitsCutItShort) {
                TooManyCells);
 }
 
-TEST(CellQuadtreesTest, AnOpenCellWaitsForAnOfferThatLeadsThere) {
+TEST(CellQuadtreesTest, AnOpenCellIsEnteredOnceWhenAnOfferLeadsThere) {
   int judged = 0, entered = 0;
   CellQuadtrees cells(1, 4, 1, 100, [&](const CellBlock& block) {
     ++judged;

@@ -16,8 +16,8 @@
 
 namespace possibility::actions {
 
-/// The flood over C_S as plainly as it can be written: every cell by itself, whole cells only. What
-/// FloodSufficient has to agree with.
+/// The flood over C_S in its plainest form: every cell by itself, whole cells only. FloodSufficient
+/// must agree with it.
 class DenseFlood {
  public:
   using Cell = std::array<int, 4>;  ///< layer, x, y, heading

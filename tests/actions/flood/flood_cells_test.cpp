@@ -1,4 +1,4 @@
-// Blocks of cells beside single ones, in random scenes.
+// Blocks of cells compared with single cells, in random scenes.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ std::map<BlockState, int> ExpectBlocksAgree(const Cells& cells, int planes, int 
   return verdicts;
 }
 
-TEST(FloodCellsTest, BlocksOfStancesAreWhatTheirCellsAre) {
+TEST(FloodCellsTest, StanceBlocksAgreeWithTheirCells) {
   std::mt19937 generator(41);
   std::map<BlockState, int> all;
   for (int trial = 0; trial < 12; ++trial) {
@@ -74,7 +74,7 @@ TEST(FloodCellsTest, BlocksOfStancesAreWhatTheirCellsAre) {
   EXPECT_GT(all[BlockState::kClosed], 200);
 }
 
-TEST(FloodCellsTest, BlocksOfThePelvisAreWhatTheirCellsAre) {
+TEST(FloodCellsTest, PelvisBlocksAgreeWithTheirCells) {
   std::mt19937 generator(42);
   std::map<BlockState, int> all;
   for (int trial = 0; trial < 8; ++trial) {
@@ -92,7 +92,7 @@ TEST(FloodCellsTest, BlocksOfThePelvisAreWhatTheirCellsAre) {
   EXPECT_GT(all[BlockState::kClosed], 500);
 }
 
-/// What is reached, by strides, transitions and leaps, of which some are too short for the gap.
+/// Regions reached by strides, transitions and leaps. Some of the leaps are too short for the gap.
 TEST(FloodCellsTest, TheFloodReachesWhatADenseOneReaches) {
   std::mt19937 generator(43);
   std::uniform_real_distribution<double> unit(0, 1);

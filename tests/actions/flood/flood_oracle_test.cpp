@@ -1,4 +1,4 @@
-// Which floods may say "no", by what manoeuvres declare and guess.
+// Which floods may answer "no", given what manoeuvres declare and guess.
 
 #include "actions/flood/flood_oracle.h"
 
@@ -17,7 +17,7 @@ using graph::RouteOracleAnswer;
 graph::JobVerdict Refutes(graph::JobControl*) { return graph::JobVerdict::kRefuted; }
 std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
 
-/// A leap that declares its bounds, and those it has guessed before.
+/// A leap that declares its bounds. It may guess them first.
 class DeclaredLeap : public Leap {
  public:
   DeclaredLeap(const PlanningContext& context, ManoeuvreBounds guessed, ManoeuvreBounds known)
@@ -39,7 +39,7 @@ class DeclaredLeap : public Leap {
   bool known_once_ = false;
 };
 
-/// Lands where the leap does (Leap::kHalf), or nowhere; flies less than a leg is long.
+/// Landings where the leap lands (Leap::kHalf), or nowhere. The flight is shorter than a leg.
 ManoeuvreBounds Lands(bool across) {
   const double length = 2 * Leap::kHalf;
   const LandingRange range{
@@ -74,23 +74,23 @@ class FloodOracleTest : public testing::Test {
   std::optional<FloodOracle> oracle_;
 };
 
-TEST_F(FloodOracleTest, AWayThatMayBeOpenIsNoAnswer) {
+TEST_F(FloodOracleTest, AnOpenWayIsAnsweredUnknown) {
   context_.emplace(PitScene(true).environment);
   EXPECT_EQ(Ask(), RouteOracleAnswer::kUnknown);
 }
 
-/// Feet need ground, but a pelvis within a leg's reach of both floors could cross.
-TEST_F(FloodOracleTest, APitExhaustsWalkingAndProvesNothing) {
+/// Feet need ground. A pelvis within a leg's reach of both floors could cross.
+TEST_F(FloodOracleTest, APitIsAnsweredExhaustedNotProvenInfeasible) {
   EXPECT_EQ(Ask(), RouteOracleAnswer::kExhausted);
   EXPECT_EQ(oracle_->barrier().closed_by, std::vector<std::string>{"no ground"});
   EXPECT_LT(oracle_->barrier().closest.x(), 0);
 }
 
-TEST_F(FloodOracleTest, AWallAcrossTheBoundsIsAProof) {
+TEST_F(FloodOracleTest, AWallAcrossTheBoundsIsAnsweredProvenInfeasible) {
   BuildWall();
   EXPECT_EQ(Ask(), RouteOracleAnswer::kProvenInfeasible);
   EXPECT_EQ(oracle_->barrier().closed_by, std::vector<std::string>{"wall"});
-  // Of both floods: what walking reached, and what the pelvis did.
+  // The regions of both floods: what walking reached, and what the pelvis reached.
   std::vector<std::string> actions;
   for (const ReachedRegion& region : oracle_->barrier().reached) actions.push_back(region.action);
   std::sort(actions.begin(), actions.end());
@@ -98,18 +98,18 @@ TEST_F(FloodOracleTest, AWallAcrossTheBoundsIsAProof) {
   EXPECT_EQ(actions.back(), "walk");
 }
 
-TEST_F(FloodOracleTest, AManoeuvreThatLeadsAcrossIsAWay) {
+TEST_F(FloodOracleTest, AManoeuvreThatLandsAcrossIsAnsweredUnknown) {
   AddLeap(Lands(true), Lands(true));
   EXPECT_EQ(Ask(), RouteOracleAnswer::kUnknown);
 }
 
-TEST_F(FloodOracleTest, AManoeuvreThatDeclaresNothingLeavesNoProof) {
+TEST_F(FloodOracleTest, AManoeuvreWithoutBoundsIsAnsweredUnknown) {
   AddLeap({}, {});
   EXPECT_EQ(Ask(), RouteOracleAnswer::kUnknown);
 }
 
-/// Where a flight could lead bounds the flood over C_N, whatever is known of the landings.
-TEST_F(FloodOracleTest, AFlightThatIsUnknownLeavesNoProofOfAWall) {
+/// The flood over C_N is bounded by where a flight could lead, whatever is known of the landings.
+TEST_F(FloodOracleTest, AWallIsAnsweredExhaustedIfFlightBoundsAreUnknown) {
   BuildWall();
   ManoeuvreBounds nowhere = Lands(false);
   nowhere.flight.reset();
@@ -117,25 +117,26 @@ TEST_F(FloodOracleTest, AFlightThatIsUnknownLeavesNoProofOfAWall) {
   EXPECT_EQ(Ask(), RouteOracleAnswer::kExhausted);
 }
 
-TEST_F(FloodOracleTest, GuessesAreReplacedBeforeANo) {
+TEST_F(FloodOracleTest, GuessedBoundsAreReplacedBeforeANo) {
   const auto leap = AddLeap(Lands(false), Lands(true));
   EXPECT_EQ(Ask(), RouteOracleAnswer::kUnknown);
   EXPECT_EQ(leap->times_asked, 1);
 }
 
-TEST_F(FloodOracleTest, GuessesThatHoldAreANo) {
+TEST_F(FloodOracleTest, GuessedBoundsThatHoldAreAnsweredExhausted) {
   const auto leap = AddLeap(Lands(false), Lands(false));
   EXPECT_EQ(Ask(), RouteOracleAnswer::kExhausted);
   EXPECT_EQ(leap->times_asked, 1);
 }
 
-TEST_F(FloodOracleTest, GuessesThatBecomeUnknownAreNoNo) {
+TEST_F(FloodOracleTest, GuessedBoundsThatBecomeUnknownAreAnsweredUnknown) {
   AddLeap(Lands(false), {});
   EXPECT_EQ(Ask(), RouteOracleAnswer::kUnknown);
 }
 
-/// The flood over C_S is cut short, or its guesses are; that over C_N only adds to a "no".
-TEST_F(FloodOracleTest, NothingIsSaidWhenTimeRunsOutBeforeTheGuessesAreReplaced) {
+/// Time ends within the flood over C_S or while its guesses are replaced. The flood over C_N only
+/// adds to a "no".
+TEST_F(FloodOracleTest, TheAnswerIsUnknownIfTimeEndsBeforeGuessesAreReplaced) {
   const auto leap = AddLeap(Lands(false), Lands(false));
   int asked = 0, of_guesses = 0;
   EXPECT_EQ(Ask([&] {

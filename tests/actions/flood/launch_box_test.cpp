@@ -19,8 +19,8 @@ bool Stands(const models::GroundMap& ground, int gait, const PlanarPose& pose) {
   return GroundMayHold(DrcHubo1Locomotion(), ground, gait, pose, 0, 0, 0);
 }
 
-/// Whatever launch of a box stands and lands, the box says so, however often it is halved.
-TEST(LaunchBox, NoLandingOfABoxIsMissed) {
+/// If any launch of a box stands and lands, the box must say so, however often it is halved.
+TEST(LaunchBox, ABoxThatHoldsALandingIsNeverRefused) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> unit(-1, 1);
   int landed = 0, refused = 0;
@@ -66,7 +66,7 @@ TEST(LaunchBox, NoLandingOfABoxIsMissed) {
   EXPECT_GT(refused, 50);
 }
 
-/// Ground only under the very points of one launch at a corner of the box, and of its landing.
+/// The only ground lies under the points of one launch at a corner of the box, and of its landing.
 TEST(LaunchBox, TheOnlyLaunchThatStandsAndLandsIsFound) {
   std::mt19937 generator(4);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -74,7 +74,7 @@ TEST(LaunchBox, TheOnlyLaunchThatStandsAndLandsIsFound) {
     LaunchBox box{.launch = {0, 0}, .landing = {1, 0}};
     box.middle = {unit(generator), unit(generator), 3 * unit(generator)};
     box.displacement = {0.8 + 0.4 * unit(generator), 0.3 * unit(generator), 0.3 * unit(generator)};
-    // Wide along one dimension and narrow along the others.
+    // The box is wide along one dimension and narrow along the others.
     double widths[6] = {0.002, 0.002, 0.002, 0.002, 0.002, 0.002};
     widths[scene % 6] = 0.2;
     box.half_place = {widths[0], widths[1]};
@@ -107,7 +107,7 @@ TEST(LaunchBox, TheOnlyLaunchThatStandsAndLandsIsFound) {
   }
 }
 
-TEST(LaunchBox, HalvingTellsHowWideAGapMayBe) {
+TEST(LaunchBox, HalvedBoxesRefuseAGapBeyondReach) {
   const LaunchBox box{.launch = {0, 0},
                       .landing = {1, 0},
                       .middle = {-0.2, 0, 0},

@@ -50,12 +50,12 @@ class NecessaryFloodTest : public testing::Test {
   const LocomotionModel& model_ = DrcHubo1Locomotion();
 };
 
-/// The pelvis keeps within the bounds, and there is no room for it beside the wall.
-TEST_F(NecessaryFloodTest, AWallAsLongAsTheBoundsIsAProof) {
+/// The pelvis must stay within the bounds, and there is no room for it beside the wall.
+TEST_F(NecessaryFloodTest, AWallAsLongAsTheBoundsLeavesNoRoute) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 12; ++trial) {
-    // Whatever way the bounds cut the cells.
+    // The bounds cut the cells at random places.
     const Vector2d low(-1.5 - 0.1 * unit(generator), -1 - 0.1 * unit(generator));
     const Vector2d high(1.5 + 0.1 * unit(generator), 1 + 0.1 * unit(generator));
     models::Environment environment = Floor(low, high);
@@ -70,21 +70,21 @@ TEST_F(NecessaryFloodTest, AWallAsLongAsTheBoundsIsAProof) {
     for (const auto& outline : flood.barrier.reached[0].outlines) {
       for (const Vector2d& corner : outline) EXPECT_LT(corner.x(), 0) << trial;
     }
-    // With room for the pelvis, but for nothing else of the robot.
+    // Now there is room for the pelvis, but for nothing else of the robot.
     environment.obstacles.back().shape.size.y() -= 0.5;
     EXPECT_TRUE(Flood(environment, {-1, 0, 0}, {1, 0, 0}).route_may_exist) << trial;
   }
 }
 
-/// Neither over the floor's corners nor under it.
-TEST_F(NecessaryFloodTest, NoWayLeadsAroundAFloorAsLongAsTheBounds) {
+/// The route leads neither over the floor's corners nor under it.
+TEST_F(NecessaryFloodTest, NoRouteLeadsAroundAFloorAsLongAsTheBounds) {
   const Vector2d low(-2.5, -2), high(2.5, 2);
   models::Environment environment;
   environment.bounds = Eigen::AlignedBox2d(low, high);
   Add("floor", {low.x(), low.y(), -0.5}, {high.x(), high.y(), 0}, true, &environment);
   Add("wall", {-0.1, low.y(), 0}, {0.1, high.y(), 2.2}, false, &environment);
   EXPECT_FALSE(Flood(environment, {-1.4, 0, 0}, {1.4, 0, 0}).route_may_exist);
-  environment.obstacles.back().shape.size.z() -= 0.5;  // of which half at the foot
+  environment.obstacles.back().shape.size.z() -= 0.5;  // half of it at the foot
   EXPECT_TRUE(Flood(environment, {-1.4, 0, 0}, {1.4, 0, 0}).route_may_exist);
 }
 
@@ -96,7 +96,7 @@ TEST_F(NecessaryFloodTest, StancesOnTheBoundsAreReached) {
   }
 }
 
-/// A flight of the pelvis alone, from stance to stance within the bounds, and often along them.
+/// A flight of the pelvis alone, from stance to stance within the bounds, often along them.
 std::vector<Isometry3d> RandomFlight(const Eigen::AlignedBox2d& bounds, const Isometry3d& start,
                                      const Isometry3d& goal, std::mt19937* generator) {
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -121,11 +121,11 @@ std::vector<Isometry3d> RandomFlight(const Eigen::AlignedBox2d& bounds, const Is
   return flight;
 }
 
-/// Every wall and box that a pelvis passes with 15 mm to spare, however narrow that is:
-/// where there is a way for it, there is no proof.
-TEST_F(NecessaryFloodTest, NeverProvesAWayAwayThatThePelvisHas) {
+/// Walls and boxes that the pelvis passes with 15 mm to spare, however narrow the way is. Where the
+/// pelvis has a way, there must be no proof.
+TEST_F(NecessaryFloodTest, ARouteOfThePelvisIsNeverRuledOut) {
   std::mt19937 generator(6);
-  std::srand(6);  // of Eigen's random orientations
+  std::srand(6);  // for Eigen's random orientations
   std::uniform_real_distribution<double> unit(0, 1);
   const models::Link& pelvis = DrcHubo1().links[DrcHubo1().pelvis_shape_link];
   const NominalStance& stance = model_.gaits[0]->stance;
@@ -171,8 +171,8 @@ TEST_F(NecessaryFloodTest, NeverProvesAWayAwayThatThePelvisHas) {
   EXPECT_EQ(proofs, 12) << "with all its bricks the wall closes the room";
 }
 
-/// Walls with gaps of any width: never a proof where there is a route.
-TEST_F(NecessaryFloodTest, NeverProvesAWayAwayThatASearchFinds) {
+/// Walls with gaps of random width. Where a search finds a route, there must be no proof.
+TEST_F(NecessaryFloodTest, ARouteThatASearchFindsIsNeverRuledOut) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> unit(0, 1);
   int routes = 0, proofs = 0;

@@ -30,7 +30,7 @@ models::Environment Corridor(double width) {
   return environment;
 }
 
-/// The narrowest that the walker fits through, whatever it heads for.
+/// The narrowest width that the walker fits through, over all headings.
 double NarrowestStance() {
   double narrowest = std::numeric_limits<double>::infinity();
   for (double yaw = 0; yaw < std::numbers::pi; yaw += 0.001) {
@@ -58,7 +58,7 @@ bool MayPass(double width, int halvings) {
       .route_may_exist;
 }
 
-TEST(SufficientFlood, HalvedCellsTellHowNarrowACorridorMayBe) {
+TEST(SufficientFlood, HalvedCellsRuleOutACorridorTooNarrow) {
   const double narrowest = NarrowestStance();
   EXPECT_TRUE(MayPass(narrowest + 0.01, 0));
   EXPECT_TRUE(MayPass(narrowest + 0.01, 3));
@@ -66,8 +66,8 @@ TEST(SufficientFlood, HalvedCellsTellHowNarrowACorridorMayBe) {
   EXPECT_FALSE(MayPass(narrowest - 0.1, 3));
 }
 
-/// Closer than whole cells of launch and landing could.
-TEST(SufficientFlood, TellsAGapFromTheFarthestLanding) {
+/// The answer is sharper than whole cells of launch and landing would allow.
+TEST(SufficientFlood, AGapBeyondTheFarthestLandingIsRuledOut) {
   static constexpr double kFarthest = 1.1;
   const auto may_cross = [&](double gap) {
     const models::Environment environment = Gap(gap);

@@ -40,9 +40,9 @@ TEST_P(GaitMotionTest, StridesStayWithinTheGaitsBounds) {
   }
 }
 
-/// At every knot: bearing contacts are where they stood, v and a are the derivatives of q, and
-/// the robot is at rest between phases.
-TEST_P(GaitMotionTest, MotionIsConsistentAndContactsStand) {
+/// At every knot, bearing contacts are where they stood, and v and a are the derivatives of q. The
+/// robot is at rest between phases.
+TEST_P(GaitMotionTest, DerivativesAreConsistentAndContactsStayInPlace) {
   WholeBodySolver solver(*model_.robot);
   const PlanarPose from = RandomPose(&generator_, 2);
   const PlanarPose to = from * PlanarPose{0.3, 0.1, 0.2};
@@ -105,7 +105,7 @@ TEST_P(GaitMotionTest, OneLimbSwingsAtATimeAndTheOthersSupportTheCentreOfMass) {
   }
 }
 
-/// However little the centre of mass has to move for the first swing.
+/// This holds however little the centre of mass has to move for the first swing.
 TEST_P(GaitMotionTest, BeginsAndEndsOnAllLimbs) {
   const size_t limbs = gait_.stance.gait->limbs.size();
   for (const PlanarPose& d :

@@ -11,7 +11,7 @@ namespace {
 
 class Strides : public testing::TestWithParam<StrideClass> {
  protected:
-  /// Within or beyond one stride, in the directions of the class.
+  /// A displacement in the directions of the class, shorter or longer than one stride.
   PlanarPose RandomDisplacement() {
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto random = [&] { return unit(generator_); };
@@ -52,7 +52,7 @@ TEST_P(Strides, AllStridesOfAWayBelongToItsClassAndSumUpToIt) {
   }
 }
 
-/// As few as the bounds allow, which is plain where all strides are the same.
+/// The least number that the bounds allow. It is known where all strides are the same.
 TEST_P(Strides, AreNoMoreThanNeeded) {
   for (const models::Gait& gait : DrcHubo1().gaits) {
     for (int trial = 0; trial < 100; ++trial) {

@@ -13,8 +13,8 @@
 namespace possibility::actions {
 namespace {
 
-/// Every link of the robot at `X_WL`, seen from `frame`, must lie in the union of `boxes`. Checked
-/// on a cloud of surface points of each shape.
+/// Expects that every link of the robot at `X_WL`, seen from `frame`, lies in the union of `boxes`.
+/// Checked on a cloud of surface points of each shape.
 void ExpectInside(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
                   const PlanarPose& frame, const std::vector<Eigen::AlignedBox3d>& boxes,
                   std::mt19937* generator) {
@@ -34,7 +34,8 @@ void ExpectInside(const models::RobotModel& robot, const std::vector<Eigen::Isom
   }
 }
 
-/// A stride of the class, of any length that the bounds allow; every second one of the longest.
+/// A stride of the class, of any length that the bounds allow. Every second one is of the greatest
+/// length.
 PlanarPose RandomStride(StrideClass strides, const models::GaitParameters& parameters,
                         std::mt19937* generator) {
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -79,8 +80,8 @@ TEST(SweptVolumeLong, HoldsRandomStridesOfEveryClass) {
   ExpectVolumesHoldRandomStrides(QuadrupedLocomotion(), 300);
 }
 
-/// Of steps across a stance of a gait, the pose of the frame of a stride of the class may be so
-/// far away.
+/// The farthest poses, relative to a stance of the gait, that the frame of a stride of the class
+/// may have.
 std::vector<PlanarPose> HalfStrides(StrideClass strides, const models::GaitParameters& p) {
   switch (strides) {
     case StrideClass::kStraight:
@@ -94,7 +95,7 @@ std::vector<PlanarPose> HalfStrides(StrideClass strides, const models::GaitParam
   }
 }
 
-TEST(SweptVolumeTest, WhereverThereIsRoomToMoveThereIsRoomToStand) {
+TEST(SweptVolumeTest, SweepsOfHalfStridesHoldTheStandingVolume) {
   for (const LocomotionModel* model : {&DrcHubo1Locomotion(), &QuadrupedLocomotion()}) {
     for (const auto& gait : model->gaits) {
       for (const StrideClass strides : kStrideClasses) {
@@ -111,7 +112,7 @@ TEST(SweptVolumeTest, WhereverThereIsRoomToMoveThereIsRoomToStand) {
   }
 }
 
-TEST(SweptVolumeTest, StrideOfOneDirectionNeedsLessRoomInTheOther) {
+TEST(SweptVolumeTest, StridesInOneDirectionNeedLessRoomAcrossIt) {
   const auto extent = [](const std::vector<Eigen::AlignedBox3d>& boxes) -> Eigen::Vector3d {
     Eigen::AlignedBox3d hull;
     for (const Eigen::AlignedBox3d& box : boxes) hull.extend(box);
@@ -135,7 +136,7 @@ TEST(SweptVolumeTest, CrawlingIsLowerThanWalking) {
   EXPECT_NEAR(model.gaits[0]->volumes.standing.front().min().z(), SweptVolume::kGroundGap, 1e-12);
 }
 
-TEST(SweptVolumeTest, AGaitTheRobotCannotWalkIsRefusedByName) {
+TEST(SweptVolumeTest, AStrideBeyondTheRobotsReachIsRefusedByGaitName) {
   models::RobotModel robot = DrcHubo1();
   for (models::Gait& gait : robot.gaits) gait.parameters.forward = 0.9;
   try {

@@ -22,11 +22,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// What the optimiser's constraint tolerance leaves of the plan's own velocities.
+// What the optimiser's constraint tolerance leaves in the plan's own velocities.
 constexpr double kMesh = 1e-6;
 
-// In the order of JumpMotion: a preparation before the phases of the problem, and rise and descent
-// in one.
+// Phases in the order of JumpMotion: a preparation comes before the phases of the problem, and rise
+// and descent are one phase.
 enum MotionPhaseIndex { kPreparation, kCrouch, kToes, kFlight, kSettle, kLanding };
 
 const NominalStance& Stance(const std::string& gait) {
@@ -50,7 +50,7 @@ const JumpAnswer& Answer() {
 
 const Phase& MotionPhaseOf(int index) { return Answer().jump->phases.at(index); }
 
-/// Calls `look` at the knots and at the middle between them.
+/// Calls `look` at the knots and midway between them.
 template <typename Look>
 void AtSamples(const Phase& phase, const Look& look) {
   for (std::size_t i = 0; i + 1 < phase.knots.size(); ++i) {
@@ -94,7 +94,7 @@ TEST(JumpSolverTest, LeadsFromStanceToStanceAtRest) {
   EXPECT_LT(first.v.norm() + last.v.norm(), kMesh);
 }
 
-TEST(JumpSolverTest, PhasesMeet) {
+TEST(JumpSolverTest, PhasesAreContinuousExceptForTheImpact) {
   const std::vector<Phase>& phases = Answer().jump->phases;
   for (std::size_t i = 1; i < phases.size(); ++i) {
     const Knot& before = phases[i - 1].knots.back();
@@ -108,7 +108,7 @@ TEST(JumpSolverTest, PhasesMeet) {
   EXPECT_GT(phases[kSettle].impulses.cols(), 0);
 }
 
-TEST(JumpSolverTest, ImpactIsWhatSimbodysMassMatrixMakesOfIt) {
+TEST(JumpSolverTest, TheImpactBalancesMomentumBySimbodysMassMatrix) {
   const Phase& settle = MotionPhaseOf(kSettle);
   const Knot& before = MotionPhaseOf(kFlight).knots.back();
   const Knot& after = settle.knots.front();
@@ -126,7 +126,7 @@ TEST(JumpSolverTest, ImpactIsWhatSimbodysMassMatrixMakesOfIt) {
   EXPECT_LT(change.cwiseAbs().maxCoeff(), 1e-9 * Weight());
 }
 
-TEST(JumpSolverTest, ForcesAndTorquesAreThoseOfSimbody) {
+TEST(JumpSolverTest, ForcesAndTorquesAgreeWithSimbody) {
   dynamics::SimbodyDynamics simbody(DrcHubo1());
   for (const int index : {kPreparation, kCrouch, kFlight, kSettle, kLanding}) {
     const Phase& phase = MotionPhaseOf(index);
@@ -161,9 +161,9 @@ TEST(JumpSolverTest, KeepsJointLimits) {
   }
 }
 
-// The ways in which an optimiser has cheated at this problem before.
+// Ways in which an optimiser has exploited gaps in this problem before.
 
-TEST(JumpSolverLoopholes, NoLimbo) {
+TEST(JumpSolverLoopholes, PitchBeforeTakeOffStaysWithinItsBounds) {
   for (const int index : {kCrouch, kToes}) {
     AtSamples(MotionPhaseOf(index), [](const Knot& knot) {
       EXPECT_GT(Pitch(knot.q), Solver().settings().min_stance_pitch - 0.01) << knot.t;
@@ -198,12 +198,13 @@ TEST(JumpSolverLoopholes, ForcesDoNotChatter) {
       turns += change * last_change < 0 ? 1 : 0;
       last_change = change;
     }
-    // Chatter turns at every node of the mesh, of which the shortest of these phases has nine.
+    // Chatter changes direction at every node of the mesh. The shortest of these phases has nine
+    // nodes.
     EXPECT_LE(turns, 6) << index;
   }
 }
 
-TEST(JumpSolverLoopholes, FeetComeDownSoftly) {
+TEST(JumpSolverLoopholes, FeetTouchDownSlowly) {
   const Knot& touchdown = MotionPhaseOf(kFlight).knots.back();
   dynamics::SimbodyDynamics simbody(DrcHubo1());
   simbody.SetState(touchdown.q, touchdown.v);
@@ -214,7 +215,7 @@ TEST(JumpSolverLoopholes, FeetComeDownSoftly) {
   }
 }
 
-TEST(JumpSolverLoopholes, TheBodyReallyTravels) {
+TEST(JumpSolverLoopholes, TheCentreOfMassTravelsInFlight) {
   dynamics::SimbodyDynamics simbody(DrcHubo1());
   const auto com = [&](const Knot& knot) {
     simbody.SetState(knot.q, knot.v);
@@ -234,7 +235,7 @@ TEST(JumpSolverTest, RefusesARootThatIsTooFast) {
   EXPECT_NE(answer.reason.find("the root flies at"), std::string::npos) << answer.reason;
 }
 
-TEST(JumpSolverTest, CancelledKnowsNothing) {
+TEST(JumpSolverTest, ACancelledSolveGivesNoJump) {
   collocation::SolveControl control;
   control.Cancel();
   const JumpAnswer answer = Solver().Solve(kTask, &control);
@@ -242,7 +243,7 @@ TEST(JumpSolverTest, CancelledKnowsNothing) {
   EXPECT_FALSE(answer.jump);
 }
 
-TEST(JumpSolverTest, SaysWhyNot) {
+TEST(JumpSolverTest, AnInfeasibleJumpIsRefusedWithAReason) {
   JumpSettings weak;
   weak.limits.torque_fraction = 0.05;
   const JumpSolver solver(DrcHubo1(), Stance("walk"), Stance("crawl"), weak);
@@ -280,7 +281,7 @@ TEST_F(JumpLibraryTest, WithoutAFolderTheReachIsOptimistic) {
   EXPECT_FALSE(library.Find(kTask));
 }
 
-TEST_F(JumpLibraryTest, GivesBackWhatWasSaved) {
+TEST_F(JumpLibraryTest, SavedJumpsAndReachAreReadBack) {
   Fill();
   JumpLibrary library = Library();
   EXPECT_TRUE(library.reach_is_derived());
@@ -295,7 +296,7 @@ TEST_F(JumpLibraryTest, GivesBackWhatWasSaved) {
   EXPECT_FALSE(library.Find({0.55, 0}));
 }
 
-TEST_F(JumpLibraryTest, TheReachAloneCanBeTaken) {
+TEST_F(JumpLibraryTest, TheReachIsReadWithoutTheJumps) {
   Fill();
   JumpLibrary library(DrcHubo1(), Solver(), folder_, JumpLibrary::Use::kReachAlone);
   EXPECT_TRUE(library.reach_is_derived());
@@ -303,7 +304,7 @@ TEST_F(JumpLibraryTest, TheReachAloneCanBeTaken) {
   EXPECT_FALSE(library.Find(kTask));
 }
 
-TEST_F(JumpLibraryTest, AnotherRobotsFolderIsNotLookedAt) {
+TEST_F(JumpLibraryTest, AnotherRobotsFolderIsIgnored) {
   Fill();
   models::RobotModel other = DrcHubo1();
   other.content_hash = "another";
@@ -312,7 +313,7 @@ TEST_F(JumpLibraryTest, AnotherRobotsFolderIsNotLookedAt) {
   EXPECT_FALSE(library.Find(kTask));
 }
 
-TEST_F(JumpLibraryTest, UnreadableJumpsAreUnknown) {
+TEST_F(JumpLibraryTest, UnreadableJumpsAreNotFound) {
   Fill();
   for (const auto& entry : std::filesystem::directory_iterator(Library().folder())) {
     if (entry.path().filename().string().starts_with("jump_")) {
@@ -329,7 +330,7 @@ TEST_F(JumpLibraryTest, MalformedTableIsAnInputError) {
   EXPECT_THROW(Library(), InputError);
 }
 
-/// Over level ground, all that the reach table promises.
+/// All jumps that the reach table promises over level ground.
 std::vector<std::shared_ptr<const SolvedJump>> ShippedJumps() {
   JumpLibrary library(DrcHubo1(), Solver(), DrcHubo1().file.parent_path() / "jumps");
   EXPECT_TRUE(library.reach_is_derived());
@@ -369,7 +370,7 @@ TEST_F(JumpLibraryTest, NoShippedJumpFliesBeyondItsBound) {
   }
 }
 
-TEST(JumpReachTest, BetweenRowsWhateverEitherCan) {
+TEST(JumpReachTest, BetweenTwoHeightsTheReachOfEitherIsAllowed) {
   const JumpReach reach{{{-0.1, 0.3, 0.8}, {0.1, 0.4, 0.9}, {0.2, 1, 0}}};
   EXPECT_TRUE(reach.Allows({0.3, 0}));
   EXPECT_TRUE(reach.Allows({0.9, 0}));

@@ -18,7 +18,7 @@
 namespace possibility::actions {
 namespace {
 
-/// Two floors with a gap between x = 0 and `gap`, and what stands on them.
+/// Two floors with a gap between x = 0 and `gap`, and the obstacles on them.
 models::Environment TwoFloors(double gap, const std::vector<models::Obstacle>& obstacles = {}) {
   models::Environment environment;
   environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(-4, -3), Eigen::Vector2d(4, 3));
@@ -34,7 +34,7 @@ models::Environment TwoFloors(double gap, const std::vector<models::Obstacle>& o
   return environment;
 }
 
-/// Above the heads of those who walk, not of those who jump.
+/// A beam above the head of a walking robot, but not of a jumping one.
 models::Obstacle Beam() {
   models::Obstacle beam;
   beam.name = "beam";
@@ -102,7 +102,7 @@ TEST(LongJumpTest, NecessaryConditionsHoldAcrossAGap) {
   EXPECT_TRUE(scene.jump().CN(edge.to));
 }
 
-TEST(LongJumpTest, NecessaryConditionsAreRefusedOneByOne) {
+TEST(LongJumpTest, EachUnmetNecessaryConditionRefusesTheJump) {
   const JumpScene scene(TwoFloors(kGap));
   const graph::PointPair good = JumpScene::Edge(-0.2, 0.75);
   EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.1, 0.75))) << "toes over the edge";
@@ -116,11 +116,11 @@ TEST(LongJumpTest, NecessaryConditionsAreRefusedOneByOne) {
       << "turning";
 }
 
-TEST(LongJumpTest, AWallInTheWayIsRefused) {
+TEST(LongJumpTest, AJumpThroughAWallIsRefused) {
   EXPECT_FALSE(JumpScene(TwoFloors(kGap, {Wall(0.15, 5)})).jump().CN(JumpScene::Edge(-0.2, 0.9)));
 }
 
-TEST(LongJumpTest, WhereOneCanWalkNoJumpIsExplored) {
+TEST(LongJumpTest, OverGroundThatCanBeWalkedNoJumpIsExplored) {
   const JumpScene scene(TwoFloors(0));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
   EXPECT_TRUE(scene.jump().CN(edge));
@@ -153,13 +153,13 @@ TEST(LongJumpTest, ReverseExtensionsComeFromTheTarget) {
   EXPECT_TRUE(scene.jump().CN(graph::PointPair{launch, *landing}));
 }
 
-TEST(LongJumpTest, FarFromTheGapNobodyLaunches) {
+TEST(LongJumpTest, FarFromTheGapNoLaunchIsFound) {
   const JumpScene scene(TwoFloors(kGap));
   const graph::Point far = JumpScene::At(0, -2, 0, 0);
   EXPECT_FALSE(scene.jump().FindLaunchPoint(far, JumpScene::At(0, 2, 0, 0)).has_value());
 }
 
-TEST(LongJumpTest, TheJobRefutesWhatTheWholeRobotHitsAndSaysSo) {
+TEST(LongJumpTest, TheJobRefutesAJumpIntoABeamWithAReason) {
   JumpScene scene(TwoFloors(kGap, {Beam()}));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
   ASSERT_TRUE(scene.jump().CN(edge));
@@ -173,7 +173,7 @@ TEST(LongJumpTest, TheJobRefutesWhatTheWholeRobotHitsAndSaysSo) {
   ASSERT_EQ(scene.jump().Refusals().size(), 1u);
 }
 
-TEST(LongJumpTest, ACancelledJobDecidesNothing) {
+TEST(LongJumpTest, ACancelledJobIsUndecided) {
   const JumpScene scene(TwoFloors(kGap));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.8);
   const auto job = scene.jump().SpawnConfirmationJob(edge);
@@ -184,7 +184,8 @@ TEST(LongJumpTest, ACancelledJobDecidesNothing) {
   EXPECT_TRUE(scene.jump().Explorable(edge));
 }
 
-/// In how many turns of 100 checkpoints the jump is solved and placed. `pause`: between turns.
+/// Number of turns of 100 checkpoints in which the jump is solved and placed. `pause`: between
+/// turns.
 int TurnsOfJump(double distance, std::chrono::milliseconds pause) {
   const JumpScene scene(TwoFloors(kGap));
   // Sanitizers are slow.

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Joints that swing about their walking stance, each at its own pace.
+/// Joints that swing about their walking stance, each at a frequency of its own.
 JointMotion Swinging(const VectorXd& middle, std::mt19937* random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   VectorXd amplitude(middle.size());
@@ -110,14 +110,15 @@ TEST_F(FreeFlightTest, OrientationConvergesWithTheFourthPowerOfTheStep) {
 TEST_F(FreeFlightTest, VelocityIsTheDerivativeOfPosition) {
   const std::vector<Knot> knots = Fly(400);
   for (std::size_t i = 1; i + 1 < knots.size(); i += 20) {
-    // The quintic between two knots agrees with both at the middle if q, v and a do.
+    // The quintic between two knots agrees with both halves at the middle if q, v and a are
+    // consistent.
     const Knot middle = Interpolate(knots[i - 1], knots[i + 1], knots[i].t);
     EXPECT_LT((middle.q - knots[i].q).cwiseAbs().maxCoeff(), 1e-10);
     EXPECT_LT((middle.v - knots[i].v).cwiseAbs().maxCoeff(), 1e-7);
   }
 }
 
-TEST_F(FreeFlightTest, LandIsTheLastKnot) {
+TEST_F(FreeFlightTest, LandGivesTheLastKnotOfFly) {
   FreeFlight flight(dynamics::MultibodyModel::Spatial(robot()));
   flight.TakeOff(q_, v_);
   const Knot landed = flight.Land(joints_, 0.4, 40);

@@ -18,7 +18,8 @@ std::vector<Vector2d> RandomPoints(std::mt19937* generator, int count) {
   return points;
 }
 
-/// Margin by brute force: the smallest over directions of the hull's extent beyond the point.
+/// Margin by brute force: the least distance, over all directions, of the hull's extent beyond the
+/// point.
 double MarginByDirections(const std::vector<Vector2d>& points, const Vector2d& p) {
   double margin = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 20000; ++i) {
@@ -68,7 +69,7 @@ TEST(SupportPolygonTest, NearestKeepsTheMarginAndNoGridPointIsCloser) {
   }
 }
 
-TEST(SupportPolygonTest, DegenerateSupports) {
+TEST(SupportPolygonTest, DegenerateSupportsGiveTheirNearestPointAndMargin) {
   EXPECT_EQ(SupportPolygon({Vector2d(1, 2)}).Nearest({0, 0}, 0.1), Vector2d(1, 2));
   const SupportPolygon segment({Vector2d(0, 0), Vector2d(1, 0)});
   EXPECT_LT((segment.Nearest({0.5, 1}, 0.1) - Vector2d(0.5, 0)).norm(), 1e-12);

@@ -32,7 +32,7 @@ std::string Refusal(const std::vector<std::string>& contacts) {
   return "";
 }
 
-TEST(ContactName, IsAPatchOrSomeOfItsPoints) {
+TEST(ContactName, ParsesAPatchWithOrWithoutPoints) {
   EXPECT_EQ(ParseContactName("left_sole").patch, "left_sole");
   EXPECT_FALSE(ParseContactName("left_sole").points.has_value());
   EXPECT_EQ(ParseContactName("left_sole[0,3]").patch, "left_sole");
@@ -41,7 +41,7 @@ TEST(ContactName, IsAPatchOrSomeOfItsPoints) {
   EXPECT_EQ(ParseContactName("a [b][10]").points, (std::vector<int>{10}));
 }
 
-TEST(ContactName, ComesBackAsFormatted) {
+TEST(ContactName, ParsesBackAsFormatted) {
   std::mt19937 generator(31);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<int> points;
@@ -56,7 +56,7 @@ TEST(ContactName, ComesBackAsFormatted) {
   }
 }
 
-TEST(BearingPatches, AreThoseOfTheRobotInOrder) {
+TEST(BearingPatches, AreFoundByNameInOrder) {
   const auto bearing = BearingPatches(TwoPatches(), Bearing({"a peg [left", "sole[1,2]"}));
   ASSERT_EQ(bearing.size(), 2u);
   EXPECT_EQ(bearing[0].patch, 1);
@@ -68,7 +68,7 @@ TEST(BearingPatches, AreThoseOfTheRobotInOrder) {
   EXPECT_EQ(CountPoints(TwoPatches(), Bearing({})), 0);
 }
 
-TEST(BearingPatches, RefuseWhatIsNotTheRobots) {
+TEST(BearingPatches, RefuseUnknownRepeatedAndUnorderedContacts) {
   EXPECT_NE(Refusal({"tail"}).find("\"tail\" unknown"), std::string::npos);
   EXPECT_NE(Refusal({"tail[0]"}).find("\"tail[0]\" unknown"), std::string::npos);
   EXPECT_NE(Refusal({"sole[3,4]"}).find("points from 0 to 3"), std::string::npos);

@@ -148,7 +148,7 @@ TEST(Interpolate, TorquesAndForcesAreLinear) {
   EXPECT_LT((at.forces - 0.25 * k0.forces - 0.75 * k1.forces).norm(), 1e-9);
 }
 
-TEST(Interpolate, RefusesKnotsThatDoNotFit) {
+TEST(Interpolate, RefusesKnotsOfDifferentSizesOrEqualTimes) {
   std::mt19937 generator(8);
   const Knot k0 = RandomKnot(0, 3, 4, &generator);
   EXPECT_THROW(Interpolate(k0, RandomKnot(1, 4, 4, &generator), 0.5), std::invalid_argument);

@@ -1,4 +1,4 @@
-// Plan files are short: digits that nobody needs are left out, and in long plans what repeats.
+// Plan files are short: they leave out digits that carry nothing and, in long plans, repetitions.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -28,7 +28,7 @@ std::string Rounded(double x, int decimals) {
   return text;
 }
 
-TEST(PlanDigits, AreNoMoreThanNeeded) {
+TEST(PlanDigits, AreTheFewestOfTheRoundedNumber) {
   EXPECT_EQ(Rounded(0, 9), "0");
   EXPECT_EQ(Rounded(-0.0, 9), "0");
   EXPECT_EQ(Rounded(-1e-12, 9), "0");
@@ -67,7 +67,7 @@ Knot RandomKnot(double t, std::mt19937* random) {
   return knot;
 }
 
-/// A gait of 100 steps, all alike but for where they are, of so many knots each.
+/// A gait of 100 steps of so many knots each. The steps differ only in where they are.
 Plan RepeatedSteps(int num_knots) {
   std::mt19937 random(7);
   Phase step{{"foot"}, {}};
@@ -115,7 +115,7 @@ class LongPlan : public ::testing::Test {
   json whole_;  ///< the long plan's document
 };
 
-TEST_F(LongPlan, WritesCoursesOnce) {
+TEST_F(LongPlan, WritesRepeatedSeriesOnce) {
   const std::string rows = Written(short_);
   const std::string courses = Written(long_);
   EXPECT_FALSE(json::parse(rows).contains("series"));
@@ -123,14 +123,14 @@ TEST_F(LongPlan, WritesCoursesOnce) {
   EXPECT_LT(courses.size(), rows.size() / 5);
 }
 
-TEST_F(LongPlan, ComesBackTheSameAsInRows) {
+TEST_F(LongPlan, ReadsBackTheSameAsAPlanInRows) {
   const std::string text = Written(long_);
   const Plan read = ParsePlan(text, folder_ / "plan.json");
   EXPECT_EQ(Written(read), text);
   ASSERT_EQ(read.segments[0].phases.size(), 100u);
   EXPECT_EQ(read.segments[0].phases[1].impulses.cols(), 4);
   for (std::size_t p = 0; p < 100; ++p) {
-    // Few enough knots to be written as rows.
+    // This part has few enough knots to be written as rows.
     Plan part = long_;
     part.segments[0].phases = {long_.segments[0].phases[p]};
     const Plan in_rows = ParsePlan(Written(part), folder_ / "plan.json");
@@ -148,7 +148,7 @@ TEST_F(LongPlan, ComesBackTheSameAsInRows) {
   }
 }
 
-TEST_F(LongPlan, RefusesWhatNobodyWrites) {
+TEST_F(LongPlan, RefusesMalformedSeries) {
   whole_ = json::parse(Written(long_));
   ExpectRefused([](json* d) { (*d)["series"] = 1; }, "series: expected an array");
   ExpectRefused([](json* d) { (*d)["series"][3] = "x"; }, "series[3]");

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::RandomPlan;
 
-/// Up to half of a last digit.
+/// Expects agreement to half of the last digit.
 void ExpectNear(const Eigen::MatrixXd& read, const Eigen::MatrixXd& written, double digit) {
   ASSERT_EQ(read.size(), written.size());
   if (read.size() == 0) return;
@@ -50,7 +50,7 @@ class PlanFile : public ::testing::Test {
     return text.str();
   }
 
-  /// The message of the InputError that reading `text` ends in; empty if it is accepted.
+  /// The message of the InputError that reading `text` throws; empty if the text is accepted.
   std::string Refusal(const std::string& text) const {
     try {
       ParsePlan(text, file());
@@ -60,7 +60,7 @@ class PlanFile : public ::testing::Test {
     return "";
   }
 
-  /// Expects that the plan changed by `change` is refused in one line that holds `words`.
+  /// Expects that the plan changed by `change` is refused with one line that holds `words`.
   void ExpectRefused(const std::function<void(json*)>& change, const std::string& words) const {
     json document = json::parse(Written(plan_));
     change(&document);
@@ -74,7 +74,7 @@ class PlanFile : public ::testing::Test {
   Plan plan_;
 };
 
-TEST_F(PlanFile, ComesBackAsWritten) {
+TEST_F(PlanFile, ReadsBackAsWritten) {
   WritePlan(plan_, file());
   const Plan read = ReadPlan(folder_);
   EXPECT_EQ(read.robot_file, std::filesystem::weakly_canonical(plan_.robot_file));
@@ -115,13 +115,13 @@ TEST_F(PlanFile, ComesBackAsWritten) {
   EXPECT_EQ(read.explored.edges[0].action, "walk");
 }
 
-TEST_F(PlanFile, IsTheSameBytesEachTimeAndAfterReading) {
+TEST_F(PlanFile, WritesTheSameBytesEachTimeAndAfterReading) {
   const std::string first = Written(plan_);
   EXPECT_EQ(Written(plan_), first);
   EXPECT_EQ(Written(ReadPlan(file())), first);
 }
 
-/// What rounding leaves of a place must not depend on where it is.
+/// The rounding error of a place must not depend on where the place is.
 TEST_F(PlanFile, PlacesFarFromTheOriginKeepTheirDecimals) {
   for (const double x : {0.0, -3.25, 9.87654321, 1e4 / 3, -1e5 / 7, 1e5 / 3}) {
     Knot& knot = plan_.segments[0].phases[0].knots[0];
@@ -139,7 +139,7 @@ TEST_F(PlanFile, NamesFilesRelativeToItsFolder) {
   EXPECT_EQ(document["scenario"]["file"], "../scenario.yaml");
 }
 
-TEST_F(PlanFile, SaysHowMuchFasterThanTheMotionPlanningWas) {
+TEST_F(PlanFile, RealTimeRatioIsMotionTimeOverPlanningTime) {
   const json timings = json::parse(Written(plan_))["timings"];
   EXPECT_NEAR(timings["plan_duration_s"].get<double>(), 0.8, 1e-12);
   EXPECT_NEAR(timings["real_time_ratio"].get<double>(), 0.8 / 1.6, 1e-12);
@@ -161,7 +161,7 @@ NoPlan ClosedRoom() {
   return {"proven_infeasible", "no route exists: \"wall\"", barrier};
 }
 
-TEST_F(PlanFile, ANoComesBackAsWritten) {
+TEST_F(PlanFile, ANoReadsBackAsWritten) {
   plan_.segments.clear();
   plan_.no = ClosedRoom();
   const Plan read = ParsePlan(Written(plan_), file());
@@ -186,7 +186,7 @@ TEST_F(PlanFile, ANoComesBackAsWritten) {
   EXPECT_EQ(Written(plan_).find("\"no\""), std::string::npos);
 }
 
-TEST_F(PlanFile, ANarrowPassageComesBackAsWritten) {
+TEST_F(PlanFile, ANarrowPassageReadsBackAsWritten) {
   plan_.segments.clear();
   plan_.no = ClosedRoom();
   for (const bool has_barrier : {true, false}) {
@@ -217,7 +217,7 @@ TEST_F(PlanFile, ANarrowPassageComesBackAsWritten) {
   }
 }
 
-TEST_F(PlanFile, RefusesANoThatIsNone) {
+TEST_F(PlanFile, RefusesAMalformedNo) {
   ExpectRefused(
       [](json* d) {
         (*d)["no"] = {{"status", "exhausted"}, {"explanation", ""}};
@@ -245,13 +245,13 @@ TEST_F(PlanFile, RefusesANoThatIsNone) {
       "no.barrier.reached[0].outlines[0]: expected at least 3 corners");
 }
 
-TEST_F(PlanFile, LeavesNothingElseBehind) {
+TEST_F(PlanFile, LeavesNoOtherFileInTheFolder) {
   WritePlan(plan_, file());
   const auto files = std::filesystem::directory_iterator(folder_);
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
-TEST_F(PlanFile, RefusesWhatCannotBeWritten) {
+TEST_F(PlanFile, RefusesUnwritablePathsAndNonFiniteNumbers) {
   EXPECT_THROW(WritePlan(plan_, folder_ / "missing" / "plan.json"), InputError);
   std::filesystem::create_directories(folder_ / "taken" / "plan.json" / "x");
   EXPECT_THROW(WritePlan(plan_, folder_ / "taken" / "plan.json"), InputError);
@@ -267,7 +267,7 @@ TEST_F(PlanFile, RefusesNamesThatAreNotUtf8) {
   EXPECT_THROW(WritePlan(plan_, file()), InputError);
 }
 
-TEST_F(PlanFile, RefusesWhatIsNotThere) {
+TEST_F(PlanFile, RefusesAMissingFile) {
   EXPECT_THROW(ReadPlan(folder_), InputError);
   EXPECT_THROW(ReadPlan(folder_ / "nothing.json"), InputError);
 }
@@ -359,13 +359,13 @@ TEST_F(PlanFile, NamesTheImpulseThatIsWrong) {
   ExpectRefused([&](json* d) { phase(d)["impulse"] = json::array(); }, "impulse");
 }
 
-TEST_F(PlanFile, SaysNothingOfImpactsWhereThereAreNone) {
+TEST_F(PlanFile, WritesImpulsesOnlyForPhasesThatHaveThem) {
   const json document = json::parse(Written(plan_));
   EXPECT_FALSE(document["segments"][0]["phases"][0].contains("impulses"));
   EXPECT_TRUE(document["segments"][1]["phases"][1].contains("impulses"));
 }
 
-TEST_F(PlanFile, RefusesOddJson) {
+TEST_F(PlanFile, RefusesMalformedJson) {
   EXPECT_NE(Refusal("{\"format\": \"a\", \"format\": \"b\"}").find("twice"), std::string::npos);
   EXPECT_NE(Refusal("").find("not valid JSON at byte"), std::string::npos);
   EXPECT_NE(Refusal("{\"format\": 1e999}").find("out of range"), std::string::npos);
@@ -399,14 +399,15 @@ TEST_F(PlanFile, NeverCrashesOnMutatedText) {
           mutated.insert(place(generator) % mutated.size(), mutated.substr(at, length));
       }
     }
-    const std::string message = Refusal(mutated);  // anything but an InputError fails the test
+    const std::string message =
+        Refusal(mutated);  // anything other than an InputError fails the test
     refused += message.empty() ? 0 : 1;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
   EXPECT_GT(refused, 1000);
 }
 
-/// Every value of the document in turn, replaced by one of another kind.
+/// Values of the document, each replaced by one of another kind.
 TEST_F(PlanFile, NeverCrashesOnMutatedValues) {
   const json valid = json::parse(Written(plan_));
   const json flat = valid.flatten();

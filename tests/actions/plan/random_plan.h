@@ -27,7 +27,7 @@ inline Knot RandomKnot(double t, int num_joints, int num_points, std::mt19937* g
   return knot;
 }
 
-/// A plan that is a plan in form only, flight and impact included: its numbers mean nothing.
+/// A plan that is valid in form only, with a flight and an impact. Its numbers mean nothing.
 inline Plan RandomPlan(std::mt19937* generator) {
   Plan plan;
   plan.robot_file = "robot folder/robot.yaml";

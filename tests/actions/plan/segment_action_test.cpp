@@ -5,7 +5,7 @@
 namespace possibility::actions {
 namespace {
 
-TEST(SegmentAction, IsANameOrATransitionBetweenTwo) {
+TEST(SegmentAction, ParsesANameOrATransitionBetweenTwo) {
   const auto walk = ParseSegmentAction("walk");
   ASSERT_TRUE(walk);
   EXPECT_EQ(walk->from, "walk");
@@ -18,7 +18,7 @@ TEST(SegmentAction, IsANameOrATransitionBetweenTwo) {
   EXPECT_TRUE(sit->is_transition);
 }
 
-TEST(SegmentAction, IsNothingElse) {
+TEST(SegmentAction, RefusesMalformedNamesAndTransitions) {
   for (const std::string& text :
        {std::string(), std::string("->"), std::string("walk->"), std::string("->walk"),
         std::string("walk->crawl->walk"), std::string("walk ->crawl"), std::string("<b>"),

@@ -26,7 +26,7 @@ using testing::HopPlan;
 using testing::PlanMutation;
 using testing::VerifierSubject;
 
-/// Shared by all tests, which work on copies.
+/// Shared by all tests, which work on copies of it.
 const VerifierSubject& ValidSubject() {
   static const VerifierSubject subject =
       HopPlan(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
@@ -40,8 +40,8 @@ VerificationReport Verified(const VerifierSubject& subject) {
   return Verify(subject.plan, subject.robot, subject.scenario);
 }
 
-/// Turns the robot about its centre of mass by an angle that comes and goes in the flight: the
-/// parabola stays, the angular momentum does not.
+/// Turns the robot about its centre of mass by an angle that comes and goes within the flight. The
+/// parabola stays the same, the angular momentum does not.
 void Wobble(VerifierSubject* subject) {
   constexpr double kAngle = 2e-3;
   Phase& phase = Flight(subject);
@@ -66,7 +66,7 @@ void Wobble(VerifierSubject* subject) {
   }
 }
 
-/// A flight that takes longer, so that it seems to be on the moon.
+/// Makes the flight longer, as if gravity were the moon's.
 void FallSlowly(VerifierSubject* subject) {
   Phase& phase = Flight(subject);
   for (Knot& knot : phase.knots) {
@@ -78,7 +78,7 @@ void FallSlowly(VerifierSubject* subject) {
   }
 }
 
-/// Impulses that two points exchange along the line between them change nothing but themselves.
+/// Adds impulses that two points exchange along the line between them. They change nothing else.
 void Exchange(int i, int j, double magnitude, VerifierSubject* subject) {
   Phase& phase = Landing(subject);
   dynamics::SimbodyDynamics dynamics(subject->robot);
@@ -91,14 +91,14 @@ void Exchange(int i, int j, double magnitude, VerifierSubject* subject) {
   phase.impulses.col(j) -= magnitude * line.normalized();
 }
 
-/// Two corners of a sole that pull and two that push as much more.
+/// Two corners of a sole pull and two push as much more.
 void MakeImpulsesPull(VerifierSubject* subject) {
   Matrix3Xd& impulses = Landing(subject).impulses;
   const double extra = impulses.row(2).leftCols<4>().maxCoeff() + 0.1;
   for (int i = 0; i < 4; ++i) impulses(2, i) += i % 2 == 0 ? extra : -extra;
 }
 
-/// The robot leaves the ground again `factor` times as fast as if it stuck.
+/// The robot leaves the ground again, `factor` times as fast as if it had stuck.
 void Bounce(double factor, VerifierSubject* subject) {
   Phase& phase = Landing(subject);
   const VectorXd before = Flight(subject).knots.back().v;
@@ -171,7 +171,7 @@ std::vector<PlanMutation> DynamicMutations() {
 
 class DynamicSabotage : public ::testing::TestWithParam<PlanMutation> {};
 
-TEST_P(DynamicSabotage, OfAHopIsFound) {
+TEST_P(DynamicSabotage, AMutationOfAHopIsFound) {
   VerifierSubject subject = ValidSubject();
   GetParam().apply(&subject);
   const VerificationReport report = Verified(subject);
@@ -218,7 +218,7 @@ TEST(DynamicPlan, AHopIsAcceptedWhenWrittenAndReadBack) {
   EXPECT_TRUE(Verified(subject).accepted());
 }
 
-TEST(DynamicPlan, NamesWhatIsWrongWithAnImpact) {
+TEST(DynamicPlan, NamesTheViolatedQuantityOfAnImpact) {
   const auto quantity = [](const std::function<void(VerifierSubject*)>& change) {
     VerifierSubject subject = ValidSubject();
     change(&subject);
@@ -236,7 +236,7 @@ TEST(DynamicPlan, NamesWhatIsWrongWithAnImpact) {
             std::string::npos);
 }
 
-TEST(DynamicPlan, NamesWhatIsWrongWithAFlight) {
+TEST(DynamicPlan, NamesTheViolatedQuantityOfAFlight) {
   for (const bool wobbles : {false, true}) {
     VerifierSubject subject = ValidSubject();
     wobbles ? Wobble(&subject) : FallSlowly(&subject);
@@ -250,9 +250,9 @@ TEST(DynamicPlan, NamesWhatIsWrongWithAFlight) {
   }
 }
 
-/// The root follows a flight in two phases as one in one: what the first half began, the second
-/// has to keep.
-TEST(DynamicPlan, AFlightInTwoPhasesIsOneFlight) {
+/// The root of a flight in two phases must follow the same motion as in one phase. The second half
+/// must continue what the first half began.
+TEST(DynamicPlan, AFlightInTwoPhasesIsCheckedAsOne) {
   VerifierSubject subject = ValidSubject();
   std::vector<Phase>& phases = subject.plan.segments[0].phases;
   Phase second = phases[1];
@@ -268,7 +268,7 @@ TEST(DynamicPlan, AFlightInTwoPhasesIsOneFlight) {
   EXPECT_NE(Find(report, ViolationKind::kFlight), nullptr) << FormatText(report);
 }
 
-/// A sole that stays on its toes keeps them where they are; its heel may come back elsewhere.
+/// A sole that stays on its toes keeps them in place. Its heel may come down elsewhere.
 TEST(DynamicPlan, PartsOfAPatchAreAnchoredPointByPoint) {
   VerifierSubject subject = ValidSubject();
   Phase& push = subject.plan.segments[0].phases[0];
@@ -283,7 +283,7 @@ TEST(DynamicPlan, PartsOfAPatchAreAnchoredPointByPoint) {
     knot.forces << all.leftCols<2>(), all.rightCols<5>();
   }
   subject.plan.segments[0].phases.insert(subject.plan.segments[0].phases.begin() + 1, second);
-  // Three corners instead of four do not carry the same forces, but they are where they were.
+  // Three corners instead of four do not carry the same forces, but they are in the same places.
   const VerificationReport report = Verified(subject);
   EXPECT_EQ(Find(report, ViolationKind::kContactMotion), nullptr) << FormatText(report);
   EXPECT_EQ(Find(report, ViolationKind::kStructure), nullptr) << FormatText(report);
@@ -303,7 +303,7 @@ TEST(RolloutCheck, AFallIsFound) {
               drift.end_orientation > kRolloutOrientation);
 }
 
-TEST(RolloutCheck, SaysWhyThereIsNoEnd) {
+TEST(RolloutCheck, AStoppedOrRefusedRolloutIsReportedInOneLine) {
   const VerifierSubject& subject = ValidSubject();
   const models::GroundMap ground(subject.scenario.environment);
   RolloutCheckSettings settings;
@@ -319,7 +319,7 @@ TEST(RolloutCheck, SaysWhyThereIsNoEnd) {
   EXPECT_EQ(refused.failure.find('\n'), std::string::npos) << refused.failure;
 }
 
-TEST(RolloutCheck, KnowsWhatIsDynamic) {
+TEST(RolloutCheck, SegmentsWithAnImpactOrAFlightAreDynamic) {
   Segment segment{"walk", {Phase{{"left_sole"}, {}}}};
   EXPECT_FALSE(IsDynamic(segment));
   segment.phases[0].impulses.resize(3, 4);
@@ -327,8 +327,8 @@ TEST(RolloutCheck, KnowsWhatIsDynamic) {
   EXPECT_TRUE(IsDynamic({"jump", {Phase{{"left_sole"}, {}}, Phase{}}}));
 }
 
-/// The plinth ends between the feet: what is over it bears there, what is not on the floor.
-TEST(RolloutCheck, KnowsTheGroundUnderEveryFoot) {
+/// The plinth ends between the feet. The foot over it bears on it, the other foot on the floor.
+TEST(RolloutCheck, EachFootBearsOnTheGroundUnderIt) {
   const models::RobotModel& robot = ValidSubject().robot;
   models::Environment environment = ValidSubject().scenario.environment;
   models::Obstacle plinth = environment.obstacles[0];
@@ -340,7 +340,7 @@ TEST(RolloutCheck, KnowsTheGroundUnderEveryFoot) {
   const RolloutDrift drift = RollOutSegment(segment, robot, models::GroundMap(environment));
   EXPECT_TRUE(drift.follows()) << drift.failure;
   EXPECT_LT(drift.worst_position, 2e-3);
-  // Without the plinth nothing bears the left foot.
+  // Without the plinth the left foot bears on nothing.
   environment.obstacles.back().X_WO.translation().y() = 5;
   RolloutCheckSettings settings;
   settings.settling_time = 0.1;
@@ -348,7 +348,7 @@ TEST(RolloutCheck, KnowsTheGroundUnderEveryFoot) {
   EXPECT_FALSE(RollOutSegment(segment, robot, floor, settings).follows());
 }
 
-TEST(VerificationReport, TellsOfRollouts) {
+TEST(VerificationReport, ListsRolloutsInTextAndJson) {
   VerificationReport report;
   EXPECT_EQ(FormatJson(report).find("rollout"), std::string::npos);
   report.rollouts.resize(2);

@@ -1,4 +1,4 @@
-// The same scene, wherever it is.
+// The same scene at other places in the world.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// `name`, shipped, moved by so much.
+/// The shipped scenario `name`, moved by this displacement.
 models::Scenario MovedScenario(const std::string& name, const Vector3d& by) {
   models::Scenario scenario = ShippedScenario(name);
   models::Environment& environment = scenario.environment;
@@ -62,7 +62,7 @@ TEST(FarSceneTest, AGaitsMotionIsTheSameAnywhere) {
   }
 }
 
-/// Walking, crawling and a jump, simulation included; from the file as well.
+/// Walking, crawling and a jump, simulation included. The plan read from its file verifies as well.
 TEST(FarSceneTest, AHallwayFarAwayIsPlannedAndItsFileVerifies) {
   const models::Scenario scenario = MovedScenario("hallway", {10000, -7000, 300});
   PlanRequest request;

@@ -1,4 +1,4 @@
-// What a faulty manoeuvre does to a plan: nothing, but for the time that it takes.
+// A faulty manoeuvre does nothing to a plan but take time.
 
 #include <gtest/gtest.h>
 
@@ -86,8 +86,8 @@ Leap::MakeMotion Spoilt(const Spoil& spoil) {
   };
 }
 
-/// What the verifier could not blame on anybody, or would crash on, is found before it.
-TEST(FaultInjectionTest, MotionsThatFitNothingAreNamed) {
+/// Faults that the verifier could not attribute to a leg, or would crash on, are found before it.
+TEST(FaultInjectionTest, InvalidMotionsAreRefusedWithAReason) {
   const std::vector<std::pair<std::string, Leap::MakeMotion>> motions = {
       {"the motion's fuse blew",
        [](const Leap&) -> std::vector<Phase> { throw std::logic_error("the motion's fuse blew"); }},
@@ -121,7 +121,7 @@ TEST(FaultInjectionTest, MotionsThatFitNothingAreNamed) {
   EXPECT_NO_THROW(GenerateLeg(DrcHubo1Locomotion(), leg));
 }
 
-TEST(FaultInjectionTest, AConfirmedMotionThatIsNoneLeavesTheWalkingPlan) {
+TEST(FaultInjectionTest, AConfirmedMotionThatThrowsLeavesTheWalkingPlan) {
   const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true),
                                           Request(Confirms, [](const Leap&) -> std::vector<Phase> {
                                             throw std::logic_error("the motion's fuse blew");
@@ -131,7 +131,7 @@ TEST(FaultInjectionTest, AConfirmedMotionThatIsNoneLeavesTheWalkingPlan) {
   ExpectReason(result, "the motion's fuse blew");
 }
 
-TEST(FaultInjectionTest, AConfirmedMotionWithoutStructureLeavesTheWalkingPlan) {
+TEST(FaultInjectionTest, AConfirmedMotionOfInvalidStructureLeavesTheWalkingPlan) {
   const std::vector<Spoil> spoils = {
       [](auto* motion) { motion->front().knots[3].tau.resize(1); },
       [](auto* motion) { motion->front().contacts = {"tail"}; },
@@ -145,8 +145,8 @@ TEST(FaultInjectionTest, AConfirmedMotionWithoutStructureLeavesTheWalkingPlan) {
   }
 }
 
-/// The jobs take ten times a second of work; walking does not wait for them.
-TEST(FaultInjectionTest, NobodyWaitsForSlowJobsWhereWalkingWillDo) {
+/// The jobs take ten times one second of work. Walking does not wait for them.
+TEST(FaultInjectionTest, AWalkingPlanDoesNotWaitForSlowJobs) {
   constexpr double kWork = 1;  // s
   constexpr double kSlowness = 10;
   PlanRequest request = Request(Sleeps(kSlowness * kWork), Slides);
@@ -159,7 +159,7 @@ TEST(FaultInjectionTest, NobodyWaitsForSlowJobsWhereWalkingWillDo) {
 }
 
 TEST(FaultInjectionTest, JobsThatNeverEndAreCancelledAtTheTimeLimit) {
-  // Preparation counts on the limit, and takes longer under sanitizers.
+  // Preparation counts towards the limit and takes longer under sanitizers.
   const double preparation_s =
       PlanTraversal(DrcHubo1(), PitScene(true), Request(Throws, Slides)).plan.timings.preparation_s;
   const double limit = 1 + 3 * preparation_s;
@@ -172,14 +172,14 @@ TEST(FaultInjectionTest, JobsThatNeverEndAreCancelledAtTheTimeLimit) {
     EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
     EXPECT_TRUE(result.plan.segments.empty());
     EXPECT_EQ(result.plan.statistics.at("jobs cancelled"), 1);
-    // Loaded machines meet this, too; the contract of 50 ms is measured, not asserted.
+    // A loaded machine must pass this, too. The contract of 50 ms is measured, not asserted.
     EXPECT_LT(passed.count(), limit + 10);
     RecordProperty("seconds_over_the_limit_with_" + std::to_string(threads) + "_threads",
                    std::to_string(passed.count() - limit));
   }
 }
 
-/// A plan that would be found all the same is not worth a fault that nobody hears of.
+/// The fault is reported even if a plan could be found without the action.
 TEST(FaultInjectionTest, AConditionThatThrowsIsNamedWithActionFunctionAndPose) {
   for (const std::string function : {"CN", "Explorable", "ExtendTowards", "FindLaunchPoint",
                                      "ExpectedDuration", "SpawnConfirmationJob"}) {
@@ -207,8 +207,8 @@ TEST(FaultInjectionTest, AConditionThatThrowsIsNamedWithActionFunctionAndPose) {
   }
 }
 
-/// Jobs that run meanwhile are cancelled, not waited for.
-TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsThePlan) {
+/// Jobs that run meanwhile are cancelled; planning does not wait for them.
+TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsPlanning) {
   std::atomic<bool> is_running = false;
   const Leap::RunJob sleeps = [&](graph::JobControl* control) {
     is_running = true;
@@ -225,8 +225,8 @@ TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsThePlan) {
   EXPECT_THROW(PlanTraversal(DrcHubo1(), PitScene(false), request), InputError);
 }
 
-/// The explanation of a leap across the pit that jobs confirm and that comes to nothing, searched
-/// for until the time limit; a slow machine gets more time.
+/// The explanation of a search until the time limit. Its only way is a leap across the pit that
+/// jobs confirm and that comes to nothing. A slow machine gets more time.
 std::string ExplainedFailure(const Leap::MakeMotion& make_motion, const std::string& expected) {
   std::string explanation;
   for (const double time_limit : {3.0, 20.0, 200.0}) {
@@ -246,7 +246,7 @@ TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatVerificationRefusedAndWhy) {
   const std::string explanation = ExplainedFailure(Slides, leg);
   const std::size_t place = explanation.find(leg);
   ASSERT_NE(place, std::string::npos) << explanation;
-  // The soles slide from the first instant on.
+  // The soles slide from the first instant.
   EXPECT_NE(explanation.find("sole", place), std::string::npos) << explanation;
   EXPECT_NE(explanation.find("(limit ", place), std::string::npos) << explanation;
 }
@@ -262,8 +262,8 @@ TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatHasNoMotionAndWhy) {
   EXPECT_NE(explanation.find(expected), std::string::npos) << explanation;
 }
 
-/// It declares no bounds, so a closed flood is no proof.
-TEST(FaultInjectionTest, WithoutBoundsThereIsNoFalseNo) {
+/// The leap declares no bounds, so a closed flood is no proof.
+TEST(FaultInjectionTest, AManoeuvreWithoutBoundsIsNotExhausted) {
   const auto refutes = [](graph::JobControl*) { return graph::JobVerdict::kRefuted; };
   const PlanResult result =
       PlanTraversal(DrcHubo1(), PitScene(false), Request(refutes, Slides, 2.0));

@@ -42,7 +42,7 @@ void ExpectRandomPlans(const std::string& name, bool jump_needed) {
   ExpectVerifiedPlans(name, 50, jump_needed, 1, PlannerPreset::kPaper);
 }
 
-/// An answer, not a time limit, and no segment of a plan.
+/// Expects a "no" (not a time limit) and no segment of a plan.
 void ExpectNo(const std::string& name, std::uint64_t runs) {
   const models::Scenario scenario = ShippedScenario(name);
   for (std::uint64_t seed = 1; seed <= runs; ++seed) {
@@ -56,9 +56,9 @@ void ExpectNo(const std::string& name, std::uint64_t runs) {
 
 TEST(JumpPlans, TheGapOfTheHallwayIsJumped) { ExpectVerifiedPlans("hallway", 1, true); }
 
-TEST(JumpPlans, TooWideAGapIsNot) { ExpectNo("hallway_infeasible", 1); }
-TEST(JumpPlans, NorOnesThatCannotBeReached) { ExpectNo("three_routes_c_infeasible", 1); }
-TEST(JumpPlans, NorABlockedLanding) { ExpectNo("double_jump_infeasible", 1); }
+TEST(JumpPlans, BarsTooLowToCrawlAndTooManyToJumpAreRefused) { ExpectNo("hallway_infeasible", 1); }
+TEST(JumpPlans, AGapBeyondReachIsRefused) { ExpectNo("three_routes_c_infeasible", 1); }
+TEST(JumpPlans, ABlockedLandingIsRefused) { ExpectNo("double_jump_infeasible", 1); }
 
 TEST(JumpPlansLong, EverySceneIsCrossed) {
   ExpectVerifiedPlans("three_routes_a", 1, false);
@@ -68,14 +68,20 @@ TEST(JumpPlansLong, EverySceneIsCrossed) {
 }
 TEST(JumpPlansLong, FourThreadsPlanTheHallway) { ExpectVerifiedPlans("hallway", 10, true, 4); }
 
-// At random, as the paper does: with lattices, one seed is like the other.
-TEST(JumpPlansLong, FiftySeedsOfThreeRoutesA) { ExpectRandomPlans("three_routes_a", false); }
-TEST(JumpPlansLong, FiftySeedsOfThreeRoutesB) { ExpectRandomPlans("three_routes_b", false); }
-TEST(JumpPlansLong, FiftySeedsOfThreeRoutesC) { ExpectRandomPlans("three_routes_c", true); }
-TEST(JumpPlansLong, FiftySeedsOfTheHallway) { ExpectRandomPlans("hallway", true); }
-TEST(JumpPlansLong, FiftySeedsOfTheDoubleJump) { ExpectRandomPlans("double_jump", true); }
+// Random exploration, as in the paper. With lattices, all seeds give the same plan.
+TEST(JumpPlansLong, ThreeRoutesAIsPlannedForFiftySeeds) {
+  ExpectRandomPlans("three_routes_a", false);
+}
+TEST(JumpPlansLong, ThreeRoutesBIsPlannedForFiftySeeds) {
+  ExpectRandomPlans("three_routes_b", false);
+}
+TEST(JumpPlansLong, ThreeRoutesCIsJumpedForFiftySeeds) {
+  ExpectRandomPlans("three_routes_c", true);
+}
+TEST(JumpPlansLong, TheHallwayIsJumpedForFiftySeeds) { ExpectRandomPlans("hallway", true); }
+TEST(JumpPlansLong, TheDoubleJumpIsJumpedForFiftySeeds) { ExpectRandomPlans("double_jump", true); }
 
-TEST(JumpPlansLong, TwentyTimesNo) {
+TEST(JumpPlansLong, InfeasibleScenesAreRefusedForTwentySeeds) {
   for (const char* name :
        {"hallway_infeasible", "three_routes_c_infeasible", "double_jump_infeasible"}) {
     ExpectNo(name, 20);

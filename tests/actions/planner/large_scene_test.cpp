@@ -1,4 +1,4 @@
-// Halls in which nothing but a door too narrow leads on: what a "no" costs.
+// Large halls whose only way on is a door too narrow for the robot: the cost of a "no".
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -47,7 +47,7 @@ double PeakMegabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1000;
 }
 
-TEST(LargeSceneTest, AHallOfAHundredMetresIsExhausted) {
+TEST(LargeSceneTest, ANarrowDoorInAHallOfAHundredMetresIsExhausted) {
   PlanRequest request;
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
   const PlanResult result = PlanTraversal(DrcHubo1(), Hall(100, 0.5), request);
@@ -56,8 +56,8 @@ TEST(LargeSceneTest, AHallOfAHundredMetresIsExhausted) {
   EXPECT_NE(result.explanation.find("0.50 m wide"), std::string::npos) << result.explanation;
 }
 
-/// Floods, search and what prepares them keep to their time, whatever the bounds.
-TEST(LargeSceneTest, LimitsHoldInScenesOfKilometres) {
+/// Floods, search and their preparation keep to the time limit, whatever the bounds.
+TEST(LargeSceneTest, TimeAndMemoryLimitsHoldInScenesOfKilometres) {
   for (const double side : {2000.0, 20000.0}) {
     PlanRequest request;
     request.time_limit = 4;

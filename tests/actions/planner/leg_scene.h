@@ -13,7 +13,7 @@
 
 namespace possibility::actions {
 
-/// A world with the gaits of a robot in it, and the verifier's word on single legs.
+/// A world with the gaits of a robot in it, and the verifier's verdict on single legs.
 class LegScene {
  public:
   LegScene(const LocomotionModel& model, models::Environment environment)
@@ -35,7 +35,7 @@ class LegScene {
   const World& world() const { return world_; }
   const QuasiStaticAction& action(int gait) const { return *actions_[gait]; }
 
-  /// What the verifier says of the leg as a whole plan.
+  /// The verifier's report on the leg as a whole plan.
   VerificationReport VerifyLeg(const RouteLeg& leg) const {
     Plan plan;
     plan.robot_hash = model_.robot->content_hash;

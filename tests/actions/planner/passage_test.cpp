@@ -1,4 +1,4 @@
-// How much is missing where the floods say "no".
+// Available and needed dimensions where the floods answer "no".
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ models::Environment Room() {
   return environment;
 }
 
-/// A wall across the room with a door, its middle at y = 0.4.
+/// A wall across the room with a door. The door's middle is at y = 0.4.
 models::Environment Door(double width) {
   models::Environment environment = Room();
   Add("left", {-0.1, 0.4 + width / 2, 0}, {0.1, 2.5, 2.2}, &environment);
@@ -61,7 +61,7 @@ class PassageTest : public testing::Test {
   }
 };
 
-/// The narrowest that a gait fits through, whatever it heads for, ahead or sideways.
+/// The narrowest width that a gait fits through, over all headings, forward or sideways.
 double Narrowest(int gait) {
   double narrowest = 10;
   for (const StrideClass strides : {StrideClass::kStraight, StrideClass::kSideways}) {
@@ -79,7 +79,7 @@ double Narrowest(int gait) {
   return narrowest;
 }
 
-TEST_F(PassageTest, ADoorIsAsWideAsItIs) {
+TEST_F(PassageTest, ADoorIsReportedWithItsWidthAndTheWidthNeeded) {
   for (const double width : {0.45, 0.5, 0.55}) {
     const std::optional<NarrowPassage> passage = Search(Door(width));
     ASSERT_TRUE(passage.has_value()) << width;
@@ -95,7 +95,7 @@ TEST_F(PassageTest, ADoorIsAsWideAsItIs) {
   }
 }
 
-TEST_F(PassageTest, ALowBarSaysHowLow) {
+TEST_F(PassageTest, ALowBarIsReportedWithItsHeightAndTheHeightNeeded) {
   models::Environment environment = Room();
   Add("beam", {-0.1, -2.5, 0.62}, {0.1, 2.5, 2.2}, &environment);
   const std::optional<NarrowPassage> passage = Search(environment);
@@ -110,7 +110,7 @@ TEST_F(PassageTest, ALowBarSaysHowLow) {
   EXPECT_EQ(passage->between, std::vector<std::string>{"beam"});
 }
 
-TEST_F(PassageTest, AGapSaysHowFarAJumpReaches) {
+TEST_F(PassageTest, AGapIsReportedWithItsWidthAndTheReachOfTheLeap) {
   static constexpr double kFarthest = 1.1;
   const double gap = WidestGap(kFarthest) + 0.25;
   models::Environment environment = Room();
@@ -131,14 +131,14 @@ TEST_F(PassageTest, AGapSaysHowFarAJumpReaches) {
   EXPECT_NEAR(need.needed, WidestGap(kFarthest), 1e-9);
 }
 
-TEST_F(PassageTest, ASolidWallHasNone) {
+TEST_F(PassageTest, ASolidWallHasNoPassage) {
   models::Environment environment = Room();
   Add("wall", {-0.1, -2.5, 0}, {0.1, 2.5, 2.2}, &environment);
   EXPECT_FALSE(Search(environment).has_value());
 }
 
-/// What the floods believe in, where they cannot say no.
-TEST_F(PassageTest, AnOracleThatDoesNotKnowNamesItsPassage) {
+/// The passage of the way that the floods leave open, where they cannot answer "no".
+TEST_F(PassageTest, AnUnknownAnswerNamesTheNarrowestPassage) {
   const models::Environment environment = Door(Narrowest(0) + 0.02);
   const models::GroundMap ground(environment);
   const World world{&environment, &ground};
@@ -151,7 +151,7 @@ TEST_F(PassageTest, AnOracleThatDoesNotKnowNamesItsPassage) {
   EXPECT_LT(oracle.passage()->missing, 0.01) << "there is room";
 }
 
-TEST(PassageExplanationTest, SaysWhatIsThereAndWhatIsNeeded) {
+TEST(PassageExplanationTest, NamesTheAvailableAndTheNeededDimensions) {
   NarrowPassage passage{.place = {5, 0.1}, .missing = 0.12, .between = {"left", "right"}};
   passage.needs = {{"walk", PassageDimension::kWidth, 0.74, 0.86},
                    {"crawl", PassageDimension::kHeight, 0.7, 0.82}};

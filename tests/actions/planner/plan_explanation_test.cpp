@@ -15,7 +15,7 @@ Barrier At(double x, const std::vector<std::string>& closed_by) {
   return barrier;
 }
 
-TEST(PlanExplanationTest, ABarrierSaysWhereAndWhat) {
+TEST(PlanExplanationTest, ABarrierIsExplainedByItsPlaceAndObstacles) {
   EXPECT_EQ(ExplainBarrier(PlanStatus::kExhausted, At(2, {"bar", "no ground"})),
             "no route exists that these actions could confirm: the search came within 1.50 m of a "
             "goal, at (2.00, -0.25); the way on is closed by bar, no ground.");
@@ -25,7 +25,7 @@ TEST(PlanExplanationTest, ABarrierSaysWhereAndWhat) {
             "bounds.");
 }
 
-TEST(PlanExplanationTest, ASearchIsExplainedInWords) {
+TEST(PlanExplanationTest, ASearchIsExplainedByItsCounters) {
   EXPECT_EQ(ExplainSearch({{"cycles", 0}, {"vertices", 2}}), "");
   EXPECT_EQ(ExplainSearch({{"cycles", 7}, {"edges", 0}, {"vertices", 2}, {"jobs spawned", 0}}),
             " The search went through 7 cycles and knows 2 places and 0 ways between them.");
@@ -48,7 +48,7 @@ TEST(PlanExplanationTest, ASearchIsExplainedInWords) {
       "not needed any more.");
 }
 
-/// Four places: the start, one ahead, one farther that only leads back, and the goal.
+/// Four places: the start, one ahead, a farther one that only leads back, and the goal.
 ExploredGraph Explored(const std::vector<ExploredGraph::Edge>& edges) {
   ExploredGraph graph;
   for (const double x : {0.0, 1.0, 3.0, 4.0}) graph.vertices.push_back({{x, 0.5, 0.7}, 0});
@@ -56,7 +56,7 @@ ExploredGraph Explored(const std::vector<ExploredGraph::Edge>& edges) {
   return graph;
 }
 
-TEST(PlanExplanationTest, TheClosestPlaceIsOneThatWaysLeadTo) {
+TEST(PlanExplanationTest, TheClosestPlaceIsReachableFromTheStart) {
   const std::vector<models::Stance> goals = {{"walk", 9, 0.5, 0, 0}, {"walk", 4, 0.5, 0, 0}};
   EXPECT_EQ(ExplainClosest(Explored({}), goals), "");
   EXPECT_EQ(ExplainClosest({}, goals), "");

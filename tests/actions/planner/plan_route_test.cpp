@@ -1,5 +1,5 @@
-// What the route of a plan must be, whatever the scene: a shortest path of the explored graph, in
-// which nothing is done in vain.
+// The route of a plan, in any scene: a path of the explored graph, no slower than the first route
+// found, without a vertex passed twice or two transitions in a row.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ PlanResult PlanFor(const models::Scenario& scenario) {
 
 bool IsTransition(const Segment& segment) { return segment.action.find("->") != std::string::npos; }
 
-/// Consecutive segments meet at a vertex, and each is an edge of the graph by its action.
+/// Consecutive segments meet at a vertex. Each segment is an edge of the graph with its action.
 void ExpectAPathOfTheGraph(const Plan& plan) {
   std::set<std::tuple<int, int, std::string>> edges;
   for (const ExploredGraph::Edge& edge : plan.explored.edges) {
@@ -36,7 +36,7 @@ void ExpectAPathOfTheGraph(const Plan& plan) {
   for (size_t i = 0; i < plan.segments.size(); ++i) {
     const Segment& segment = plan.segments[i];
     const auto [from, to] = segment.vertices;
-    // A transition belongs to the gait that it leads to; either gait may own its way back.
+    // A transition belongs to the gait that it leads to. Either gait may own the way back.
     const size_t arrow = segment.action.find("->");
     const bool known = arrow == std::string::npos
                            ? edges.count({from, to, segment.action}) > 0
@@ -74,13 +74,13 @@ void ExpectGoodRoute(const PlanResult& result) {
   EXPECT_LE(plan.search->duration, plan.search->first_duration + 1e-9);
   EXPECT_LE(plan.search->lower_bound, plan.search->duration + 1e-9);
   EXPECT_FALSE(plan.search->explorers.empty());
-  // What routes are chosen by is what they come to.
+  // The duration that routes are chosen by is near the duration of the motion.
   EXPECT_NEAR(plan.search->duration, plan.duration(), 0.1 * plan.duration());
 }
 
 class PlanRoute : public testing::TestWithParam<const char*> {};
 
-TEST_P(PlanRoute, OfAShippedSceneIsAShortestPathWithNothingInVain) {
+TEST_P(PlanRoute, InAShippedSceneIsAPathOfTheGraphWithoutDetours) {
   ExpectGoodRoute(PlanFor(ShippedScenario(GetParam())));
 }
 
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanRoute,
                          testing::Values("three_routes_a", "three_routes_b", "three_routes_c",
                                          "hallway", "double_jump"));
 
-/// Start and goal in a random scene, where the robot can stand.
+/// Random start and goal in a random scene. The robot may be unable to stand there.
 models::Scenario RandomScenario(std::mt19937* generator) {
   models::Scenario scenario;
   scenario.name = scenario.file = "random.yaml";
@@ -125,9 +125,9 @@ int GoodRoutes(int scenes) {
   return found;
 }
 
-TEST(PlanRoutes, OfRandomScenesAreShortestPathsWithNothingInVain) { EXPECT_GT(GoodRoutes(8), 1); }
+TEST(PlanRoutes, InRandomScenesArePathsOfTheGraphWithoutDetours) { EXPECT_GT(GoodRoutes(8), 1); }
 
-TEST(PlanRoutesLong, OfFiftyRandomScenesAreShortestPathsWithNothingInVain) {
+TEST(PlanRoutesLong, InFiftyRandomScenesArePathsOfTheGraphWithoutDetours) {
   EXPECT_GT(GoodRoutes(50), 15);
 }
 

@@ -46,7 +46,7 @@ TEST(PlannerTest, CrawlsUnderTheBars) {
   ExpectVerifiedPlans("three_routes_b", {"walk", "crawl"}, 1);
 }
 
-TEST(PlannerTest, WalkingAloneIsExhaustedByTheBars) {
+TEST(PlannerTest, WalkingAloneUnderTheBarsIsExhausted) {
   const PlanResult result =
       PlanTraversal(DrcHubo1(), ShippedScenario("three_routes_b"), Request(1, {"walk"}));
   EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
@@ -61,8 +61,8 @@ TEST(PlannerTest, ASolidWallIsProvenInfeasible) {
   EXPECT_NE(result.explanation.find("dividing_wall"), std::string::npos) << result.explanation;
 }
 
-/// The barrier stands where it should, and what each gait reached ends before it.
-TEST(PlannerTest, ANoHoldsWhatItIsSaidFor) {
+/// The barrier is where the wall stands. The regions that the gaits reached end before it.
+TEST(PlannerTest, ANoHoldsItsBarrierAndTheReachedRegions) {
   const models::Scenario scenario = ShippedScenario("closed_room");
   PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(1, {}));
   ASSERT_TRUE(result.plan.no.has_value());
@@ -87,7 +87,7 @@ TEST(PlannerTest, ANoHoldsWhatItIsSaidFor) {
   EXPECT_EQ(result.plan.no->barrier->reached[0].action, "walk");
 }
 
-/// A wall 4 m long in the middle of a wide floor, and bounds so many metres wide.
+/// A wall 4 m long in the middle of a wide floor. The argument is the width of the bounds, m.
 models::Scenario WallScene(double width) {
   models::Scenario scenario;
   scenario.name = scenario.file = "wall.yaml";
@@ -110,14 +110,15 @@ models::Scenario WallScene(double width) {
   return scenario;
 }
 
-TEST(PlannerTest, NobodyWalksAroundAWallOutsideTheBounds) {
+TEST(PlannerTest, AWallThatSpansTheBoundsIsProvenInfeasible) {
   EXPECT_EQ(PlanTraversal(DrcHubo1(), WallScene(7), Request(1, {})).status, PlanStatus::kFound);
   const PlanResult result = PlanTraversal(DrcHubo1(), WallScene(4), Request(1, {}));
   EXPECT_EQ(result.status, PlanStatus::kProvenInfeasible) << result.explanation;
 }
 
-/// Whatever stage the limit cuts: no plan, in words, and never a segment that was not verified.
-TEST(PlannerTest, TheTimeLimitEndsEveryStageWithoutAPlan) {
+/// In whatever stage the limit ends planning, there is an explanation and never an unverified
+/// segment.
+TEST(PlannerTest, ATimeLimitInAnyStageLeavesNoUnverifiedPlan) {
   const models::Scenario scenario = ShippedScenario("three_routes_b");
   for (const double time_limit : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9}) {
     PlanRequest request = Request(1, {});
@@ -137,7 +138,7 @@ TEST(PlannerTest, TheTimeLimitEndsEveryStageWithoutAPlan) {
   }
 }
 
-TEST(PlannerTest, AStartThatIsTheGoalIsAPlanOfStanding) {
+TEST(PlannerTest, AStartThatIsTheGoalGivesAStandingPlan) {
   models::Scenario scenario = ShippedScenario("three_routes_a");
   scenario.goals = {scenario.start};
   const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(1, {"walk"}));
@@ -218,18 +219,18 @@ TEST(PlannerTest, BadStancesAndActionsAreNamed) {
   EXPECT_NE(MessageOf(good, Request(1, {"crawl"})).find("start.action"), std::string::npos);
 }
 
-// At random, as the paper does: with lattices, one seed is like the other.
-TEST(PlannerLong, FiftySeedsOfThreeRoutesAWalking) {
+// Random exploration, as in the paper. With lattices, all seeds give the same plan.
+TEST(PlannerLong, ThreeRoutesAIsPlannedByWalkingForFiftySeeds) {
   ExpectVerifiedPlans("three_routes_a", {"walk"}, 50, PlannerPreset::kPaper);
 }
-TEST(PlannerLong, FiftySeedsOfThreeRoutesAWalkingAndCrawling) {
+TEST(PlannerLong, ThreeRoutesAIsPlannedByWalkingAndCrawlingForFiftySeeds) {
   ExpectVerifiedPlans("three_routes_a", {"walk", "crawl"}, 50, PlannerPreset::kPaper);
 }
-TEST(PlannerLong, FiftySeedsOfThreeRoutesBWalkingAndCrawling) {
+TEST(PlannerLong, ThreeRoutesBIsPlannedByWalkingAndCrawlingForFiftySeeds) {
   ExpectVerifiedPlans("three_routes_b", {"walk", "crawl"}, 50, PlannerPreset::kPaper);
 }
 
-TEST(PlannerLong, OneSeedAndOneThreadGiveTheSameBytesThoughJumpsAreSolved) {
+TEST(PlannerLong, OneSeedAndOneThreadGiveTheSameBytesWithJumps) {
   const models::Scenario scenario = ShippedScenario("three_routes_c");
   const std::filesystem::path file =
       std::filesystem::path(testing::TempDir()) / "possibility_same_bytes_jump.json";

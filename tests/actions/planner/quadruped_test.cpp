@@ -1,4 +1,4 @@
-// A robot that bears on points alone: what is possible for it, and no false proofs.
+// A robot that bears on points alone: what is possible for it, and that no proof is false.
 
 #include "tests/actions/quadruped.h"
 
@@ -59,7 +59,7 @@ RouteLeg RandomLeg(std::mt19937* generator, double extent) {
   return leg;
 }
 
-/// The floods must let through whatever the verifier accepts.
+/// The floods must let through every leg that the verifier accepts.
 void ExpectNoProofAgainst(const LegScene& scene, const RouteLeg& leg) {
   const GroundedStance from{0, leg.from, 0};
   const std::vector<GroundedStance> goals = {{0, leg.to, 0}};
@@ -92,7 +92,7 @@ void ExpectSufficientIsVerifiedIsNecessary(int count, unsigned seed) {
   }
 }
 
-TEST(Quadruped, PointFeetReachTheGround) {
+TEST(Quadruped, PointFeetStandOnlyWithinReachOfTheGround) {
   const LegScene scene(QuadrupedLocomotion(), DoorEnvironment(1));
   const NominalStance& stance = QuadrupedLocomotion().gaits[0]->stance;
   EXPECT_TRUE(scene.action(0).CN(ToPoint(stance.RootPose({-1, 0, 0.3}, 0))));
@@ -101,12 +101,14 @@ TEST(Quadruped, PointFeetReachTheGround) {
   EXPECT_FALSE(scene.action(0).CN(ToPoint(stance.RootPose({-1, 0, 0.3}, 1))));
 }
 
-TEST(Quadruped, SufficientIsVerifiedIsNecessary) { ExpectSufficientIsVerifiedIsNecessary(4, 1); }
-TEST(QuadrupedLong, SufficientIsVerifiedIsNecessary) {
+TEST(Quadruped, SufficientLegsVerifyAndVerifiedLegsAreNecessary) {
+  ExpectSufficientIsVerifiedIsNecessary(4, 1);
+}
+TEST(QuadrupedLong, SufficientLegsVerifyAndVerifiedLegsAreNecessary) {
   ExpectSufficientIsVerifiedIsNecessary(80, 2);
 }
 
-TEST(Quadruped, OfTwoDoorsOnlyTheOneTooNarrowForTheTrunkIsAProof) {
+TEST(Quadruped, OnlyADoorTooNarrowForTheTrunkIsProvenInfeasible) {
   const auto ask = [](double width) {
     const LegScene scene(QuadrupedLocomotion(), DoorEnvironment(width));
     const std::vector<std::shared_ptr<Manoeuvre>> nothing_else;
@@ -114,13 +116,13 @@ TEST(Quadruped, OfTwoDoorsOnlyTheOneTooNarrowForTheTrunkIsAProof) {
         .Ask({0, {-1.2, 0, 0}, 0}, {{0, {1.2, 0, 0}, 0}});
   };
   EXPECT_EQ(ask(1), RouteOracleAnswer::kUnknown);
-  // Feet too far apart, trunk not.
+  // The feet are too far apart for the door, the trunk is not too wide.
   EXPECT_EQ(ask(0.25), RouteOracleAnswer::kExhausted);
   EXPECT_EQ(ask(0.05), RouteOracleAnswer::kProvenInfeasible);
 }
 
-/// Nobody may call impossible what only needs a trunk carried at its nominal height.
-TEST(Quadruped, ASillBelowTheTrunkIsNoProof) {
+/// A way that only needs a trunk carried at its nominal height must not be called impossible.
+TEST(Quadruped, ASillBelowTheTrunkIsNotProvenInfeasible) {
   models::Environment environment = DoorEnvironment(1);
   models::Obstacle sill;
   sill.name = "sill";

@@ -20,13 +20,13 @@ TEST(RouteRefusals, ViolationsAreDescribedWithTheirMeasure) {
             "file mismatch, robot");
 }
 
-TEST(RouteRefusals, NothingRefusedIsNothingToSay) {
+TEST(RouteRefusals, WithoutRefusalsTheExplanationIsEmpty) {
   RouteRefusals refusals;
   refusals.ByVerification(Report({}), {"walk"});
   EXPECT_EQ(refusals.Explain(), "");
 }
 
-TEST(RouteRefusals, TheFirstOneIsNamedAndTheOthersAreCounted) {
+TEST(RouteRefusals, TheFirstRefusalIsNamedAndTheOthersAreCounted) {
   RouteRefusals refusals;
   refusals.ByVerification(Report({{ViolationKind::kStructure, -1, 0, "no segments", 1, 0, ""},
                                   {ViolationKind::kContactGround, 1, 9, "toe", 1, 0, "m"},
@@ -44,7 +44,7 @@ TEST(RouteRefusals, TheFirstOneIsNamedAndTheOthersAreCounted) {
       "m (limit -0.0001).");
 }
 
-TEST(RouteRefusals, MotionGenerationSaysWhichLegAndWhy) {
+TEST(RouteRefusals, ARefusalByMotionGenerationNamesItsLegAndReason) {
   RouteRefusals refusals;
   refusals.ByMotion("crawl from here to there", "LKP would move at 13 rad/s");
   EXPECT_EQ(refusals.Explain(),
@@ -52,8 +52,8 @@ TEST(RouteRefusals, MotionGenerationSaysWhichLegAndWhy) {
             "to there: LKP would move at 13 rad/s.");
 }
 
-/// "In" no leg: then only what.
-TEST(RouteRefusals, NobodyMayBeToBlame) {
+/// The violation belongs to no leg, so the explanation names the violation only.
+TEST(RouteRefusals, ARefusalOfNoLegNamesTheViolationOnly) {
   RouteRefusals refusals;
   refusals.ByVerification(Report({{ViolationKind::kRollout, -1, 0, "simulation fell", 1, 0, ""}}),
                           {"walk"});

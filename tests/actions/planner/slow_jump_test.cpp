@@ -1,4 +1,4 @@
-// The real long jump, slowed down: nobody waits for its jobs where walking will do.
+// The real long jump, slowed down. Planning does not wait for its jobs where walking is possible.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A long jump whose jobs take so many times longer than they would: each is run by a twin first,
-/// to learn how long that is.
+/// A long jump whose jobs take `slowness` times as long as they would. A twin job runs first to
+/// measure that time.
 class SlowJump : public LongJump {
  public:
   SlowJump(const PlanningContext& context, const models::Jump& jump, double slowness,
@@ -73,7 +73,7 @@ class SlowJump : public LongJump {
   std::atomic<int>* jobs_that_ended_;
 };
 
-/// The shipped robot, whose jump has become a manoeuvre of the request.
+/// The shipped robot without its jump, which is a manoeuvre of the request instead.
 models::RobotModel WithoutJumps() {
   models::RobotModel robot = DrcHubo1();
   robot.jumps.clear();
@@ -116,7 +116,7 @@ TEST_P(SlowJumpTest, WalkingDoesNotWaitForTheJump) {
   RecordProperty("graph_seconds", std::to_string(result.plan.timings.graph_s));
 }
 
-/// Or there would be nothing to wait for.
+/// The control: here planning has to wait for the jump.
 TEST_P(SlowJumpLong, WithoutTheBridgeTheJumpIsThePlan) {
   const PlanResult result = Plan(false, 2, GetParam());
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;

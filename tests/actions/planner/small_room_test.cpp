@@ -1,5 +1,5 @@
-// Rooms so small that C_S only just lets the robot move in them, by class of stride: what it lets
-// through must still verify.
+// Rooms so small that C_S only just lets the robot move in them, by class of stride. The ways that
+// C_S lets through must still verify.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ models::Obstacle Box(const std::string& name, const Eigen::Vector3d& low,
   return obstacle;
 }
 
-/// Walls around the origin, each with the direction that it stands in and its distance.
+/// Walls around the origin, each with the direction it stands in and its distance.
 class Room {
  public:
   explicit Room(std::mt19937* generator) {
@@ -123,20 +123,20 @@ void ExpectWaysThroughSmallRoomsVerify(const LocomotionModel& model, StrideClass
 }
 
 class SmallRooms : public testing::TestWithParam<StrideClass> {};
-TEST_P(SmallRooms, WhatIsSufficientInThemVerifies) {
+TEST_P(SmallRooms, SufficientWaysVerify) {
   ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 2, 1);
   ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 1, 2);
 }
 INSTANTIATE_TEST_SUITE_P(Classes, SmallRooms, testing::ValuesIn(kStrideClasses));
 
 class SmallRoomsLong : public testing::TestWithParam<StrideClass> {};
-TEST_P(SmallRoomsLong, WhatIsSufficientInThemVerifies) {
+TEST_P(SmallRoomsLong, SufficientWaysVerify) {
   ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 40, 3);
   ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 40, 4);
 }
 INSTANTIATE_TEST_SUITE_P(Classes, SmallRoomsLong, testing::ValuesIn(kStrideClasses));
 
-/// A stance 8 cm from a wall is one, whichever way it faces; a stance that touches is none.
+/// A stance 8 cm from a wall is free, whichever way it faces. A stance that touches is not.
 TEST(SmallRoom, StandingNeedsTheRoomOfThePostureAlone) {
   const LocomotionModel& model = DrcHubo1Locomotion();
   for (int gait = 0; gait < 2; ++gait) {
@@ -167,8 +167,8 @@ TEST(SmallRoom, StandingNeedsTheRoomOfThePostureAlone) {
   }
 }
 
-/// Who leans from foot to foot beside a wall so close would touch it.
-TEST(SmallRoom, AStanceThatNoStrideLeadsAwayFromExhaustsAtOnce) {
+/// A robot that leans from foot to foot so close to a wall would touch it.
+TEST(SmallRoom, AStanceThatNoStrideCanLeaveIsExhausted) {
   const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
   const GroundedStance beside{0, {0, 0, 0}, 0}, away{0, {0.5, -1, 0}, 0};
   for (const bool begins : {true, false}) {
@@ -229,7 +229,7 @@ TEST(SmallRoom, WalksStraightThroughADoorOf95Centimetres) {
   }
 }
 
-/// Posts 1 m apart, as far as one sees.
+/// Posts 1 m apart, as far as the bounds.
 models::Environment Posts() {
   models::Environment environment;
   environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(0, 0), Eigen::Vector2d(14, 5));
@@ -246,7 +246,7 @@ models::Environment Posts() {
   return environment;
 }
 
-/// However the places that the search looks at lie between the posts.
+/// The places that the search examines may lie anywhere between the posts.
 TEST(SmallRoom, WaysBetweenPostsAreFoundWhereverTheyBegin) {
   const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
   const models::Environment environment = Posts();

@@ -1,4 +1,4 @@
-// Soundness of possibility: C_S is conservative, C_N optimistic, against motion and verifier.
+// Soundness of C_S (conservative) and C_N (optimistic), against generated motion and the verifier.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ RouteLeg RandomTransition(std::mt19937* generator) {
   return leg;
 }
 
-/// Turns `count` random legs that meet C_S into motion; each must verify, and meet C_N.
+/// Turns `count` random legs that meet C_S into motion. Each must verify and meet C_N.
 template <typename MakeLeg>
 void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_leg) {
   const LocomotionModel& model = DrcHubo1Locomotion();
@@ -54,8 +54,8 @@ void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_le
   }
 }
 
-/// Random legs, whatever C_S says of them: the ones that verify must meet C_N. Obstacles are put
-/// close, so that C_S often refuses what is possible.
+/// Random legs, whether or not they meet C_S. Those that verify must meet C_N. Obstacles are close,
+/// so that C_S often refuses what is possible.
 void ExpectVerifiedLegsMeetNecessaryConditions(int count, unsigned seed) {
   const LocomotionModel& model = DrcHubo1Locomotion();
   std::mt19937 generator(seed);
@@ -85,7 +85,7 @@ TEST(SoundnessTest, SufficientCrawlingVerifies) {
 TEST(SoundnessTest, SufficientTransitionsVerify) {
   ExpectSufficientLegsVerify(6, 3, [](auto* g) { return RandomTransition(g); });
 }
-TEST(SoundnessTest, WhatVerifiesMeetsNecessaryConditions) {
+TEST(SoundnessTest, VerifiedLegsMeetNecessaryConditions) {
   ExpectVerifiedLegsMeetNecessaryConditions(5, 4);
 }
 
@@ -98,7 +98,7 @@ TEST(SoundnessLong, FiveHundredSufficientCrawlingEdgesVerify) {
 TEST(SoundnessLong, FiveHundredSufficientTransitionsVerify) {
   ExpectSufficientLegsVerify(500, 13, [](auto* g) { return RandomTransition(g); });
 }
-TEST(SoundnessLong, WhatVerifiesMeetsNecessaryConditions) {
+TEST(SoundnessLong, VerifiedLegsMeetNecessaryConditions) {
   ExpectVerifiedLegsMeetNecessaryConditions(200, 14);
 }
 

@@ -1,5 +1,5 @@
 // Straight ways between stances are decided coarse to fine, with boxes that cover many samples at
-// once. The answers are to be those of looking at every sample by itself.
+// once. The answers must equal those of looking at every sample by itself.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A scene with shapes of all kinds, as they stand, lie and hang about.
+/// A scene with shapes of all kinds, standing, lying and hanging.
 models::Environment MixedScene(std::mt19937* generator, int count) {
   models::Environment environment = RandomEnvironment(generator, count);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -56,8 +56,8 @@ class StraightWays {
     return environment_.bounds.contains(PointAt(pose).head<2>()) && HasRoomToStand(pose);
   }
 
-  /// The rule as it is written: samples in the middle of equal shares, the ground each for what the
-  /// sweep moves by within its share, the room in the frames of the strides.
+  /// The rule as it is written. Samples are in the middle of equal shares. The ground is checked
+  /// for the sweep's motion within its share, the room in the frames of the strides.
   bool WayBySamples(const PlanarPose& from, const PlanarPose& to) const {
     if (from.position() == to.position() && from.yaw == to.yaw) return HasRoomToStand(from);
     const StrideClass strides = ClassOfStrides(from, to);
@@ -136,7 +136,7 @@ class StraightWays {
   QuasiStaticAction action_;
 };
 
-TEST(StraightWay, AnswersAreThoseOfItsSamples) {
+TEST(StraightWay, AnswersAgreeWithSingleSamples) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> unit(-1, 1);
   int clear = 0;
@@ -166,7 +166,7 @@ TEST(StraightWay, AnswersAreThoseOfItsSamples) {
   EXPECT_GT(blocked, 150);
 }
 
-TEST(StraightWay, OnTheSpotAndAllTheWayRound) {
+TEST(StraightWay, TurnsOnTheSpotAgreeWithSingleSamples) {
   std::mt19937 generator(6);
   for (int scene = 0; scene < 40; ++scene) {
     const StraightWays ways(scene % 2, MixedScene(&generator, 4));

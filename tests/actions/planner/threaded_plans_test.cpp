@@ -1,4 +1,4 @@
-// Whole plans by several threads, over and over: what the thread sanitizer is let loose on.
+// Whole plans by several threads, many times: the tests to run under the thread sanitizer.
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@
 namespace possibility::actions {
 namespace {
 
-/// By the paper's algorithm: it solves its jumps while it explores.
+/// Plans by the paper's algorithm, which solves its jumps while it explores.
 constexpr int kJumpsSolved = 10;
-/// With jumps of the library.
+/// Plans with jumps of the library.
 constexpr int kJumpsRead = 10;
-/// Beside a manoeuvre whose motion is refuted once a route counts on it.
+/// Plans beside a manoeuvre whose motion is refuted once a route uses it.
 constexpr int kDetours = 40;
-/// Beside one whose jobs throw.
+/// Plans beside a manoeuvre whose jobs throw.
 constexpr int kFaults = 40;
 
 PlanRequest Request(int seed) {
@@ -31,7 +31,7 @@ PlanRequest Request(int seed) {
   return request;
 }
 
-/// The pit without a bridge: whoever wants to get over has to jump, and lands crawling.
+/// The pit without a bridge. The only way across is a jump, which lands crawling.
 models::Scenario JumpScene() {
   models::Scenario scenario = PitScene(false);
   scenario.actions = {"walk", "crawl", "jump"};
@@ -61,7 +61,7 @@ void ExpectJumps(int plans, PlannerPreset preset) {
 
 void ExpectWalks(int plans, const Leap::RunJob& run_job) {
   models::Scenario scenario = PitScene(true);
-  // Not far from the bridge: sanitizers are slow.
+  // Start and goal are near the bridge, because sanitizers are slow.
   scenario.start = {"walk", -0.7, 0.3, 0, 0};
   scenario.goals = {{"walk", 0.7, 0.3, 0, 0}};
   for (int seed = 1; seed <= plans; ++seed) {
@@ -71,10 +71,14 @@ void ExpectWalks(int plans, const Leap::RunJob& run_job) {
   }
 }
 
-TEST(ThreadedPlansLong, JumpsSolvedOnTheWay) { ExpectJumps(kJumpsSolved, PlannerPreset::kPaper); }
-TEST(ThreadedPlansLong, JumpsOfTheLibrary) { ExpectJumps(kJumpsRead, PlannerPreset::kDefault); }
-TEST(ThreadedPlansLong, DetoursAfterARefutedLeap) { ExpectWalks(kDetours, Sleeps(0.02)); }
-TEST(ThreadedPlansLong, WalksBesideJobsThatThrow) {
+TEST(ThreadedPlansLong, JumpsSolvedWhileExploringArePlanned) {
+  ExpectJumps(kJumpsSolved, PlannerPreset::kPaper);
+}
+TEST(ThreadedPlansLong, JumpsOfTheLibraryArePlanned) {
+  ExpectJumps(kJumpsRead, PlannerPreset::kDefault);
+}
+TEST(ThreadedPlansLong, ARefutedLeapLeavesAWalkingPlan) { ExpectWalks(kDetours, Sleeps(0.02)); }
+TEST(ThreadedPlansLong, JobsThatThrowLeaveAWalkingPlan) {
   ExpectWalks(kFaults, [](graph::JobControl*) -> graph::JobVerdict {
     throw std::runtime_error("the job's fuse blew");
   });

@@ -37,7 +37,7 @@ class Scene {
     return search.Route();
   }
 
-  /// What a LatticeExplorer proposes first.
+  /// The first proposal of a LatticeExplorer.
   std::vector<graph::PathEdge> Proposal() const {
     return FirstProposal(space(), Grounded(scenario_.start), goals());
   }
@@ -141,7 +141,7 @@ TEST(LatticeSearch, ShortStridesLeadToWhereManoeuvresBegin) {
   }
 }
 
-TEST(LatticeSearch, GoesStraightOnInOneEdge) {
+TEST(LatticeSearch, ConsecutiveStraightStridesAreOneEdge) {
   const Scene scene("double_jump", true);
   const std::vector<graph::PathEdge> route = scene.Search(kFast);
   ASSERT_FALSE(route.empty());
@@ -154,7 +154,7 @@ TEST(LatticeSearch, GoesStraightOnInOneEdge) {
   }
 }
 
-TEST(LatticeSearch, AvoidsWhatIsForbidden) {
+TEST(LatticeSearch, AvoidsForbiddenEdges) {
   for (const char* name : {"three_routes_a", "three_routes_c"}) {
     Scene scene(name, true);
     for (int i = 0; i < 5; ++i) {
@@ -165,7 +165,7 @@ TEST(LatticeSearch, AvoidsWhatIsForbidden) {
   }
 }
 
-TEST(LatticeExplorer, ProposesWhatTheFirstLatticeFindsThatFindsAnything) {
+TEST(LatticeExplorer, ProposesTheRouteOfTheFirstLatticeThatFindsOne) {
   for (const char* name : {"three_routes_a", "three_routes_b", "three_routes_c", "hallway",
                            "double_jump", "hallway_infeasible"}) {
     const Scene scene(name, true);
@@ -190,14 +190,14 @@ TEST(LatticeSearch, FindsNothingWhereThereIsNoWay) {
   EXPECT_TRUE(Scene("hallway_infeasible", true).Search(kFast).empty());
 }
 
-TEST(LatticeSearch, GivesUpWhenItHasExaminedEnough) {
+TEST(LatticeSearch, GivesUpAtTheLimitOfStances) {
   LatticeSettings settings = kFast;
   settings.most_stances = 10;
   EXPECT_TRUE(Scene("three_routes_a", false).Search(settings).empty());
 }
 
-/// In small portions as in one go.
-TEST(LatticeSearch, MayBeInterruptedAtAnyStance) {
+/// A search in small portions gives the same route as a search in one go.
+TEST(LatticeSearch, InterruptionAtEveryStanceGivesTheSameRoute) {
   const Scene scene("three_routes_b", false);
   const std::vector<graph::PathEdge> whole = scene.Search(kFast);
   LatticeSearch search(scene.space(), scene.start(), scene.goals(), kFast);
@@ -210,9 +210,9 @@ TEST(LatticeSearch, MayBeInterruptedAtAnyStance) {
   }
 }
 
-/// The route of a patient search is no slower than its own bound, and none is slower than a hasty
-/// one's.
-TEST(LatticeSearch, WithoutGreedNoRouteIsQuicker) {
+/// The lower bound without greed is no greater than that of a greedy search, and no route is
+/// quicker than it.
+TEST(LatticeSearch, WithoutGreedTheLowerBoundIsTheLeast) {
   for (const char* name : {"three_routes_a", "three_routes_b"}) {
     const Scene scene(name, false);
     const auto bound = [&](double greed, double known) {
@@ -226,7 +226,7 @@ TEST(LatticeSearch, WithoutGreedNoRouteIsQuicker) {
     const double least = bound(1, 1e6);
     EXPECT_GT(least, 50);
     EXPECT_LE(least, bound(4, 1e6) + 1e-9);
-    // Told of a route that is as quick, it finds none.
+    // Given a known route that is as quick, the search finds none.
     EXPECT_NEAR(bound(1, least), least, 1e-9);
   }
 }

@@ -56,7 +56,7 @@ class RouteTest : public testing::Test {
   std::vector<std::shared_ptr<QuasiStaticAction>> actions_;
 };
 
-/// By shortcuts until there are none.
+/// The route after shortcuts until no more are found.
 Route Shortened(const LocomotionModel& model,
                 const std::vector<std::shared_ptr<QuasiStaticAction>>& actions,
                 const Route& route) {
@@ -96,7 +96,7 @@ TEST_F(RouteTest, ShortenedRoutesAreConnectedSufficientAndNoSlower) {
   }
 }
 
-/// What lies between two stances of one gait is a detour if the straight way is clear and quicker.
+/// Legs between two stances of one gait are a detour if the straight way is clear and quicker.
 TEST_F(RouteTest, AShortenedRouteHasNoDetours) {
   std::mt19937 generator(14);
   int detours = 0;
@@ -129,8 +129,8 @@ TEST_F(RouteTest, AShortenedRouteHasNoDetours) {
   EXPECT_GT(detours, 1000);
 }
 
-/// Down, up again where it went down, and on: a route that searches do put together.
-TEST_F(RouteTest, ASitDownThatLeadsNowhereIsLeftOut) {
+/// Down, up again at the same place, and on. Searches do build such routes.
+TEST_F(RouteTest, ATransitionThatIsUndoneIsLeftOut) {
   Load(ShippedScenario("three_routes_a").environment);
   const PlanarPose a{2, 2.9, 0};
   const PlanarPose& down = model_.transitions[0].motion->displacement();
@@ -158,8 +158,8 @@ TEST_F(RouteTest, ASitDownThatLeadsNowhereIsLeftOut) {
   }
 }
 
-/// A flood that closes is a proof: no random clear route may end beyond it.
-TEST_F(RouteTest, FloodsNeverCloseARouteThatExists) {
+/// A closed flood is a proof, so no random clear route may end beyond it.
+TEST_F(RouteTest, FloodsNeverRuleOutARouteThatExists) {
   std::mt19937 generator(8);
   int closed = 0;
   for (int trial = 0; trial < 8; ++trial) {
@@ -176,7 +176,7 @@ TEST_F(RouteTest, FloodsNeverCloseARouteThatExists) {
   EXPECT_GT(closed, 0);
 }
 
-TEST_F(RouteTest, ABarTooLowForWalkingClosesWalkingOnlyAndIsNamed) {
+TEST_F(RouteTest, ABarTooLowForWalkingRulesOutWalkingAloneAndIsNamed) {
   models::Scenario scenario = ShippedScenario("three_routes_b");
   Load(scenario.environment);
   const GroundedStance start{0, {scenario.start.x, scenario.start.y, 0}, 0};

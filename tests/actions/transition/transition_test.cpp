@@ -41,7 +41,7 @@ TEST_F(TransitionTest, LeadsFromStanceToStanceAtRest) {
   VectorXd landed = Sitting().crawl.q;
   landed[4] += Sitting().displacement;
   EXPECT_LT((last.q - landed).norm(), 1e-8);
-  // What the optimiser's constraint tolerance leaves of the plan's own velocities.
+  // What the optimiser's constraint tolerance leaves in the plan's own velocities.
   EXPECT_LT(first.v.norm() + last.v.norm(), 1e-6);
 }
 
@@ -64,7 +64,7 @@ TEST_F(TransitionTest, FeetStayAndHandsArriveAtRest) {
   EXPECT_NEAR(kinematics.Position(peg.link, peg.points[0]).z(), 0, 1e-8);
 }
 
-TEST_F(TransitionTest, ForcesAndTorquesAreThoseOfSimbody) {
+TEST_F(TransitionTest, ForcesAndTorquesAgreeWithSimbody) {
   const models::RobotModel& robot = DrcHubo1();
   const double weight = robot.TotalMass() * dynamics::kGravity;
   dynamics::SimbodyDynamics simbody(robot);
@@ -92,7 +92,7 @@ TEST_F(TransitionTest, ForcesAndTorquesAreThoseOfSimbody) {
   }
 }
 
-TEST_F(TransitionTest, DoesNotRunIntoItself) {
+TEST_F(TransitionTest, HasNoSelfCollision) {
   const models::CollisionChecker checker(DrcHubo1(), models::Environment());
   dynamics::TreeKinematics kinematics(DrcHubo1());
   for (const Phase& phase : Sitting().motion) {
@@ -103,7 +103,7 @@ TEST_F(TransitionTest, DoesNotRunIntoItself) {
   }
 }
 
-TEST_F(TransitionTest, IsTheSameFromTheLibrary) {
+TEST_F(TransitionTest, ReadsBackTheSameFromTheLibrary) {
   const models::TemporaryFolder folder;
   const Solved& solved = Sitting();
   const TransitionMotion first(DrcHubo1(), solved.walk, solved.crawl, folder.path(), {});
@@ -121,7 +121,7 @@ TEST_F(TransitionTest, IsTheSameFromTheLibrary) {
   }
 }
 
-TEST_F(TransitionTest, ADamagedLibraryOnlyCostsTime) {
+TEST_F(TransitionTest, ADamagedLibraryIsSolvedAnew) {
   const models::TemporaryFolder folder;
   const Solved& solved = Sitting();
   TransitionMotion(DrcHubo1(), solved.walk, solved.crawl, folder.path(), {}).Save();
@@ -133,7 +133,7 @@ TEST_F(TransitionTest, ADamagedLibraryOnlyCostsTime) {
   EXPECT_EQ(again.ExpectedDuration(), solved.transition.ExpectedDuration());
 }
 
-TEST_F(TransitionTest, OnlyLeadsToMoreContacts) {
+TEST_F(TransitionTest, ATransitionToFewerContactsIsRefused) {
   try {
     const TransitionMotion backwards(DrcHubo1(), Sitting().crawl, Sitting().walk, {}, {});
     FAIL() << "nothing thrown";

@@ -21,7 +21,7 @@ VectorXd Random(Eigen::Index size, double scale, std::mt19937* generator) {
   return x;
 }
 
-/// Two knots `gap` apart between which everything moves, some joints of the robot having become
+/// Two knots `gap` apart between which everything moves. Some joints of the robot have been made
 /// prismatic.
 struct Motion {
   Motion(double gap, double wildness, std::mt19937* generator) : robot(DrcHubo1()) {
@@ -62,7 +62,7 @@ struct Motion {
   std::vector<BearingPoint> points;
 };
 
-/// What is left for the motors and the root under the declared forces.
+/// The residual at the motors and the root under the declared forces.
 VectorXd Rest(const Motion& motion, const KnotInterpolant& interpolant, double t) {
   dynamics::TreeKinematics kinematics(motion.robot);
   const Knot knot = interpolant.At(t);
@@ -100,7 +100,7 @@ TEST(DerivativeBounds, HoldForTheForcesOfRandomMotions) {
       }
     }
   }
-  // A bound that is far too large would be true as well.
+  // A bound that is far too large would pass as well.
   EXPECT_GT(tightest, 0.02);
 }
 
@@ -124,7 +124,7 @@ TEST(DerivativeBounds, HoldForThePointsOfRandomMotions) {
       std::array<Vector3d, 5> p;
       for (int i = 0; i < 5; ++i) p[i] = position(t + (i - 2) * h, link, p_L);
       const double radius = p_L.norm();
-      // Rounding of the quotients: 1e-15 m over h^k.
+      // Rounding error of the quotients: 1e-15 m over h^k.
       const auto expect = [&](const Vector3d& quotient, int k) {
         EXPECT_LE(quotient.norm(), 1.01 * bounds.Point(link, radius, k) + 2e-14 / std::pow(h, k))
             << "derivative " << k << " of link " << link;
@@ -173,13 +173,13 @@ TEST(BoundedMaximum, IsTheGreatestValueOfAPolynomial) {
     EXPECT_GE(maximum.value, most - 1e-9);
     EXPECT_LE(maximum.value, most + 1e-4);
     EXPECT_NEAR(quintic.At(maximum.place), maximum.value, 1e-9);
-    // Nothing is looked for where everything is small enough.
+    // The search stops where everything is small enough.
     const double enough = maximum.value + 1e-9;
     EXPECT_LE(BoundedMaximum<Quintic>(quintic, enough, 1e-10).best().value, enough);
   }
 }
 
-TEST(BoundedMaximum, TakesWhatNeverMeetsItsBoundAtItsBound) {
+TEST(BoundedMaximum, IsTheBoundWhereHalvingNeverTightensIt) {
   struct Fog {
     double Front() const { return 0; }
     double Back() const { return 0; }

@@ -1,5 +1,5 @@
-// False plans whose faults lie where the knots do not show them: between two knots, in what adds up
-// from phase to phase, in how the plan is cut.
+// False plans whose faults the knots do not show: between two knots, in what adds up from phase to
+// phase, or in how the plan is cut.
 
 #include <gtest/gtest.h>
 
@@ -56,8 +56,8 @@ VerifierSubject PlanOf(const std::vector<MotionPhase>& phases, const MotionSetti
   return subject;
 }
 
-/// There and back, of which the plan has the first and the last knot of both phases.
-TEST(HiddenMotion, AMotionOfWhichOnlyTheEndsAreLeftIsRefused) {
+/// There and back. The plan has only the first and the last knot of both phases.
+TEST(HiddenMotion, AMotionWithOnlyItsEndKnotsIsRefused) {
   for (const double duration : {5e-3, 1e-3, 1e-5}) {
     const Vector3d shift(0.02, 0.03, -0.02);
     const VerifierSubject subject = PlanOf({PelvisShift(WalkingStance(), shift, false, duration),
@@ -68,8 +68,8 @@ TEST(HiddenMotion, AMotionOfWhichOnlyTheEndsAreLeftIsRefused) {
   }
 }
 
-/// The pelvis between two knots at rest 4 ms apart moves by too little for the limits of speed, but
-/// no motor does that.
+/// The pelvis moves between two knots at rest 4 ms apart, by too little for the limits of speed. No
+/// motor can do that.
 TEST(HiddenMotion, AStartTooSuddenForTheMotorsIsRefused) {
   const Vector3d shift(0.004, 0, 0);
   const VerifierSubject subject = PlanOf({PelvisShift(WalkingStance(), shift, false, 4e-3),
@@ -78,8 +78,8 @@ TEST(HiddenMotion, AStartTooSuddenForTheMotorsIsRefused) {
   ExpectRefused(subject, ViolationKind::kJointTorque);
 }
 
-/// From rest to 0.5 m/s within 4 ms, and to rest again. At every knot nothing accelerates.
-TEST(HiddenMotion, SpeedOutOfNothingIsRefused) {
+/// From rest to 0.5 m/s within 4 ms, and to rest again. At every knot the acceleration is zero.
+TEST(HiddenMotion, SpeedWithoutAccelerationAtTheKnotsIsRefused) {
   constexpr double kTime = 4e-3;
   constexpr double kSpeed = 0.5;
   const auto faster = [](bool first) {
@@ -99,7 +99,7 @@ TEST(HiddenMotion, SpeedOutOfNothingIsRefused) {
   ExpectRefused(subject, ViolationKind::kJointTorque);
 }
 
-TEST(HiddenMotion, AnArmThatIsElsewhereAtOneKnotIsRefused) {
+TEST(HiddenMotion, AnArmDisplacedAtOneKnotIsRefused) {
   for (const double spacing : {5e-3, 1e-3}) {
     const double duration = 40 * spacing;
     MotionPhase phase = PelvisShift(WalkingStance(), Vector3d::Zero(), false, duration);
@@ -114,8 +114,8 @@ TEST(HiddenMotion, AnArmThatIsElsewhereAtOneKnotIsRefused) {
   }
 }
 
-/// A joint that is within its limits at every knot and at every sample, but not in between.
-TEST(HiddenMotion, LimitsAreKeptBetweenTheSamples) {
+/// A joint is within its limits at every knot and at every sample, but not in between.
+TEST(HiddenMotion, LimitsAreCheckedBetweenTheSamples) {
   for (const bool speed : {false, true}) {
     VerifierSubject subject = ValidSubject();
     const Phase& phase = testing::FirstPhase(&subject);
@@ -143,7 +143,7 @@ TEST(HiddenMotion, LimitsAreKeptBetweenTheSamples) {
   }
 }
 
-/// Every phase of a plan cut into phases of one interval each.
+/// Cuts every phase of a plan into phases of one interval each.
 void CutAtEveryKnot(Plan* plan) {
   for (Segment& segment : plan->segments) {
     std::vector<Phase> pieces;
@@ -159,7 +159,7 @@ void CutAtEveryKnot(Plan* plan) {
   }
 }
 
-TEST(HiddenMotion, JumpsBelowTheToleranceDoNotAddUp) {
+TEST(HiddenMotion, ManyJumpsBelowTheToleranceAreRefused) {
   VerifierSubject subject = ValidSubject();
   CutAtEveryKnot(&subject.plan);
   ASSERT_TRUE(Verified(subject).accepted()) << FormatText(Verified(subject));
@@ -177,7 +177,7 @@ TEST(HiddenMotion, JumpsBelowTheToleranceDoNotAddUp) {
   ExpectRefused(subject, ViolationKind::kVelocityContinuity);
 }
 
-/// Forces and torques of a knot made those that realise its motion.
+/// Sets forces and torques of a knot to those that realise its motion.
 void Realise(const models::RobotModel& robot, Phase* phase, StateEvaluator* evaluator) {
   const std::vector<BearingPoint> points = BearingPoints(robot, *phase);
   for (Knot& knot : phase->knots) {
@@ -189,9 +189,9 @@ void Realise(const models::RobotModel& robot, Phase* phase, StateEvaluator* eval
   }
 }
 
-/// Both soles creep at less than the speed that is let pass while they bear by turns with two
-/// corners each and the two others, so that no corner is listed for long.
-TEST(HiddenMotion, CornersThatBearByTurnsDoNotGlide) {
+/// Both soles creep below the speed that is allowed, bearing in turn on two corners and on the
+/// other two, so that no corner is listed for long.
+TEST(HiddenMotion, SolesThatGlideOnAlternatingCornersAreRefused) {
   constexpr double kSpeed = 1.9e-3;  // m/s
   constexpr double kPhase = 0.4;     // s, in which a corner creeps by 0.76 mm
   for (const bool moves : {false, true}) {
@@ -225,9 +225,9 @@ TEST(HiddenMotion, CornersThatBearByTurnsDoNotGlide) {
   }
 }
 
-/// A jump of velocity at every other knot, explained by impulses of soles that stand on the ground
-/// already.
-TEST(HiddenMotion, AnImpactNeedsSomethingThatComesDown) {
+/// The velocity jumps at every other knot. The impulses that explain it are of soles that stand on
+/// the ground already.
+TEST(HiddenMotion, AnImpactWithoutATouchdownIsRefused) {
   VerifierSubject subject = ValidSubject();
   CutAtEveryKnot(&subject.plan);
   std::vector<Phase*> phases = PhasesOf(&subject.plan);
@@ -237,12 +237,12 @@ TEST(HiddenMotion, AnImpactNeedsSomethingThatComesDown) {
   ExpectRefused(subject, ViolationKind::kImpact);
 }
 
-/// A hop is one motion, however its phases are shared out among segments.
-TEST(HiddenMotion, AHopInPiecesIsSimulatedAsOne) {
+/// A hop is one motion, however its phases are split into segments.
+TEST(HiddenMotion, AHopCutIntoSegmentsIsSimulatedAsOne) {
   VerifierSubject subject = testing::HopPlan(DrcHubo1().file.string());
   const std::vector<Phase> phases = subject.plan.segments[0].phases;
   const double end = phases.back().knots.back().t;
-  // In the middle of the flight, too, and of what follows the landing.
+  // Cuts also in the middle of the flight and of the phase after the landing.
   subject.plan.segments.clear();
   for (const Phase& phase : phases) {
     const std::size_t middle = phase.knots.size() / 2;

@@ -20,8 +20,8 @@
 
 namespace possibility::actions::testing {
 
-/// The motion between two knots as the file format has it, by the Hermite basis, and by difference
-/// quotients of rotations where the rest of the project has Jacobians.
+/// The motion between two knots as the file format defines it, by the Hermite basis. Difference
+/// quotients of rotations stand where the rest of the project has Jacobians.
 class OracleMotion {
  public:
   using Vector3d = Eigen::Vector3d;
@@ -55,7 +55,7 @@ class OracleMotion {
     return q;
   }
 
-  /// From the first configuration to the second, in the coordinates of v.
+  /// The displacement from the first configuration to the second, in the coordinates of v.
   static VectorXd Difference(const VectorXd& q0, const VectorXd& q1) {
     VectorXd d(q0.size() - 1);
     const Quaterniond R0(q0[0], q0[1], q0[2], q0[3]);
@@ -97,10 +97,11 @@ class OracleMotion {
   Vector3d phi_, phi_rate_, phi_acceleration_;
 };
 
-/// A second opinion on plans on flat ground at z = 0 without obstacles: configurations far closer
-/// together than the verifier's samples, velocities and accelerations by difference quotients, our
-/// own recursions instead of Simbody, contact forces by projection onto the cones. It lets pass
-/// what the verifier's documented tolerances and resolution let pass, and a little more.
+/// An independent check of plans on flat ground at z = 0 without obstacles. Its configurations are
+/// far closer together than the verifier's samples. Velocities and accelerations are difference
+/// quotients, the recursions are our own instead of Simbody's, and contact forces are projected
+/// onto the cones. It allows what the verifier's documented tolerances and resolution allow, and a
+/// little more.
 class PlanOracle {
  public:
   PlanOracle(const models::RobotModel& robot, const models::Scenario& scenario)
@@ -110,7 +111,7 @@ class PlanOracle {
         kinematics_(robot),
         checker_(robot, scenario.environment) {}
 
-  /// What is wrong with the plan, in a line; empty if nothing is.
+  /// What is wrong with the plan, in one line; empty if nothing is.
   std::string FaultOf(const Plan& plan) {
     fault_.clear();
     footprints_.clear();
@@ -232,7 +233,7 @@ class PlanOracle {
     Require(v.segment<3>(3).norm(), 20.001, t, "root speed");
   }
 
-  /// What is set down stays there until it is more than 1 mm above the ground.
+  /// A point that is set down stays there until it is more than 1 mm above the ground.
   void JudgeContacts(const std::vector<BearingPoint>& points, double t) {
     std::set<std::pair<int, int>> listed;
     for (const BearingPoint& point : points) {
@@ -282,8 +283,8 @@ class PlanOracle {
     return force;
   }
 
-  /// The ground has to be able to supply what the motion takes, with forces near the declared ones,
-  /// and the motors what is left.
+  /// The ground must be able to supply what the motion takes, with forces near the declared ones.
+  /// The motors must be able to supply the rest.
   void JudgeForces(Matrix3Xd forces, const std::vector<BearingPoint>& points, const VectorXd& a,
                    double noise, double t) {
     const VectorXd wanted = kinematics_.InverseDynamics(a);
@@ -303,7 +304,7 @@ class PlanOracle {
       return rest;
     };
     const double tolerance = (kBalance + noise) * weight_;
-    // Projected gradient on half the square of what is missing.
+    // Projected gradient on half the square of the residual.
     const double step = 1 / (forces.cols() + arms.squaredNorm() + 1e-9);
     for (Eigen::Index i = 0; i < forces.cols(); ++i) forces.col(i) = Projected(forces.col(i));
     VectorXd rest = missing();

@@ -15,12 +15,12 @@
 namespace possibility::actions::testing {
 
 /// Random changes of a plan, from ones that leave it valid to ones that no robot can follow. Half
-/// of the plans have their torques and forces made those of the new motion, as a forger would.
+/// of the plans get the torques and forces of the new motion, as a forger would.
 class RandomEdits {
  public:
   explicit RandomEdits(unsigned seed) : generator_(seed) {}
 
-  /// Changes the subject in one to three ways; returns their names.
+  /// Changes the subject in one to three ways and returns their names.
   std::string Apply(VerifierSubject* subject) {
     std::string names;
     const int edits = 1 + static_cast<int>(Below(3));
@@ -63,7 +63,7 @@ class RandomEdits {
 
   std::size_t Below(std::size_t n) { return generator_() % n; }
 
-  /// Of either sign, from far below every tolerance to far beyond.
+  /// A number of either sign, from far below every tolerance to far beyond.
   double Magnitude(double least, double most) {
     std::uniform_real_distribution<double> exponent(std::log(least), std::log(most));
     const double magnitude = std::exp(exponent(generator_));
@@ -90,7 +90,7 @@ class RandomEdits {
     }
   }
 
-  /// Only the ends of a phase, at a distance of time of the forger's choice.
+  /// Keeps only the ends of a phase and gives it a random duration.
   void KeepEnds(VerifierSubject* subject) {
     Phase& phase = AnyPhase(subject);
     phase.knots = {phase.knots.front(), phase.knots.back()};
@@ -108,7 +108,7 @@ class RandomEdits {
     }
   }
 
-  /// A phase takes another time; nothing else knows.
+  /// Changes the duration of one phase and shifts the later ones. Nothing else is adapted.
   static void Retime(Phase* phase, double duration, VerifierSubject* subject) {
     const double start = phase->knots.front().t;
     const double before = phase->knots.back().t - start;
@@ -132,7 +132,7 @@ class RandomEdits {
     SpeedUp(std::exp(Magnitude(1e-9, 2)), &subject->plan);
   }
 
-  /// All that lies between two knots in next to no time.
+  /// Shortens the time between two knots, possibly to nearly nothing.
   void Squeeze(VerifierSubject* subject) {
     Phase& phase = AnyPhase(subject);
     const std::size_t i = Below(phase.knots.size() - 1);
@@ -157,7 +157,7 @@ class RandomEdits {
     for (Knot& knot : phase.knots) knot.q[at] += offset;
   }
 
-  /// Every phase begins a little farther on.
+  /// Shifts every phase a little farther than the one before it.
   void Creep(VerifierSubject* subject) {
     const double step = Magnitude(1e-9, 1e-5);
     double shift = 0;
@@ -175,7 +175,7 @@ class RandomEdits {
     }
     const double duration = subject->plan.duration();
     subject->scenario.goals[0].y += speed * duration;
-    // At rest at both ends all the same.
+    // The motion is still at rest at both ends.
     KnotsOf(&subject->plan).front()->v[4] -= speed;
     KnotsOf(&subject->plan).back()->v[4] -= speed;
   }
@@ -197,7 +197,7 @@ class RandomEdits {
                 static_cast<Eigen::Index>(Below(knot.forces.cols()))) += Magnitude(1e-6, 300);
   }
 
-  /// A patch bears with some of its points.
+  /// Lets a patch bear with some of its points.
   void ChangeContacts(VerifierSubject* subject) {
     Phase& phase = AnyPhase(subject);
     if (phase.contacts.empty()) return;
@@ -274,7 +274,7 @@ class RandomEdits {
     }
   }
 
-  /// Forces and torques of every knot made those that realise its motion.
+  /// Sets forces and torques of every knot to those that realise its motion.
   static void Repair(VerifierSubject* subject) {
     StateEvaluator evaluator(subject->robot);
     for (Phase* phase : PhasesOf(&subject->plan)) {

@@ -1,4 +1,4 @@
-// Whatever the verifier accepts of randomly edited plans, a second opinion has to accept as well.
+// The independent check must accept every randomly edited plan that the verifier accepts.
 
 #include "tests/actions/verify/random_edits.h"
 
@@ -26,7 +26,7 @@ const VerifierSubject& HopSubject() {
   return subject;
 }
 
-/// Without simulations, which the second opinion has none of.
+/// Without simulations, which the independent check does not run.
 VerificationReport Verified(const VerifierSubject& subject) {
   VerifierSettings settings;
   settings.simulates = false;
@@ -39,8 +39,8 @@ TEST(PlanOracle, AcceptsTheUntouchedPlans) {
   }
 }
 
-/// It is a judge only if it finds what is wrong, too.
-TEST(PlanOracle, RefusesWhatTheVerifierRefuses) {
+/// The check is of use only if it finds faults, too.
+TEST(PlanOracle, RefusesMostPlansThatTheVerifierRefuses) {
   int refused = 0;
   int agreed = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
@@ -53,7 +53,7 @@ TEST(PlanOracle, RefusesWhatTheVerifierRefuses) {
   }
   RecordProperty("refused", refused);
   RecordProperty("agreed", agreed);
-  // Torques and forces that are declared falsely are none of its business.
+  // It does not check the declared torques and forces.
   EXPECT_GT(agreed, refused / 2);
 }
 
@@ -73,13 +73,13 @@ void ExpectNoFalseAcceptance(unsigned first_seed, unsigned count) {
   }
   for (const auto& [kind, times] : found) ::testing::Test::RecordProperty(ToString(kind), times);
   ::testing::Test::RecordProperty("accepted", accepted);
-  // Or nothing would have been asked.
+  // Otherwise the test would have checked nothing.
   EXPECT_GT(accepted, static_cast<int>(count / 20));
   EXPECT_LT(accepted, static_cast<int>(count / 2));
 }
 
-TEST(RandomEdits, NoneIsAcceptedFalsely) { ExpectNoFalseAcceptance(0, 200); }
-TEST(RandomEditsLong, NoneIsAcceptedFalsely) { ExpectNoFalseAcceptance(1000, 2000); }
+TEST(RandomEdits, NoPlanIsAcceptedFalsely) { ExpectNoFalseAcceptance(0, 200); }
+TEST(RandomEditsLong, NoPlanIsAcceptedFalsely) { ExpectNoFalseAcceptance(1000, 2000); }
 
 }  // namespace
 }  // namespace possibility::actions

@@ -26,8 +26,10 @@ void ExpectFound(VerifierSubject subject, const PlanMutation& mutation) {
   EXPECT_TRUE(found) << "expected " << ToString(mutation.expected) << "\n" << FormatText(report);
 }
 
-TEST_P(Sabotage, OfAStandingPlanIsFound) { ExpectFound(ValidSubject(), GetParam()); }
-TEST_P(Sabotage, OfAWalkingAndCrawlingPlanIsFound) { ExpectFound(WalkAndCrawl(), GetParam()); }
+TEST_P(Sabotage, AMutationOfAStandingPlanIsFound) { ExpectFound(ValidSubject(), GetParam()); }
+TEST_P(Sabotage, AMutationOfAWalkingAndCrawlingPlanIsFound) {
+  ExpectFound(WalkAndCrawl(), GetParam());
+}
 
 INSTANTIATE_TEST_SUITE_P(Mutations, Sabotage, ::testing::ValuesIn(PlanMutations()),
                          [](const auto& info) { return info.param.name; });

@@ -1,4 +1,4 @@
-// Plans that are sound as motions, but solve another problem than the scenario's.
+// Plans whose motion is sound, but which solve another problem than the scenario's.
 
 #include "actions/verify/verifier_problem.h"
 
@@ -29,7 +29,7 @@ VerificationReport Verified(const VerifierSubject& subject) {
   return Verify(subject.plan, subject.robot, subject.scenario);
 }
 
-/// What the report says of one kind; empty if nothing.
+/// The report's entry of one kind; empty if there is none.
 std::string Found(const VerificationReport& report, ViolationKind kind) {
   for (const Violation& violation : report.violations) {
     if (violation.kind == kind) return violation.quantity;
@@ -37,7 +37,7 @@ std::string Found(const VerificationReport& report, ViolationKind kind) {
   return "";
 }
 
-/// The kinds of the report's violations and nothing else.
+/// Expects exactly one violation, of this kind and with these words.
 void ExpectOnly(const VerifierSubject& subject, ViolationKind kind, const std::string& words) {
   const VerificationReport report = Verified(subject);
   ASSERT_EQ(report.violations.size(), 1u) << FormatText(report);
@@ -62,7 +62,7 @@ TEST(VerifierProblem, AnActionThatTheScenarioDoesNotListIsRefused) {
   ExpectOnly(subject, ViolationKind::kAction, "'hop' is not among the scenario's actions");
 }
 
-/// Only in memory: a file has to list some.
+/// Possible in memory only: a file must list some.
 TEST(VerifierProblem, AScenarioWithoutActionsAllowsAll) {
   VerifierSubject subject = WalkAndCrawl();
   subject.scenario.actions.clear();
@@ -71,7 +71,7 @@ TEST(VerifierProblem, AScenarioWithoutActionsAllowsAll) {
   ExpectOnly(subject, ViolationKind::kAction, "is no action");
 }
 
-/// A scenario may allow what only some program knows, if it is called as actions may be.
+/// A scenario may allow an action that only some program knows, if its name is a valid action name.
 TEST(VerifierProblem, AScenarioCannotAllowMarkup) {
   VerifierSubject subject = Hopping();
   subject.plan.segments.front().action = "<b>";
@@ -79,13 +79,13 @@ TEST(VerifierProblem, AScenarioCannotAllowMarkup) {
   ExpectOnly(subject, ViolationKind::kAction, "\"<b>\" is no action");
 }
 
-TEST(VerifierProblem, WalkingDoesNotFly) {
+TEST(VerifierProblem, AFlightInWalkingIsRefused) {
   VerifierSubject subject = Hopping();
   subject.plan.segments.front().action = "walk";
   ExpectOnly(subject, ViolationKind::kAction, "'walk' flies");
 }
 
-TEST(VerifierProblem, WalkingDoesNotLand) {
+TEST(VerifierProblem, AnImpactInWalkingIsRefused) {
   VerifierSubject subject = Hopping();
   Segment& hop = subject.plan.segments.front();
   Segment landing{"walk", {hop.phases.back()}};
@@ -94,22 +94,22 @@ TEST(VerifierProblem, WalkingDoesNotLand) {
   ExpectOnly(subject, ViolationKind::kAction, "'walk' hits the ground");
 }
 
-/// Whatever it is called: hands are no part of walking.
-TEST(VerifierProblem, CrawlingIsNotWalkingByAnotherName) {
+/// The name does not matter: hands are no part of walking.
+TEST(VerifierProblem, CrawlingDeclaredAsWalkingIsRefused) {
   VerifierSubject subject = WalkAndCrawl();
   for (Segment& segment : subject.plan.segments) segment.action = "walk";
   subject.scenario.actions = {"walk"};
   ExpectOnly(subject, ViolationKind::kAction, "'walk' bears on left_peg");
 }
 
-TEST(VerifierProblem, ActionsFollowEachOther) {
+TEST(VerifierProblem, AnActionInAnotherGaitThanTheOneBeforeIsRefused) {
   VerifierSubject subject = WalkAndCrawl();
   subject.plan.segments[1].action = "crawl";
   ExpectOnly(subject, ViolationKind::kAction,
              "'crawl' begins in the gait 'crawl', the segment before it ends in 'walk'");
 }
 
-TEST(VerifierProblem, OnlyTheRobotsTransitionsLeadFromGaitToGait) {
+TEST(VerifierProblem, ATransitionThatTheRobotLacksIsRefused) {
   VerifierSubject subject = WalkAndCrawl();
   subject.robot.transitions.clear();
   ExpectOnly(subject, ViolationKind::kAction, "the robot has no transition");
@@ -123,8 +123,8 @@ TEST(VerifierProblem, ARobotThatIsNotTheScenariosIsRefused) {
   ExpectOnly(subject, ViolationKind::kFileMismatch, "the scenario's is");
 }
 
-/// The root where it should be, one foot 5 cm before its place and the other as much behind it.
-TEST(VerifierProblem, FeetAreWhereTheStanceHasThem) {
+/// The root is where it should be, one foot 5 cm before its place and the other as far behind it.
+TEST(VerifierProblem, FeetOffTheirPlacesInTheStanceAreRefused) {
   const VerificationReport report = Verified(testing::StandingPlan(kDrcHubo1, 0.05));
   ASSERT_EQ(report.violations.size(), 2u) << FormatText(report);
   for (const Violation& violation : report.violations) {
@@ -136,7 +136,7 @@ TEST(VerifierProblem, FeetAreWhereTheStanceHasThem) {
   EXPECT_NE(Found(report, ViolationKind::kGoal), "");
 }
 
-TEST(VerifierProblem, TheRootMaySwayBeyondTheBoundsAndNoFarther) {
+TEST(VerifierProblem, SwayOfTheRootBeyondTheBoundsIsLimited) {
   VerifierSubject subject = ValidSubject();
   double farthest = -1;  // m, of the root in y
   for (const Knot* knot : testing::KnotsOf(&subject.plan)) {
@@ -164,14 +164,14 @@ Knot RandomKnot(double t, std::mt19937* generator) {
   return knot;
 }
 
-/// Against the interpolant, looked at every 1/2000 of the way: between knots as well as at them.
-TEST(VerifierProblem, FindsTheFarthestPlaceBetweenKnots) {
+/// Compared with the interpolant at steps of 1/2000 of the way, between knots as well as at them.
+TEST(VerifierProblem, FindsTheFarthestPlaceBeyondTheBoundsBetweenKnots) {
   std::mt19937 generator(31);
   std::uniform_real_distribution<double> unit(0, 1);
   models::Scenario scenario;
   scenario.environment.bounds = {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, 1)};
   int beyond = 0;
-  int hidden = 0;  // beyond between the knots alone
+  int hidden = 0;  // beyond the bounds between the knots alone
   for (int trial = 0; trial < 500; ++trial) {
     const double duration = std::pow(10, -2 * unit(generator));
     const Knot k0 = RandomKnot(0.5, &generator);
@@ -200,7 +200,7 @@ TEST(VerifierProblem, FindsTheFarthestPlaceBetweenKnots) {
   EXPECT_GT(hidden, 20);
 }
 
-TEST(VerifierProblem, BoundsThatAreEmptyBoundNothing) {
+TEST(VerifierProblem, EmptyBoundsBoundNothing) {
   std::mt19937 generator(32);
   Plan plan;
   plan.segments = {

@@ -70,7 +70,7 @@ TEST(Verifier, AMasterBearsTheTorqueOfItsMimic) {
   EXPECT_NEAR(violation->value, most, 0.01 * most);
 }
 
-TEST(Verifier, AcceptsWhatWasWrittenAndReadBack) {
+TEST(Verifier, AcceptsAPlanWrittenAndReadBack) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() /
       ("possibility_verifier_test_" + std::to_string(::getpid()) + ".json");
@@ -134,7 +134,7 @@ TEST(RealiseForces, LeavesNothingOnTheUnactuatedRows) {
   }
 }
 
-TEST(RealiseForces, KeepsWhatIsConsistent) {
+TEST(RealiseForces, KeepsConsistentForcesAndTorques) {
   const VerifierSubject& subject = ValidSubject();
   const Phase& phase = subject.plan.segments[0].phases[0];
   const std::vector<BearingPoint> points = BearingPoints(subject.robot, phase);
@@ -148,7 +148,7 @@ TEST(RealiseForces, KeepsWhatIsConsistent) {
   }
 }
 
-/// The robot as a projectile, 16 m/s: 4 m from sample to sample at a resolution of 0.25 s.
+/// The robot as a projectile at 16 m/s: 4 m from sample to sample at a resolution of 0.25 s.
 VerifierSubject Projectile() {
   VerifierSubject subject = ValidSubject();
   Knot knot = subject.plan.segments[0].phases[0].knots[0];
@@ -167,7 +167,7 @@ VerifierSubject Projectile() {
   return subject;
 }
 
-TEST(Verifier, FindsWhatIsPassedThroughBetweenSamples) {
+TEST(Verifier, FindsAPenetrationBetweenSamples) {
   VerifierSubject subject = Projectile();
   VerifierSettings settings;
   settings.resolution = 0.25;
@@ -185,7 +185,7 @@ TEST(Verifier, FindsWhatIsPassedThroughBetweenSamples) {
   EXPECT_LT(violation->time, 0.25);
 }
 
-/// A foot that creeps by less than 1 mm in each segment has moved all the same.
+/// A foot that creeps by less than 1 mm in each segment has moved over the plan.
 TEST(Verifier, FollowsContactsAcrossSegments) {
   for (const double distance : {0.0008, 0.0012}) {
     VerifierSubject subject = ValidSubject();
@@ -233,7 +233,7 @@ TEST(Verifier, FindsAnArmInTheTorso) {
   EXPECT_NE(violation->quantity.find("Body_Torso"), std::string::npos) << violation->quantity;
 }
 
-/// Whatever the numbers, the verifier comes to a verdict, and it is no.
+/// For any numbers, the verifier reaches a verdict, and it is a rejection.
 TEST(Verifier, RejectsWildNumbers) {
   std::mt19937 generator(22);
   for (int trial = 0; trial < 150; ++trial) {
@@ -249,7 +249,7 @@ TEST(Verifier, RejectsWildNumbers) {
   }
 }
 
-TEST(Verifier, RefusesSenselessSettings) {
+TEST(Verifier, RefusesInvalidSettings) {
   VerifierSettings settings;
   settings.resolution = 0;
   EXPECT_THROW(Verified(ValidSubject(), settings), std::invalid_argument);
