@@ -46,7 +46,7 @@ class RandomGeometry {
     return X;
   }
 
-  /// A shape of a robot link's size times `scale`.
+  /// A shape of the size of a robot link, times `scale`.
   Shape AnyShape(ShapeType type, double scale = 1) {
     const auto length = [&] { return scale * Uniform(0.05, 0.3); };
     switch (type) {

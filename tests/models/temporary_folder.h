@@ -9,7 +9,7 @@
 
 namespace possibility::models {
 
-/// A fresh folder that disappears with the object.
+/// A new folder that is removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -7,14 +7,14 @@
 namespace possibility::models {
 namespace {
 
-TEST(ActionName, IsShortAndOfLettersDigitsAndTwoSigns) {
+TEST(ActionName, AcceptsShortNamesOfLettersDigitsAndTwoSigns) {
   for (const std::string& name : {std::string("walk"), std::string("step_up"), std::string("X"),
                                   std::string("jump-2"), std::string(64, 'a')}) {
     EXPECT_TRUE(IsActionName(name)) << name;
   }
 }
 
-TEST(ActionName, IsNothingThatAPageOrATerminalOrAPathWouldReadOtherwise) {
+TEST(ActionName, RefusesMarkupPathsAndControlCharacters) {
   for (const std::string& name :
        {std::string(), std::string("<b>"), std::string("../walk"), std::string("a/b"),
         std::string("walk\0", 5), std::string("\0", 1), std::string("a b"), std::string("a\n"),

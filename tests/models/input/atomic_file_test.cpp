@@ -1,4 +1,4 @@
-// Files are complete or absent, and what killed writers left is removed by the next one.
+// A file is complete or absent. The next writer removes what killed writers left.
 
 #include "models/input/atomic_file.h"
 
@@ -47,7 +47,7 @@ void Kill(pid_t child) {
   ::waitpid(child, nullptr, 0);
 }
 
-TEST(AtomicFile, ReplacesOnlyAtTheEnd) {
+TEST(AtomicFile, ReplacesTheFileOnlyOnCommit) {
   const TemporaryFolder folder;
   const fs::path file = folder.Write("a.txt", "old");
   {
@@ -69,7 +69,7 @@ TEST(AtomicFile, WithoutCommitNothingChanges) {
   EXPECT_EQ(FilesIn(folder.path()), 1);
 }
 
-TEST(AtomicFile, RemovesWhatKilledWritersLeft) {
+TEST(AtomicFile, RemovesTemporaryFilesOfKilledWriters) {
   const TemporaryFolder folder;
   std::vector<pid_t> writers;
   for (const char* name : {"a.txt", "b.txt", "c.txt"}) {
@@ -82,7 +82,7 @@ TEST(AtomicFile, RemovesWhatKilledWritersLeft) {
   EXPECT_EQ(ReadFileContents(folder.path() / "d.txt"), "whole");
 }
 
-TEST(AtomicFile, LeavesTheFilesOfLivingWriters) {
+TEST(AtomicFile, KeepsTemporaryFilesOfRunningWriters) {
   const TemporaryFolder folder;
   const pid_t other = StartWriter(folder.path() / "a.txt");
   WriteAtomically(folder.path() / "a.txt", "whole");
@@ -106,7 +106,7 @@ TEST(AtomicFile, WritersOfOneFileDoNotDisturbEachOther) {
   EXPECT_EQ(FilesIn(folder.path()), 1);
 }
 
-TEST(AtomicFile, RefusesWhatCannotBeWritten) {
+TEST(AtomicFile, RefusesAFolderAndAMissingFolder) {
   const TemporaryFolder folder;
   EXPECT_THROW(AtomicFile(folder.path()), InputError);
   EXPECT_THROW(AtomicFile(folder.path() / "missing" / "a.txt"), InputError);

@@ -9,18 +9,18 @@ namespace possibility::models {
 namespace {
 
 TEST(ContentHash, IsTheCanonicalXxh3) {
-  // The value that xxHash's specification gives for no input.
+  // The value that xxHash's specification gives for empty input.
   EXPECT_EQ(ContentHash(""), "99aa06d3014798d86001c324468d497f");
   EXPECT_NE(ContentHash("abc"), ContentHash("abd"));
 }
 
-TEST(HashOfParts, IsThatOfNumberLengthsAndBytes) {
+TEST(HashOfParts, IsTheHashOfNumberLengthsAndBytes) {
   const std::string two("\2\0\0\0\0\0\0\0", 8);
   const std::string one("\1\0\0\0\0\0\0\0", 8);
   EXPECT_EQ(HashOfParts({"ab", "c"}), ContentHash(two + two + "ab" + one + "c"));
 }
 
-TEST(HashOfParts, KnowsWhereAPartEnds) {
+TEST(HashOfParts, DependsOnWhereAPartEnds) {
   EXPECT_NE(HashOfParts({"ab", "c"}), HashOfParts({"a", "bc"}));
   EXPECT_NE(HashOfParts({"ab", "c"}), HashOfParts({"abc"}));
   EXPECT_NE(HashOfParts({"abc", ""}), HashOfParts({"", "abc"}));
@@ -34,7 +34,7 @@ TEST(ReadFileContents, ReturnsEveryByte) {
   EXPECT_EQ(ReadFileContents(folder.Write("empty", "")), "");
 }
 
-TEST(ReadFileContents, RefusesWhatIsNoFile) {
+TEST(ReadFileContents, RefusesAFolderAndAMissingFile) {
   const TemporaryFolder folder;
   EXPECT_THROW(ReadFileContents(folder.path()), InputError);
   EXPECT_THROW(ReadFileContents(folder.path() / "missing"), InputError);

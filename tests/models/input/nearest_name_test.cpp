@@ -14,14 +14,14 @@ TEST(NearestName, FindsTheFewestEdits) {
   EXPECT_EQ(NearestName("longjump", kKnown), "long_jump");
 }
 
-TEST(NearestName, KeepsSilentWhenNothingIsNear) {
+TEST(NearestName, IsEmptyWhenNothingIsNear) {
   EXPECT_EQ(NearestName("swim", kKnown), "");
   EXPECT_EQ(NearestName("", kKnown), "");
   EXPECT_EQ(NearestName("walk", {}), "");
   EXPECT_EQ(NearestName(std::string(10000, 'w'), kKnown), "");
 }
 
-TEST(NearestName, WordsTheSuggestion) {
+TEST(NearestName, DidYouMeanNamesTheSuggestion) {
   EXPECT_EQ(DidYouMean("wlak", kKnown), " (did you mean 'walk'?)");
   EXPECT_EQ(DidYouMean("swim", kKnown), "");
 }

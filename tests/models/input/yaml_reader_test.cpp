@@ -36,14 +36,14 @@ TEST(YamlReader, ReadsEveryType) {
   EXPECT_EQ(root.Entries().size(), 8u);
 }
 
-TEST(YamlReader, NumbersAreWholeAndDecimal) {
+TEST(YamlReader, MalformedNumbersAreRefused) {
   for (const std::string bad : {"1.0m", "0x10", "1,5", "--1", "+-1", "1 2", "''", "true", "1e",
                                 "[1]", "{a: 1}", "", "1e999"}) {
     EXPECT_THROW(Parse("a: " + bad).At("a").Number(), InputError) << bad;
   }
 }
 
-TEST(YamlReader, RefusesWhatIsNotOneDocument) {
+TEST(YamlReader, RefusesNoneOrSeveralDocuments) {
   EXPECT_EQ(ErrorOf(""), "a.yaml: expected a YAML map, got nothing");
   EXPECT_EQ(ErrorOf("~"), "a.yaml: expected a YAML map, got nothing");
   EXPECT_EQ(ErrorOf("a: 1\n---\nb: 2\n"),
@@ -83,7 +83,7 @@ TEST(YamlReader, MessagesAreOneShortLine) {
   }
 }
 
-// A recursive alias is a map that contains itself; reading by a schema ends all the same.
+// A recursive alias is a map that contains itself. Reading by a schema must end all the same.
 TEST(YamlReader, SurvivesRecursiveAliases) {
   const YamlNode root = Parse("a: &x {a: *x}");
   EXPECT_THROW(root.At("a").At("a").At("a").Number(), InputError);

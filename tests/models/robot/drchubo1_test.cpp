@@ -1,4 +1,4 @@
-// The model in models/drchubo1 against the published facts of DRC-HUBO1.
+// The model in models/drchubo1, compared with the published facts of DRC-HUBO1.
 
 #include <gtest/gtest.h>
 
@@ -123,7 +123,7 @@ TEST(DrcHubo1, CrawlingPostureIsTheSolvedOne) {
   EXPECT_NEAR(com.z(), 0.457, 1e-3);
 }
 
-TEST(DrcHubo1, SitsDownFromWalkingToCrawling) {
+TEST(DrcHubo1, HasTheTransitionFromWalkingToCrawling) {
   const RobotModel& robot = DrcHubo1();
   ASSERT_EQ(robot.transitions.size(), 1u);
   EXPECT_EQ(robot.transitions[0].from, "walk");

@@ -13,7 +13,7 @@ namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// Spatial inertia about the world origin; adding them is all the physics lumping needs.
+// Spatial inertia about the world origin. Lumping needs no other physics than their sum.
 Matrix6d SpatialInertia(const Inertial& body, const Eigen::Isometry3d& X_WL) {
   const Eigen::Vector3d c = X_WL * body.p_LC;
   Eigen::Matrix3d cross;
@@ -67,7 +67,7 @@ class DrcHubo1Lumping : public testing::Test {
     tree_ = ParseUrdf(ReadFileContents(folder + "drchubo1.urdf"), "drchubo1.urdf");
   }
 
-  // Poses of all 52 links of the URDF, joints that the model has lumped at 0.
+  // Poses of all 52 links of the URDF, with the joints that the model has lumped at 0.
   std::map<std::string, Eigen::Isometry3d> FullPoses(const Eigen::VectorXd& joints,
                                                      const Eigen::Isometry3d& X_WR) const {
     std::map<std::string, Eigen::Isometry3d> X_WL = {{tree_.root, X_WR}};

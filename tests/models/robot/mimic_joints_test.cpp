@@ -1,4 +1,4 @@
-// A robot with two arms whose joints are coupled, read from its files and spoilt.
+// A robot with two arms whose joints are coupled, read from its files, which the tests modify.
 
 #include "models/robot/mimic_joints.h"
 
@@ -90,7 +90,7 @@ TEST(MimicJoints, MasterMayComeBeforeOrAfter) {
   EXPECT_LT(robot.joints[robot.JointIndex("b_3")].mimic->joint, robot.JointIndex("b_3"));
 }
 
-/// a_3 follows b_3 follows b_1: what each link of the chain says must hold for any value of b_1.
+/// a_3 follows b_3, which follows b_1. Each coupling of the chain must hold for any value of b_1.
 TEST(MimicJoints, ChainsFollowTheLastMaster) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0.1, 2);
@@ -124,7 +124,7 @@ TEST(MimicJoints, LumpedMimicIsHeldAtZero) {
   EXPECT_EQ(robot.num_joints(), 11);
 }
 
-TEST(MimicJoints, TellsCoupledJoints) {
+TEST(MimicJoints, MasterAndMimicAreCoupled) {
   const RobotModel robot = Load(ArmedYaml(), ArmedUrdf({{"a_3", Element("b_1", 2, 0)}}));
   for (int i = 0; i < robot.num_joints(); ++i) {
     const std::string& name = robot.joints[i].name;
@@ -151,7 +151,7 @@ void PrintTo(const BadCoupling& bad, std::ostream* stream) { *stream << bad.what
 
 class MimicErrors : public testing::TestWithParam<BadCoupling> {};
 
-TEST_P(MimicErrors, OneLineSaysWhatIsWrong) {
+TEST_P(MimicErrors, EachFaultIsNamedInOneLine) {
   const BadCoupling& bad = GetParam();
   EXPECT_EQ(MessageOf(ArmedYaml(bad.posture, bad.lump), ArmedUrdf(bad.mimics)), bad.message);
 }

@@ -1,4 +1,4 @@
-// Every way to spoil a robot's files, and the one line it is answered with.
+// Ways to spoil a robot's files, each with the one line of its error message.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 struct BadRobot {
   std::string what;
   bool in_urdf;
-  std::string from;  ///< replaced once, wherever it first appears; empty: the whole file
+  std::string from;  ///< replaced once, at its first occurrence; empty: the whole file
   std::string to;
   std::string message;  ///< without the folder
 };
@@ -46,7 +46,7 @@ std::string MessageOf(const std::string& yaml, const std::string& urdf) {
 
 class RobotErrors : public testing::TestWithParam<BadRobot> {};
 
-TEST_P(RobotErrors, OneLineSaysWhatIsWrong) {
+TEST_P(RobotErrors, EachFaultIsNamedInOneLine) {
   const BadRobot& bad = GetParam();
   const std::string yaml = TwoLeggedYaml();
   const std::string urdf = TwoLeggedUrdf();
@@ -59,7 +59,7 @@ TEST(RobotErrorsBaseline, TheUnspoiltRobotLoads) {
   EXPECT_EQ(MessageOf(TwoLeggedYaml(), TwoLeggedUrdf()), "no error");
 }
 
-TEST(RobotErrorsBaseline, MissingYaml) {
+TEST(RobotErrorsBaseline, AMissingYamlIsNamed) {
   try {
     LoadRobotModel("/nowhere/robot.yaml");
     FAIL();
@@ -68,7 +68,7 @@ TEST(RobotErrorsBaseline, MissingYaml) {
   }
 }
 
-TEST(RobotErrorsBaseline, FolderInPlaceOfYaml) {
+TEST(RobotErrorsBaseline, AFolderInPlaceOfTheYamlIsRefused) {
   const TemporaryFolder folder;
   EXPECT_THROW(LoadRobotModel(folder.path()), InputError);
 }

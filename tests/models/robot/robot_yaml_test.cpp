@@ -19,7 +19,7 @@ RobotModel LoadTwoLegged() {
   return LoadRobotModel(folder.Write("robot.yaml", TwoLeggedYaml()));
 }
 
-TEST(RobotYaml, FillsTheModel) {
+TEST(RobotYaml, ReadsTheModel) {
   const RobotModel robot = LoadTwoLegged();
   EXPECT_EQ(robot.name, "two_legged");
   EXPECT_EQ(robot.num_joints(), 6);
@@ -81,7 +81,7 @@ TEST(RobotYaml, HashDependsOnBothFilesAndNothingElse) {
   EXPECT_NE(LoadRobotModel(first.path() / "robot.yaml").content_hash, hash);
 }
 
-/// A comment may end the YAML or begin the URDF: two robots, if only to a reader.
+/// A comment may end the YAML or begin the URDF. The robots differ, if only for a reader.
 TEST(RobotYaml, HashChangesWhenTextMovesFromOneFileToTheOther) {
   const std::string moved = "<!-- moved -->";
   const TemporaryFolder folder;

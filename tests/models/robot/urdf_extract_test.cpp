@@ -1,4 +1,4 @@
-// What urdfdom gets to see of a URDF. It hands texts of the file to printf as formats.
+// The text of a URDF that urdfdom sees. urdfdom passes texts of the file to printf as formats.
 
 #include "models/robot/urdf_extract.h"
 
@@ -40,7 +40,7 @@ TEST(UrdfExtract, LegalPercentSignsLoad) {
   EXPECT_EQ(robot.links[1].name, "l%hip");
 }
 
-// '!' sorts before '%', and what stands for '%' before '!'.
+// '!' sorts before '%', but the replacement of '%' sorts before '!'.
 TEST(UrdfExtract, NamesStaySorted) {
   std::string urdf = Replaced(TwoLeggedUrdf(), "l_hip", "a%");
   urdf = Replaced(urdf, "r_hip", "a!");
@@ -53,7 +53,7 @@ TEST(UrdfExtract, NamesStaySorted) {
   EXPECT_EQ(tree.joints[1].name, "b%");
 }
 
-TEST(UrdfExtract, WhateverTheTextThereIsNoPercentSign) {
+TEST(UrdfExtract, TheExtractNeverHoldsAPercentSign) {
   const std::string tokens[] = {"%n", "%", "&#37;", "&#x25;", "%s", "&amp;#37;"};
   const std::string urdf = TwoLeggedUrdf();
   std::mt19937 random(5);
@@ -70,7 +70,7 @@ TEST(UrdfExtract, WhateverTheTextThereIsNoPercentSign) {
   EXPECT_GT(extracted, 200);
 }
 
-TEST(UrdfExtract, TheRobotStaysTheSame) {
+TEST(UrdfExtract, KeepsLinksAndJointsAndIsIdempotent) {
   const std::filesystem::path file =
       std::filesystem::path(POSSIBILITY_SOURCE_DIR) / "models/drchubo1/drchubo1.urdf";
   const std::string extract = ExtractUrdf(ReadFileContents(file), file);

@@ -42,7 +42,7 @@ TEST(BoundsTree, VisitsExactlyTheItemsWithinTheLimit) {
   }
 }
 
-TEST(BoundsTree, ItemsAsLargeAsAllOthersTogetherAreFoundLikeTheRest) {
+TEST(BoundsTree, VeryLargeItemsAreVisitedLikeTheRest) {
   testing::RandomGeometry random(3);
   std::vector<AlignedBox3d> items;
   for (int i = 0; i < 300; ++i) items.push_back(RandomBounds(&random));

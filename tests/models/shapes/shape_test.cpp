@@ -47,8 +47,8 @@ Vector3d AnyPoint(const Shape& shape, RandomGeometry* random) {
          share * shape.vertices[random->Index(count)];
 }
 
-/// How far outside the shape a point is in terms of its defining inequalities; mesh: from the
-/// nearest vertex, where support points must lie.
+/// How far a point is outside the shape, by the shape's defining inequalities. For a mesh: the
+/// distance from the nearest vertex, where support points must lie.
 double Violation(const Shape& shape, const Vector3d& p) {
   const double beyond_ends = std::abs(p.z()) - shape.length / 2;
   switch (shape.type) {
@@ -126,7 +126,7 @@ TEST(Shape, BoundsAreTight) {
   }
 }
 
-TEST(Shape, FactoriesRefuseWhatHasNoExtent) {
+TEST(Shape, FactoriesRefuseInvalidDimensions) {
   EXPECT_THROW(Shape::Box({1, 0, 1}), InputError);
   EXPECT_THROW(Shape::Box({1, 1, kNaN}), InputError);
   EXPECT_THROW(Shape::Sphere(-1), InputError);

@@ -132,7 +132,7 @@ TEST(SignedDistance, CapsuleOverAFloor) {
     Isometry3d X = random.Pose(9);
     X.translation().z() = random.Uniform(0.0, 0.4);
     const double lowest = X.translation().z() - length / 2 * std::abs(X.linear()(2, 2));
-    // Deeper in, sideways becomes the shorter way out only near the floor's rim.
+    // Deeper in, sideways is the shorter way out only near the floor's edge.
     EXPECT_NEAR(Distance(Shape::Capsule(radius, length), X, floor, At(0, 0, -0.05)),
                 std::max(lowest, -0.1 - 2 * length) - radius, 1e-6)
         << trial;
@@ -193,7 +193,8 @@ TEST(SignedDistance, AgreesWithDirectSearch) {
     const Isometry3d X_WB = random.Pose(0.15);
     const double slow = SlowDistance(a, X_WA, b, X_WB);
     const double distance = Distance(a, X_WA, b, X_WB);
-    // The search sticks on ridges, so it falls short by more than what it is compared with.
+    // The search gets stuck on ridges, so it falls short by more than the tolerance of the
+    // comparison.
     EXPECT_GE(distance, slow - kTolerance)
         << trial << " types " << static_cast<int>(a.type) << static_cast<int>(b.type);
     EXPECT_LE(distance, slow + 5e-3)
@@ -212,7 +213,7 @@ TEST(SignedDistance, IsSymmetricAndInvariantUnderRigidMotion) {
   }
 }
 
-TEST(SignedDistance, EnoughShortensOnlyAnswersBeyondIt) {
+TEST(SignedDistance, DistancesBelowEnoughAreExact) {
   RandomGeometry random(7);
   for (int trial = 0; trial < 5000; ++trial) {
     const Shape a = random.AnyShape(), b = random.AnyShape();

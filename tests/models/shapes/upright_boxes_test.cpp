@@ -31,7 +31,7 @@ Environment RandomScene(int count, RandomGeometry* random) {
   return environment;
 }
 
-/// Some of them just above the floor.
+/// Random boxes, some of them just above the floor.
 UprightBoxes RandomBoxes(RandomGeometry* random) {
   std::vector<AlignedBox3d> boxes;
   for (int i = random->Index(4); i >= 0; --i) {
@@ -50,7 +50,7 @@ Isometry3d RandomStance(RandomGeometry* random) {
   return X;
 }
 
-TEST(UprightBoxes, AreFreeIfEachIs) {
+TEST(UprightBoxes, AreFreeExactlyIfEachBoxIs) {
   RandomGeometry random(11);
   int free = 0;
   int blocked = 0;
@@ -109,8 +109,8 @@ TEST(UprightBoxes, CertainlyFreeBoxesKeepTheirDistance) {
   EXPECT_GT(certain, 500);
 }
 
-TEST(UprightBoxes, PrismsTellUprightBoxesApartExactly) {
-  // Of two upright boxes the distance is positive just when their prisms are apart.
+TEST(UprightBoxes, PrismsAreApartExactlyWhereTheDistanceIsPositive) {
+  // The distance of two upright boxes is positive exactly if their prisms are apart.
   RandomGeometry random(13);
   for (int trial = 0; trial < 2000; ++trial) {
     const Vector3d size_a(random.Uniform(0.1, 1), random.Uniform(0.1, 1), random.Uniform(0.1, 1));

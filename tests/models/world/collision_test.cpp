@@ -30,7 +30,7 @@ double PairDistance(const Shape& a, const Isometry3d& X_WA, const Shape& b,
   return SignedDistance(A, A.CorePose(X_WA), B, B.CorePose(X_WB), kFar);
 }
 
-/// A floor and `count` shapes strewn over it.
+/// A floor and `count` shapes scattered over it.
 Environment RandomScene(int count, double half_width, RandomGeometry* random) {
   Environment environment;
   Isometry3d X_floor = Isometry3d::Identity();
@@ -80,7 +80,7 @@ void ExpectSame(const std::vector<Proximity>& found, const std::vector<Proximity
   }
 }
 
-/// The nearest of the link's shapes to the other link's or obstacle's.
+/// The distance of the link's nearest shape to the other link's shapes or the obstacle's.
 double LinkDistance(const Link& link, const Isometry3d& X_WL, const std::vector<PosedShape>& others,
                     const Isometry3d& X_WO) {
   double nearest = kFar;
@@ -168,8 +168,8 @@ TEST(CollisionChecker, ClearanceIsTheNearestObstaclesDistance) {
   }
 }
 
-/// The shape's supporting plane normal to a random direction lies `gap` away from the obstacle's,
-/// support points face to face: the distance is exactly the gap.
+/// The supporting planes of shape and obstacle normal to a random direction are `gap` apart, with
+/// the support points face to face. Their distance is exactly the gap.
 TEST(CollisionChecker, IsNeverFreeWithinTheMargin) {
   RandomGeometry random(4);
   for (int trial = 0; trial < 20000; ++trial) {
@@ -246,7 +246,7 @@ TEST(CollisionChecker, SoleAtRestHasNoDepth) {
   }
 }
 
-TEST(CollisionChecker, LargeSceneIsSearchedLikeASmallOne) {
+TEST(CollisionChecker, ClearanceIsExactInALargeScene) {
   RandomGeometry random(7);
   const Environment environment = RandomScene(10000, 9, &random);
   const CollisionChecker checker(environment);
@@ -288,7 +288,7 @@ TEST(CollisionChecker, OneCheckerServesTwoThreads) {
   ExpectSame(second, alone);
 }
 
-TEST(CollisionChecker, BadPosesAreRefusedOrCollide) {
+TEST(CollisionChecker, WrongNumbersOfPosesAreRefusedAndNaNCollides) {
   RandomGeometry random(9);
   RobotModel robot = RandomChain(1, &random);
   robot.links.resize(3);

@@ -61,7 +61,7 @@ TEST(GroundMap, RectangleHasAClosedForm) {
   }
 }
 
-TEST(GroundMap, WhatOneFaceHoldsIsClearAllAlongTheLine) {
+TEST(GroundMap, AWayHeldByOneFaceIsClearAlongTheLine) {
   RandomGeometry random(5);
   int held = 0;
   for (int scene = 0; scene < 40; ++scene) {
@@ -79,7 +79,7 @@ TEST(GroundMap, WhatOneFaceHoldsIsClearAllAlongTheLine) {
     }
   }
   EXPECT_GT(held, 100);
-  // On a single face nothing is missed.
+  // On a single face the answer is exact.
   const GroundMap map = Map({Ground(0, 0, 0, 4, 2)});
   EXPECT_TRUE(map.OneFaceHolds(0, {-1.4, 0.4}, {1.4, -0.4}, 0.59));
   EXPECT_FALSE(map.OneFaceHolds(0, {-1.4, 0.4}, {1.4, -0.4}, 0.61));
@@ -87,7 +87,7 @@ TEST(GroundMap, WhatOneFaceHoldsIsClearAllAlongTheLine) {
   EXPECT_THROW(map.OneFaceHolds(1, {0, 0}, {0, 0}, 0.1), std::out_of_range);
 }
 
-/// Within the clearance of p everything is alike, and a little farther something differs.
+/// Within the clearance of p all points are alike; a little farther, some point differs.
 TEST(GroundMap, UnionsOfYawedBoxesAgreeWithPointSampling) {
   RandomGeometry random(2);
   int inside = 0, outside = 0, unseen = 0;
@@ -120,13 +120,13 @@ TEST(GroundMap, UnionsOfYawedBoxesAgreeWithPointSampling) {
       if (!differs_beyond) ++unseen;
     }
   }
-  // Rings of samples miss the odd sliver of ground or hole.
+  // Rings of samples may miss a sliver of ground or a small hole.
   EXPECT_LT(unseen, 20);
   EXPECT_GT(inside, 500);
   EXPECT_GT(outside, 500);
 }
 
-TEST(GroundMap, IsNearIsToldByTheClearance) {
+TEST(GroundMap, IsNearAgreesWithTheClearance) {
   RandomGeometry random(6);
   int near = 0, far = 0;
   for (int scene = 0; scene < 40; ++scene) {
@@ -178,7 +178,7 @@ TEST(GroundMap, AbuttingFacesHaveNoSeam) {
   }
 }
 
-TEST(GroundMap, IdenticalFacesKeepTheirEdge) {
+TEST(GroundMap, IdenticalFacesHaveTheClearanceOfOne) {
   RandomGeometry random(4);
   for (int trial = 0; trial < 200; ++trial) {
     const double yaw = random.Uniform(-4, 4), x = random.Uniform(-9, 9);
@@ -188,7 +188,7 @@ TEST(GroundMap, IdenticalFacesKeepTheirEdge) {
   }
 }
 
-TEST(GroundMap, GapsAndHolesAreSeen) {
+TEST(GroundMap, GapsAndHolesReduceTheClearance) {
   // A ring of four bars about a square hole of 1 m, and a slit of 1 mm beside it.
   const GroundMap map = Map({Ground(-1, 0, 0, 1, 3), Ground(1, 0, 0, 1, 3), Ground(0, 1, 0, 1, 1),
                              Ground(0, -1, 0, 1, 1), Ground(2.001, 0, 0, 1, 3)});
@@ -221,7 +221,7 @@ TEST(GroundMap, LevelsAreSortedMergedAndFound) {
   EXPECT_THROW(map.Clearance(-1, {0, 0}), std::out_of_range);
 }
 
-TEST(GroundMap, OnlyGroundCounts) {
+TEST(GroundMap, ObstaclesThatAreNoGroundHaveNoLevel) {
   Obstacle wall = Ground(0, 0, 2, 1, 1);
   wall.is_ground = false;
   Obstacle ball{"ball", Shape::Sphere(1), Isometry3d::Identity(), false};

@@ -42,8 +42,8 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// The name of a robot is no more than a path: what is there counts.
-TEST(ScenarioYaml, KnowsTheRobotThatItNames) {
+/// The scenario names its robot by a path. The content of the files there counts.
+TEST(ScenarioYaml, ARobotOfAnotherContentIsRefused) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.Write("room.yaml", kScenario);
   EXPECT_EQ(LoadScenario(file).robot_hash, "");
@@ -62,7 +62,7 @@ TEST(ScenarioYaml, KnowsTheRobotThatItNames) {
   EXPECT_THROW(CheckScenarioAgainstRobot(scenario, lighter), InputError);
 }
 
-TEST(ScenarioYaml, FillsTheScenario) {
+TEST(ScenarioYaml, ReadsTheScenario) {
   const TemporaryFolder folder;
   const Scenario scenario = LoadScenario(folder.Write("room.yaml", kScenario));
   EXPECT_EQ(scenario.name, "room");
@@ -82,7 +82,7 @@ TEST(ScenarioYaml, FillsTheScenario) {
   EXPECT_EQ(scenario.content_hash.size(), 32u);
 }
 
-TEST(ScenarioYaml, FillsTheEnvironment) {
+TEST(ScenarioYaml, ReadsTheEnvironment) {
   const TemporaryFolder folder;
   const Environment environment = LoadScenario(folder.Write("room.yaml", kScenario)).environment;
   EXPECT_EQ(environment.bounds.min(), Eigen::Vector2d(0, -1));
@@ -168,14 +168,14 @@ TEST(ScenarioYaml, JumpingScenariosFitTheRobot) {
 
 struct BadScenario {
   std::string what;
-  std::string from;  ///< replaced once, wherever it first appears
+  std::string from;  ///< replaced once, at its first occurrence
   std::string to;
   std::string message;  ///< without the folder
 };
 
 class ScenarioErrors : public testing::TestWithParam<BadScenario> {};
 
-TEST_P(ScenarioErrors, OneLineSaysWhatIsWrong) {
+TEST_P(ScenarioErrors, EachFaultIsNamedInOneLine) {
   const BadScenario& bad = GetParam();
   const TemporaryFolder folder;
   const std::filesystem::path file =
