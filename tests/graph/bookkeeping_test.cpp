@@ -1,4 +1,5 @@
-// PossibilityGraph, Reachability, VertexIndex, ActionGraph and the queues against brute force.
+// PossibilityGraph, Reachability, VertexIndex, ActionGraph and the queues, compared with brute
+// force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ namespace {
 
 using test::MakePoint;
 
-/// An action whose edges take as long as a hash of their ends says; sometimes no time at all.
+/// An action whose edges have durations from a hash of their ends. Some of the durations are zero.
 class TimedAction : public test::BandAction {
  public:
   TimedAction() : BandAction("timed", {0, 1}, 0.5, {}) {}
@@ -85,7 +86,7 @@ class RandomGraph : public ::testing::Test {
   std::unique_ptr<PossibilityGraph> graph_;
 };
 
-TEST_F(RandomGraph, ReachabilityIsThatOfBruteForceAfterEveryChange) {
+TEST_F(RandomGraph, ReachabilityAgreesWithBruteForceAfterEveryChange) {
   for (int round = 0; round < 5; ++round) {
     Build(1 + round);
     int changes_of_reach = 0;
@@ -113,7 +114,7 @@ TEST_F(RandomGraph, ReachabilityIsThatOfBruteForceAfterEveryChange) {
   }
 }
 
-TEST_F(RandomGraph, ShortestPathIsThatOfBellmanFord) {
+TEST_F(RandomGraph, ShortestPathAgreesWithBellmanFord) {
   int connected = 0;
   int unconnected = 0;
   for (int round = 0; round < 200; ++round) {
@@ -160,7 +161,7 @@ TEST_F(RandomGraph, ShortestPathIsThatOfBellmanFord) {
   EXPECT_GT(unconnected, 50);
 }
 
-TEST_F(RandomGraph, LeastDurationsAreThoseOfBellmanFord) {
+TEST_F(RandomGraph, LeastDurationsAgreeWithBellmanFord) {
   int reached = 0;
   for (int round = 0; round < 100; ++round) {
     Build(2);
@@ -217,7 +218,7 @@ TEST_F(RandomGraph, ExpectedDurationsMustBeFiniteAndNotNegative) {
   }
 }
 
-TEST_F(RandomGraph, AnEdgeAddedTwiceIsOneEdgeAndStaysRemoved) {
+TEST_F(RandomGraph, ARemovedEdgeAddedAgainStaysRemoved) {
   Build(1);
   graph_->Append(0, {{0, 1, true}});
   ASSERT_EQ(graph_->topology().num_edges(), 2);
@@ -228,7 +229,7 @@ TEST_F(RandomGraph, AnEdgeAddedTwiceIsOneEdgeAndStaysRemoved) {
   EXPECT_FALSE(graph_->Connected(1));
 }
 
-TEST_F(RandomGraph, SubGraphsAreTheWeakComponentsOfTheEdgesThatAreLeft) {
+TEST_F(RandomGraph, SubGraphsAreTheWeakComponentsOfTheRemainingEdges) {
   for (int round = 0; round < 30; ++round) {
     Build(1);
     ActionGraph action_graph(0, graph_.get());
@@ -270,7 +271,7 @@ TEST_F(RandomGraph, SubGraphsAreTheWeakComponentsOfTheEdgesThatAreLeft) {
   }
 }
 
-/// The closest of those that `admits`, by measuring all.
+/// The closest of the vertices that `admits` accepts, by measuring all distances.
 std::optional<VertexId> ClosestByMeasuring(const std::vector<Point>& points, const Point& target,
                                            const NearestVertices::Filter& admits) {
   std::optional<VertexId> closest;
@@ -291,7 +292,7 @@ TEST(NearestVertices, ClosestIsTheLeastOfAllDistances) {
     std::vector<Point> points;
     EXPECT_EQ(nearest.Closest(MakePoint(0, 0)), std::nullopt);
     for (int i = 0; i < 700; ++i) {
-      // Every seventh is a point that there is already.
+      // Every seventh point repeats an existing one.
       points.push_back(i % 7 == 6 ? points[i / 2] : Point(spread * room.RandomSample(&generator)));
       nearest.Insert(i, points.back());
       const Point target = spread * room.RandomSample(&generator);

@@ -28,7 +28,7 @@ double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Runs the queue until `count` results came, at most for `limit`.
+/// Runs the queue until there are `count` results, at most for `limit`.
 std::vector<JobResult> Collect(ConfirmationQueue* queue, int workers, std::size_t count,
                                double limit = 10) {
   std::vector<JobResult> all;
@@ -53,7 +53,7 @@ std::unique_ptr<ScriptedJob> Job(Ending ending, int steps, microseconds per_step
 class WithWorkers : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(ConfirmationQueue, WithWorkers, ::testing::Values(0, 1, 2));
 
-TEST_P(WithWorkers, EveryJobComesToItsOwnEnd) {
+TEST_P(WithWorkers, EveryJobGivesItsOwnOutcomeAndReason) {
   ConfirmationQueue queue({.slice = milliseconds(1),
                            .slices_per_turn = 3,
                            .checkpoints_per_turn = 6,
@@ -122,7 +122,7 @@ TEST_P(WithWorkers, ACancelledJobEndsAndTheOthersGoOn) {
   for (int tag = 0; tag < 6; ++tag) {
     queue.Insert(tag, Job(tag % 2 ? Ending::kConfirm : Ending::kNever, 10, milliseconds(1)), 0);
   }
-  // On a machine that is busy, some of those that end may have ended by then.
+  // On a busy machine, some of the jobs that confirm may have ended by then.
   std::vector<JobResult> results = Collect(&queue, GetParam(), 1, 0.005);
   for (const int tag : {0, 2, 4, 4, 99}) {
     queue.Cancel(tag, "a detour is confirmed");
@@ -149,7 +149,7 @@ TEST_P(WithWorkers, AJobThatTakesTooLongFails) {
   EXPECT_GE(results[0].seconds, 0.05);
 }
 
-TEST_P(WithWorkers, TheSlowestGivesWayWhenNoMoreThreadsMayBegin) {
+TEST_P(WithWorkers, TheSlowestJobFailsWhenTheThreadLimitIsReached) {
   ConfirmationQueue queue({.slice = milliseconds(1),
                            .slices_per_turn = 5,
                            .checkpoints_per_turn = 10,
@@ -170,7 +170,8 @@ TEST_P(WithWorkers, TheSlowestGivesWayWhenNoMoreThreadsMayBegin) {
   EXPECT_TRUE(confirmed);
 }
 
-/// Counts its steps, how many jobs of its kind run at once, and the order in which they begin.
+/// A job that counts its steps, the jobs of its kind that run at once, and the order of their
+/// starts.
 struct Tally {
   std::atomic<int> running = 0;
   std::atomic<int> most_running = 0;
@@ -232,7 +233,7 @@ TEST_P(Counted, NoMoreJobsRunThanThereAreWorkers) {
   EXPECT_EQ(tally_.most_running, std::max(GetParam(), 1));
 }
 
-TEST_P(CountedBeside, NobodyStarvesHoweverLittleHisAnswerIsWorth) {
+TEST_P(CountedBeside, EveryJobGetsSlicesWhateverItsCost) {
   ConfirmationQueue queue({.slice = milliseconds(1), .slices_per_turn = 1000000});
   queue.LaunchThreads(GetParam());
   std::vector<double> costs(kJobs, 1);
@@ -249,14 +250,14 @@ TEST_P(CountedBeside, NobodyStarvesHoweverLittleHisAnswerIsWorth) {
   }
   EXPECT_TRUE(all_had_a_few_slices());
   queue.CancelAll({});
-  // The two cheapest per worker share all but one slice in eight.
+  // The two cheapest jobs per worker share all but one slice in eight.
   const int front = 2 * GetParam();
   const int of_front = std::accumulate(steps_, steps_ + front, 0);
   const int of_others = std::accumulate(steps_ + front, steps_ + kJobs, 0);
   EXPECT_GT(of_front, 2 * of_others);
 }
 
-TEST_P(Counted, OneTurnAfterAnotherReachesEverybody) {
+TEST_P(Counted, EveryJobGetsATurn) {
   ConfirmationQueue queue(
       {.slice = milliseconds(1), .slices_per_turn = 2, .checkpoints_per_turn = 10});
   queue.LaunchThreads(GetParam());
@@ -270,7 +271,7 @@ TEST_P(Counted, OneTurnAfterAnotherReachesEverybody) {
   queue.CancelAll({});
 }
 
-TEST_P(CountedOneByOne, TheMostValuableAnswersComeFirst) {
+TEST_P(CountedOneByOne, JobsRunInOrderOfCost) {
   ConfirmationQueue queue({.slices_per_fair_slice = 1000000});
   std::vector<double> costs(kJobs);
   for (int tag = 0; tag < kJobs; ++tag) {
@@ -289,7 +290,7 @@ TEST_P(CountedOneByOne, TheMostValuableAnswersComeFirst) {
   }
 }
 
-/// The least time, s, that cancelling 20 endless jobs takes: the machine may be busy.
+/// The least time, s, of several attempts to cancel 20 endless jobs, since the machine may be busy.
 double LeastTimeToCancel(int workers) {
   double least = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 5 && least >= 0.05; ++attempt) {
@@ -311,7 +312,7 @@ TEST_P(WithWorkers, CancellingEndsWithin50Milliseconds) {
   EXPECT_LT(LeastTimeToCancel(GetParam()), 0.05);
 }
 
-/// Spends its time in a routine that is steered through its own handle.
+/// A job that spends its time in a routine with a pause, resume and cancel handle of its own.
 class SteeredJob : public ConfirmationJob {
  public:
   SteeredJob(std::atomic<int>* steps, int last_step) : steps_(steps), last_step_(last_step) {}
@@ -358,7 +359,7 @@ TEST_P(WithWorkers, SteeredJobsRotateAndEndLikeOthers) {
 
 TEST(ConfirmationQueue, WithoutWorkersTurnsAreCountedInCheckpoints) {
   ConfirmationQueue queue({.checkpoints_per_turn = 10});
-  // The last of 35 checkpoints is in the fourth turn, whatever is in between.
+  // The last of 35 checkpoints is in the fourth turn, however long the steps take.
   queue.Insert(0, Job(Ending::kConfirm, 35), 0);
   queue.Insert(1, Job(Ending::kConfirm, 35, microseconds(500)), 0);
   std::vector<std::vector<int>> ended;

@@ -44,7 +44,7 @@ void ExpectValidPath(const PathResult& result, const Point& start, const std::ve
   }
 }
 
-/// Walks where jobs decide: edges that lie within a stretch of x meet only necessary conditions.
+/// A walk that needs jobs: edges within a stretch of x meet only the necessary conditions.
 class UncertainAction : public BandAction {
  public:
   using Script = std::function<std::unique_ptr<ConfirmationJob>(const PointPair&)>;
@@ -70,7 +70,7 @@ UncertainAction::Script Always(Ending ending, int steps) {
   return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, steps); };
 }
 
-/// A walk that can only be done towards greater x.
+/// A walk that is only possible towards greater x.
 class OneWayAction : public BandAction {
  public:
   OneWayAction() : BandAction("one way", {0.7, 1.0}, 0.85, {}) {}
@@ -114,7 +114,7 @@ TEST(StickFigure, NoTwoVerticesAreTheSamePoint) {
   }
 }
 
-TEST(StickFigure, WithoutPassageTheOracleEndsTheSearch) {
+TEST(StickFigure, WithoutAPassageTheOraclesNoEndsTheSearch) {
   for (const auto& [answer, status] :
        {std::pair{RouteOracleAnswer::kExhausted, PathStatus::kExhausted},
         std::pair{RouteOracleAnswer::kProvenInfeasible, PathStatus::kProvenInfeasible},
@@ -162,7 +162,7 @@ std::vector<PathEdge> WayUnderTheBar() {
   return way;
 }
 
-/// Proposes routes that somebody else has thought out, one a turn.
+/// Proposes routes of a script, one per turn.
 class ScriptedExplorer : public Explorer {
  public:
   using Script = std::function<Findings()>;
@@ -177,13 +177,13 @@ class ScriptedExplorer : public Explorer {
   Script script_;
 };
 
-/// A script, and the paper's exploration after it.
+/// A scripted explorer first, then the paper's exploration.
 std::vector<ExplorerFactory> First(const ScriptedExplorer::Script& script) {
   return {[script](const ExplorerContext&) { return std::make_unique<ScriptedExplorer>(script); },
           RandomExploration()};
 }
 
-TEST(Explorers, WhoComesFirstIsAskedBeforeOthersExplore) {
+TEST(Explorers, TheFirstExplorerIsAskedBeforeTheOthers) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   FindPathSettings settings{.time_limit = 10};
   settings.explorers = First([] { return Findings{Outlook::kOver, WayUnderTheBar()}; });
@@ -195,7 +195,7 @@ TEST(Explorers, WhoComesFirstIsAskedBeforeOthersExplore) {
   EXPECT_EQ(result.found_by, std::vector<std::string>{"script"});
 }
 
-TEST(Explorers, OfWhatNoActionAcceptsNothingEntersTheGraph) {
+TEST(Explorers, ProposedEdgesThatNoActionAcceptsAreDropped) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FindPathSettings settings{.time_limit = 10, .seed = seed};
@@ -209,7 +209,7 @@ TEST(Explorers, OfWhatNoActionAcceptsNothingEntersTheGraph) {
   }
 }
 
-TEST(Explorers, WhatOneHasFoundIsAPlaceToGrowFromForOthers) {
+TEST(Explorers, VerticesFoundByOneAreUsedByTheOthers) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   FindPathSettings settings{.time_limit = 10};
   settings.explorers = First([] {
@@ -223,7 +223,7 @@ TEST(Explorers, WhatOneHasFoundIsAPlaceToGrowFromForOthers) {
   EXPECT_EQ(result.found_by.size(), 2);
 }
 
-TEST(Explorers, WhoLeadsOnHasTheTurnAlone) {
+TEST(Explorers, AnExplorerThatLeadsOnHasTheTurnAlone) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   for (const Outlook outlook : {Outlook::kLeadsOn, Outlook::kOpen}) {
     int turns = 0;
@@ -238,7 +238,7 @@ TEST(Explorers, WhoLeadsOnHasTheTurnAlone) {
   }
 }
 
-TEST(Explorers, WhenOneHasNothingLeftTheOracleIsAskedAtOnce) {
+TEST(Explorers, TheOracleIsAskedAtOnceWhenAnExplorerIsOver) {
   FindPathSettings settings{.time_limit = 10, .max_cycles = 80, .ask_oracle_after = 50};
   settings.explorers = First([] { return Findings{Outlook::kOver, {}}; });
   settings.oracle = [] { return RouteOracleAnswer::kExhausted; };
@@ -263,7 +263,7 @@ TEST(Explorers, AreAskedAgainWhenJobsRefuteEdges) {
   EXPECT_EQ(asked, 2);
 }
 
-/// Halves the part of the way that leads past what is known to be free: a new way each turn.
+/// Proposes a new way under the bar each turn. It goes down 0.1 m earlier each time.
 class Improver : public Explorer {
  public:
   std::string name() const override { return "improver"; }
@@ -293,7 +293,7 @@ class Improver : public Explorer {
   std::vector<double> durations;
 };
 
-/// Random exploration, and one that shortens what it has found.
+/// Random exploration, and an explorer that shortens its routes.
 class ImprovementTest : public testing::Test {
  protected:
   PathResult Find(double share, std::uint64_t seed) {
@@ -317,7 +317,7 @@ double DurationOf(const PathResult& result) {
   return duration;
 }
 
-TEST_F(ImprovementTest, ThePathIsAShortestOneOfTheExploredGraph) {
+TEST_F(ImprovementTest, ThePathIsAShortestPathOfTheExploredGraph) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const PathResult first = Find(0, seed);
     const PathResult result = Find(0.5, seed);
@@ -326,7 +326,7 @@ TEST_F(ImprovementTest, ThePathIsAShortestOneOfTheExploredGraph) {
     EXPECT_NEAR(result.duration, DurationOf(result), 1e-9);
     EXPECT_LE(result.duration, result.first_duration);
     EXPECT_EQ(result.lower_bound, 8);
-    // Bellman and Ford, over the graph as it is reported.
+    // Bellman-Ford over the graph as it is reported.
     const auto& vertices = result.graph.vertices;
     std::vector<double> least(vertices.size(), std::numeric_limits<double>::infinity());
     least[result.path.front().from] = 0;
@@ -344,13 +344,13 @@ TEST_F(ImprovementTest, ThePathIsAShortestOneOfTheExploredGraph) {
   }
 }
 
-TEST_F(ImprovementTest, EndsWhenNothingIsLeftToExploreThoughTheLimitIsFar) {
+TEST_F(ImprovementTest, TheSearchEndsBeforeTheLimitWhenNothingIsLeftToExplore) {
   const PathResult result = Find(1, 3);
   EXPECT_EQ(result.status, PathStatus::kFound);
   EXPECT_LT(result.seconds, 5);
 }
 
-TEST(Improvement, OfSeveralGoalsTheNearestIsTaken) {
+TEST(Improvement, TheNearestOfSeveralGoalsIsTaken) {
   const Actions actions = {MakeWalk()};
   const std::vector<Point> goals = {MakePoint(3, 0.9), MakePoint(1, 0.8), Start()};
   const PathResult result =
@@ -361,7 +361,7 @@ TEST(Improvement, OfSeveralGoalsTheNearestIsTaken) {
   EXPECT_EQ(FindPath(Start(), goals, actions, kRoom, settings).goal, 2);
 }
 
-/// An action whose conditions take longer than it says.
+/// An action whose conditions take longer than it declares.
 class SlowAction : public UncertainAction {
  public:
   using UncertainAction::UncertainAction;
@@ -372,8 +372,8 @@ class SlowAction : public UncertainAction {
   bool CN(const PointPair& edge) const override { return UncertainAction::CN(edge); }
 };
 
-TEST(Turns, OfJobsComeInTimeThoughConditionsAreSlow) {
-  // Two turns: the first, of 1000 steps, is in vain.
+TEST(Turns, OfJobsComeInTimeDespiteSlowConditions) {
+  // The job takes two turns. The first, of 1000 steps, gives no verdict.
   const auto job = [](const PointPair&) {
     return std::make_unique<ScriptedJob>(Ending::kConfirm, 1500, std::chrono::microseconds(500));
   };
@@ -385,7 +385,7 @@ TEST(Turns, OfJobsComeInTimeThoughConditionsAreSlow) {
   EXPECT_LT(result.statistics.cycles, 1000);
 }
 
-TEST(StraightFirst, IsThePathWhereAnActionIsSureOfIt) {
+TEST(StraightFirst, AStraightWayThatMeetsCSIsThePath) {
   const Actions actions = {MakeCrawl(), MakeWalk()};
   const Point near = MakePoint(3, 0.85);
   FindPathSettings settings{.time_limit = 10, .straight_first = true};
@@ -400,7 +400,7 @@ TEST(StraightFirst, IsThePathWhereAnActionIsSureOfIt) {
   EXPECT_EQ(result.counters.at("edges confirmed by C_S"), 1);
 }
 
-TEST(StraightFirst, ChangesNothingWhereNoActionIsSure) {
+TEST(StraightFirst, ChangesNothingWhereNoStraightWayMeetsCS) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     FindPathSettings settings{.time_limit = 10, .seed = seed};
@@ -413,7 +413,7 @@ TEST(StraightFirst, ChangesNothingWhereNoActionIsSure) {
   }
 }
 
-TEST(StraightFirst, KeepsToTheTimeLimitAndStaysWhereTheGoalIsTheStart) {
+TEST(StraightFirst, KeepsToTheTimeLimitAndAStartThatIsTheGoalNeedsNoEdge) {
   const Point near = MakePoint(3, 0.85);
   FindPathSettings settings{.time_limit = 0, .straight_first = true};
   EXPECT_EQ(FindPath(Start(), {near}, {MakeWalk()}, kRoom, settings).status,
@@ -424,7 +424,7 @@ TEST(StraightFirst, KeepsToTheTimeLimitAndStaysWhereTheGoalIsTheStart) {
   EXPECT_TRUE(result.path.empty());
 }
 
-TEST(FindPath, AnyReachableGoalWillDo) {
+TEST(FindPath, APathToAnyReachableGoalIsFound) {
   const Point unreachable = MakePoint(5, 0.05);
   const std::vector<Point> goals = {unreachable, Goal(), MakePoint(3, 0.3)};
   const Actions actions = {MakeWalk(), MakeCrawl()};
@@ -456,7 +456,7 @@ TEST(FindPath, IrreversibleActionsGrowFromBothEndsInTheDirectionOfExecution) {
   }
 }
 
-/// The least overshoot of a few searches, s: the machine may be busy with something else.
+/// The least overshoot of a few searches, s, since the machine may be busy with something else.
 double LeastOvershoot(const Actions& actions, const FindPathSettings& settings) {
   double least = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < 10 && least >= 0.05; ++attempt) {
@@ -474,7 +474,7 @@ TEST(FindPath, TheTimeLimitIsObeyed) {
   }
 }
 
-TEST(FindPath, AnExtensionThatStandsStillEndsConnect) {
+TEST(FindPath, AnExtensionThatDoesNotMoveAddsNoVertex) {
   class Stuck : public BandAction {
    public:
     Stuck() : BandAction("stuck", {0, 1}, 0.5, {}) {}
@@ -615,7 +615,7 @@ TEST_P(WithJobs, AnotherActionMayConfirmWhatTheFirstCannot) {
   }
 }
 
-TEST_P(WithJobs, AnEdgeWithoutJobStaysOut) {
+TEST_P(WithJobs, AnIndeterminateEdgeWithoutJobIsNotUsed) {
   const auto walk = std::make_shared<UncertainAction>(
       "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair&) { return nullptr; });
   FindPathSettings settings = Settings();
@@ -640,7 +640,7 @@ TEST_P(WithJobs, JobsThatNeverEndDoNotHoldUpTheTimeLimit) {
   EXPECT_GT(spawned, 0);
 }
 
-/// A search of so many cycles whose jobs have so many checkpoints, a pause after each.
+/// A search of this many cycles. Its jobs have this many checkpoints, with a pause after each.
 PathResult SearchWithJobsOf(int checkpoints, int cycles, std::chrono::microseconds pause) {
   const auto walk = std::make_shared<UncertainAction>(
       "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [=](const PointPair& edge) {
@@ -661,7 +661,7 @@ void ExpectTheSameHoweverSlow(int checkpoints, int cycles) {
   ExpectSamePath(quick, slow);
 }
 
-TEST(FindPath, AFullGraphEndsRandomExploration) {
+TEST(FindPath, AFullGraphEndsRandomExplorationEarly) {
   const auto walk = std::make_shared<UncertainAction>(
       "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair&) { return nullptr; });
   const PathResult result =

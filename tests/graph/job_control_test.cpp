@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Waits until `done`, at most 5 s; whether it came.
+/// Waits until `done`, at most 5 s, and returns whether it came.
 template <typename Done>
 bool Wait(Done done) {
   const auto begin = std::chrono::steady_clock::now();
@@ -24,7 +24,7 @@ bool Wait(Done done) {
   return done();
 }
 
-TEST(JobControl, APausedJobStandsStillAtItsCheckpointUntilResumed) {
+TEST(JobControl, APausedJobWaitsAtItsCheckpointUntilResumed) {
   std::atomic<int> held = 0;
   std::atomic<int> steps = 0;
   JobControl control([&] { ++held; });
@@ -85,7 +85,7 @@ TEST(JobControl, ASteeredRoutineThatIsChargedStopsWhenTheRationIsUsedUp) {
   };
   std::thread job([&] {
     control.RunSteered(routine.Steering(), [&] {
-      // In a thread of its own, as a solve that several jobs share.
+      // In a thread of its own, like a solve that several jobs share.
       std::jthread([&] { routine.Run(step); }).join();
     });
   });
@@ -101,7 +101,7 @@ TEST(JobControl, ASteeredRoutineThatIsChargedStopsWhenTheRationIsUsedUp) {
   job.join();
 }
 
-TEST(JobControl, CancelEndsAPauseAndSticks) {
+TEST(JobControl, CancelEndsAPauseAndIsFinal) {
   JobControl control;
   control.Pause();
   std::thread job([&] { EXPECT_FALSE(control.Checkpoint()); });
@@ -160,7 +160,7 @@ TEST(JobControl, ACancelledJobDoesNotEnterARoutine) {
   EXPECT_FALSE(control.RunSteered({}, [] { FAIL(); }));
 }
 
-TEST(JobControl, WhatARoutineThrowsPassesAndLeavesTheControlFit) {
+TEST(JobControl, AnExceptionOfARoutinePassesAndLeavesTheControlUsable) {
   JobControl control;
   const JobSteering never = {
       .pause = [] { FAIL(); }, .resume = [] { FAIL(); }, .cancel = [] { FAIL(); }};

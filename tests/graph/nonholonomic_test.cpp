@@ -35,8 +35,8 @@ using Actions = std::vector<std::shared_ptr<const Action>>;
 
 const test::Room kRoom;
 
-constexpr double kReach = 1.6;      ///< what C_N of the jump believes
-constexpr double kTrueReach = 1.2;  ///< what its jobs find out
+constexpr double kReach = 1.6;      ///< what C_N of the jump assumes
+constexpr double kTrueReach = 1.2;  ///< what its jobs confirm
 constexpr int kWalk = 0;
 constexpr int kCrawl = 1;
 constexpr int kJump = 2;
@@ -52,7 +52,7 @@ JumpAction::Script Always(Ending ending, std::chrono::microseconds per_step = {}
   return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, 3, per_step); };
 }
 
-/// Walking and crawling end at the gap.
+/// Walking and crawling cannot cross the gap.
 struct World {
   explicit World(Interval gap, JumpAction::Script script = Truth)
       : walk(std::make_shared<BandAction>("walk", Interval{0.7, 1}, 0.85,
@@ -102,8 +102,8 @@ void ExpectPlanWithJump(const PathResult& result, const Point& start, const Poin
   EXPECT_GT(jumps, 0);
 }
 
-/// Every jump hangs together, by jumps, with a vertex that is joined to others by walking or
-/// crawling, or with an end of the route: it was found next to such a vertex.
+/// Every jump is connected, through jumps, to a vertex that is joined to others by walking or
+/// crawling, or to an end of the route, because it was found next to such a vertex.
 void ExpectJumpsLinedUp(const PathResult& result) {
   const std::vector<Point>& vertices = result.graph.vertices;
   std::vector<bool> joined(vertices.size(), false);
@@ -149,7 +149,7 @@ TEST_P(Jump, CrossesTheGapWithEverySeed) {
 }
 
 TEST_P(Jump, NeverCrossesAGapThatIsTooWide) {
-  // Wider than C_N believes; wider than the jobs confirm.
+  // A gap wider than C_N assumes, and one wider than the jobs confirm.
   for (const Interval gap : {Interval{4, 5.7}, Interval{4, 5.3}}) {
     std::int64_t refuted = 0;
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
@@ -170,7 +170,7 @@ TEST_P(Jump, NeverCrossesAGapThatIsTooWide) {
   }
 }
 
-/// The gap can also be crawled through, slowly.
+/// The gap can also be crawled through, which takes longer.
 Actions WithSlowDetour(const JumpAction::Script& script) {
   const World world(kGap);
   const auto crawl =
@@ -178,7 +178,7 @@ Actions WithSlowDetour(const JumpAction::Script& script) {
   return {world.walk, crawl, std::make_shared<JumpAction>(world.walk, crawl, kReach, script)};
 }
 
-TEST_P(Jump, WhileItsJobsAreUndecidedASlowerRouteIsReturned) {
+TEST_P(Jump, WhileJobsAreUndecidedASlowerRouteWithoutJumpsIsReturned) {
   int jumps_wanted = 0;
   const std::uint64_t seeds = GetParam() == 0 ? 2 : 10;  // a turn without workers takes 3 s
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -200,7 +200,7 @@ TEST_P(Jump, WhileItsJobsAreUndecidedASlowerRouteIsReturned) {
   EXPECT_GT(jumps_wanted, 0);
 }
 
-TEST_P(Jump, FaultyJobsCostTheirEdgesOnly) {
+TEST_P(Jump, FaultyJobsLeaveARouteWithoutJumps) {
   for (const Ending ending :
        {Ending::kRefute, Ending::kThrow, Ending::kGiveUp, Ending::kNonsense, Ending::kNever}) {
     std::int64_t spawned = 0;
@@ -245,7 +245,7 @@ TEST(StickFigureJump, TheSameSeedGivesTheSameResult) {
   }
 }
 
-TEST(StickFigureJump, GrowthIsSkippedAsOftenAsAsked) {
+TEST(StickFigureJump, GrowthIsSkippedWithTheGivenProbability) {
   for (const double skip : {0.0, 0.5, 0.9, 1.0}) {
     const World world({4, 6});
     FindPathSettings settings{.max_cycles = 400, .skip_growth = {{"jump", skip}}};
@@ -294,7 +294,7 @@ class Growth : public ::testing::Test {
   std::unique_ptr<ActionExploration> exploration_;
 };
 
-TEST_F(Growth, FromTheStartItLaunchesWhereWalkingCanLineItUp) {
+TEST_F(Growth, FromTheStartALaunchIsLinedUpByWalking) {
   Build(MakePoint(4.4, 0.95), MakePoint(9, 0.5));
   const NewElements found = exploration_->GrowTowards(MakePoint(5.7, 0.1));
   ASSERT_EQ(found.edges.size(), 1);
@@ -308,7 +308,7 @@ TEST_F(Growth, FromTheStartItLaunchesWhereWalkingCanLineItUp) {
   EXPECT_EQ(found.vertices, found.offered);
 }
 
-TEST_F(Growth, TowardsTheGoalItLandsWhereCrawlingCanGoOn) {
+TEST_F(Growth, TowardsTheGoalALandingIsContinuedByCrawling) {
   Build(MakePoint(0.5, 0.5), MakePoint(5.6, 0.4));
   const NewElements found = exploration_->GrowTowards(MakePoint(1, 0.1));
   ASSERT_EQ(found.edges.size(), 1);
@@ -326,7 +326,7 @@ TEST_F(Growth, AVertexThatIsLinedUpNeedsNoLineUpEdge) {
   EXPECT_EQ(found.vertices.size(), 1);
 }
 
-TEST_F(Growth, WhatNobodyCanLineUpOrWhatIsRefutedIsLeft) {
+TEST_F(Growth, RefutedLineUpsAndJumpsAreNotTriedAgain) {
   Build(MakePoint(4.4, 0.95), MakePoint(9, 0.5));
   const NewElements once = exploration_->GrowTowards(MakePoint(5.7, 0.1));
   master_->Append(kJump, once.edges);
@@ -335,7 +335,7 @@ TEST_F(Growth, WhatNobodyCanLineUpOrWhatIsRefutedIsLeft) {
   const EdgeId line_up =
       *master_->FindEdge(kWalk, once.line_ups[0].edge.from, once.line_ups[0].edge.to);
   master_->Remove(line_up);
-  // From the launch point itself, which is part of the graph by now, the way is still open.
+  // The launch point itself is part of the graph by now. From there the jump is still possible.
   EXPECT_TRUE(exploration_->GrowTowards(MakePoint(5.7, 0.1)).line_ups.empty());
   EXPECT_GT(counters_.at("jump: growth not lined up"), 0);
   master_->Remove(*master_->FindEdge(kJump, once.edges[0].from, once.edges[0].to));
@@ -343,7 +343,7 @@ TEST_F(Growth, WhatNobodyCanLineUpOrWhatIsRefutedIsLeft) {
   EXPECT_GT(counters_.at("jump: growth stopped at removed edge"), 0);
 }
 
-TEST_F(Growth, OfVerticesThatLeadToEachOtherOnlyTheClosestLaunches) {
+TEST_F(Growth, OfConnectedVerticesOnlyTheClosestLaunches) {
   for (const bool joined : {true, false}) {
     Build(MakePoint(3, 0.85), MakePoint(9, 0.5));
     std::vector<VertexId> line = {master_->start()};
@@ -356,7 +356,7 @@ TEST_F(Growth, OfVerticesThatLeadToEachOtherOnlyTheClosestLaunches) {
     }
     exploration_->PerformTransitions();
     const NewElements found = exploration_->GrowTowards(MakePoint(5.9, 0.3));
-    EXPECT_EQ(found.edges.size(), joined ? 1 : 3);  // those who reach the other side
+    EXPECT_EQ(found.edges.size(), joined ? 1 : 3);  // from those that reach the other side
     ASSERT_FALSE(found.edges.empty());
     EXPECT_EQ(found.edges[0].from, line.back());
   }

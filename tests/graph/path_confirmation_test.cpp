@@ -19,7 +19,7 @@ using test::Ending;
 using test::MakePoint;
 using test::ScriptedJob;
 
-/// An action whose every edge is a matter for a job that confirms, or never ends.
+/// An action whose edges are all indeterminate. Their jobs confirm, or never end.
 class Doubtful : public BandAction {
  public:
   explicit Doubtful(Ending ending) : BandAction("doubtful", {0, 1}, 0.5, {}), ending_(ending) {}
@@ -33,7 +33,7 @@ class Doubtful : public BandAction {
   Ending ending_;
 };
 
-/// Certain of everything it finds, and of nothing that others find.
+/// An action that is certain of everything it finds, and of nothing that others find.
 class Certain : public BandAction {
  public:
   Certain() : BandAction("certain", {0, 1}, 0.5, {}) {}
@@ -63,7 +63,7 @@ class Routes : public ::testing::Test {
     master_->Append(action, {{from, to, false}});
     return *master_->FindEdge(action, from, to);
   }
-  /// Often enough for the jobs to be revalued.
+  /// Collects often enough for the jobs to get new costs.
   void CollectOften() {
     for (int i = 0; i < 60; ++i) {
       confirmation_->CollectResults();
@@ -80,7 +80,7 @@ class Routes : public ::testing::Test {
   std::unique_ptr<PathConfirmation> confirmation_;
 };
 
-TEST_F(Routes, TheCheapestRouteIsExaminedFirstAndTheOrderFollowsTheGraph) {
+TEST_F(Routes, TheCheapestRouteIsExaminedFirstAfterChangesOfTheGraph) {
   for (const bool shortcut : {false, true}) {
     queue_.CancelAll({});
     queue_.DrainFinished();
@@ -96,7 +96,7 @@ TEST_F(Routes, TheCheapestRouteIsExaminedFirstAndTheOrderFollowsTheGraph) {
     EXPECT_FALSE(confirmation_->ConfirmPath({by_low, low_on}));
     EXPECT_FALSE(confirmation_->ConfirmPath({by_high, away, back}));
     if (shortcut) {
-      master_->Remove(low_on);  // the low route is refuted: the high one is worth more
+      master_->Remove(low_on);  // the low route is refuted: the high route becomes the cheapest
     }
     CollectOften();
     EXPECT_TRUE(queue_.RunTurn(deadline_));
@@ -112,7 +112,7 @@ TEST_F(Routes, TheCheapestRouteIsExaminedFirstAndTheOrderFollowsTheGraph) {
   }
 }
 
-TEST_F(Routes, AJobIsCancelledOnceConfirmedEdgesLeadTheSameWayAsQuickly) {
+TEST_F(Routes, AJobIsCancelledOnceConfirmedEdgesAreAsQuick) {
   for (const double height : {0.5, 0.9}) {  // on the straight line, or beside it
     Build(Ending::kNever);
     const VertexId middle = At(2, height);

@@ -13,7 +13,7 @@ namespace possibility::graph::test {
 
 enum class Ending { kConfirm, kRefute, kThrow, kGiveUp, kNonsense, kNever };
 
-/// A job that comes to a given end after a given number of steps.
+/// A job that ends in a given way after a given number of steps.
 class ScriptedJob : public ConfirmationJob {
  public:
   ScriptedJob(Ending ending, int steps, std::chrono::microseconds per_step = {})
@@ -23,7 +23,7 @@ class ScriptedJob : public ConfirmationJob {
     const bool never = ending_ == Ending::kNever;
     for (int step = 0; never || step < steps_; ++step) {
       if (!control->Checkpoint()) {
-        return JobVerdict::kRefuted;  // nobody may believe a cancelled job
+        return JobVerdict::kRefuted;  // the verdict of a cancelled job must be ignored
       }
       Work();
       std::this_thread::sleep_for(never ? std::max(per_step_, kPoll) : per_step_);
@@ -46,7 +46,7 @@ class ScriptedJob : public ConfirmationJob {
   }
 
  protected:
-  /// What a test wants done in every step.
+  /// What the test does in every step.
   virtual void Work() {}
 
  private:

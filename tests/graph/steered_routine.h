@@ -9,7 +9,7 @@
 
 namespace possibility::graph::test {
 
-/// A routine that is steered from outside and knows nothing of JobControl.
+/// A routine that is paused and cancelled from outside and knows nothing of JobControl.
 class SteeredRoutine {
  public:
   JobSteering Steering() {
@@ -17,7 +17,7 @@ class SteeredRoutine {
             .resume = [this] { Set(&paused_, false); },
             .cancel = [this] { Set(&cancelled_, true); }};
   }
-  /// Until `step`, called every millisecond, says no, or it is cancelled.
+  /// Runs until `step`, called every millisecond, returns false, or until it is cancelled.
   void Run(const std::function<bool()>& step) {
     while (step()) {
       std::unique_lock lock(mutex_);

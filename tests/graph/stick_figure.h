@@ -36,8 +36,8 @@ struct Interval {
   }
 };
 
-/// Walking or crawling of the stick figure: its chest stays within a band of heights and out of
-/// the stretches of x that are blocked for it.
+/// Walking or crawling of the stick figure. Its chest stays within a band of heights and out of the
+/// stretches of x that are blocked for it.
 class BandAction : public HolonomicAction {
  public:
   BandAction(std::string name, Interval band, double transition_height,
@@ -64,7 +64,7 @@ class BandAction : public HolonomicAction {
   bool CS(const PointPair& edge) const override { return CN(edge); }
 
   std::vector<Point> TransitionFrom(const Point& v) const override {
-    constexpr double kLowest = 0.1;  // nobody gets up with his chest on the ground
+    constexpr double kLowest = 0.1;  // nobody can stand up with the chest on the ground
     if (!Free(v[0], v[0]) || v[1] < kLowest) {
       return {};
     }
@@ -95,8 +95,8 @@ class BandAction : public HolonomicAction {
   std::vector<Interval> blocked_;
 };
 
-/// A bar hangs over 4..6, too low to walk under; rubble on the ground, which one steps over but
-/// cannot crawl through, over 2..2.5.
+/// A bar hangs over x = 4..6, too low to walk under. Rubble lies on the ground over x = 2..2.5; it
+/// can be stepped over but not crawled through.
 inline std::shared_ptr<BandAction> MakeWalk() {
   return std::make_shared<BandAction>("walk", Interval{0.7, 1.0}, 0.85,
                                       std::vector<Interval>{{4, 6}});

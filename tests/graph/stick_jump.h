@@ -16,7 +16,7 @@
 namespace possibility::graph::test {
 
 /// The stick figure jumps from standing upright to its nominal crawl, at most `reach` far, over
-/// whatever lies between. Whether it really gets that far, a job has to find out.
+/// whatever lies between. A job has to find out whether it really gets that far.
 class JumpAction : public NonholonomicAction {
  public:
   static constexpr double kStandingHeight = 0.85;
@@ -78,7 +78,7 @@ class JumpAction : public NonholonomicAction {
   Script script_;
 };
 
-/// Someone who takes ten times as long as his fellows.
+/// An action that takes ten times as long.
 class SlowBandAction : public BandAction {
  public:
   using BandAction::BandAction;
