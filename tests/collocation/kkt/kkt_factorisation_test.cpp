@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A symmetric matrix of triplets, each entry split over two at random.
+/// A symmetric matrix in triplets, each entry split into two at random.
 struct Sample {
   int size = 0;
   int num_dual = 0;
@@ -40,7 +40,7 @@ struct Shape {
   int num_dual = 0;
   int per_row = 3;
   double hessian = 1;        // size of H's diagonal; negative ones are mixed in
-  double decades = 0;        // of bad scaling of rows
+  double decades = 0;        // decades of bad scaling of the rows
   double dual_diagonal = 0;  // the -delta_c of the lower right block
 };
 
@@ -75,7 +75,7 @@ Sample MakeSample(const Shape& shape, std::mt19937* random) {
 }
 
 int CountNegative(const MatrixXd& dense) {
-  // Congruent scaling keeps the inertia and makes the eigenvalues trustworthy.
+  // Congruent scaling keeps the inertia and makes the eigenvalues accurate.
   VectorXd scale = VectorXd::Ones(dense.rows());
   MatrixXd scaled = dense;
   for (int pass = 0; pass < 20; ++pass) {
@@ -124,7 +124,7 @@ TEST(KktFactorisation, AgreesWithEigenvaluesOnRandomSystems) {
     shape.decades = trial % 3 == 0 ? 3 : 0;
     const Sample sample = MakeSample(shape, &random);
     SCOPED_TRACE(trial);
-    // Some rows of constraints may lack independent entries: leave those to the singular tests.
+    // Some rows of constraints may lack independent entries. Those are for the singular tests.
     if (shape.dual_diagonal == 0) {
       const MatrixXd jacobian = sample.Dense().bottomLeftCorner(shape.num_dual, shape.num_primal);
       if (shape.num_dual > 0 && Eigen::FullPivLU<MatrixXd>(jacobian).rank() < shape.num_dual) {
@@ -137,7 +137,7 @@ TEST(KktFactorisation, AgreesWithEigenvaluesOnRandomSystems) {
   EXPECT_GT(checked, 250);
 }
 
-TEST(KktFactorisation, AgreesWithEigenvaluesWhenThereIsNoDiagonalAtAll) {
+TEST(KktFactorisation, AgreesWithEigenvaluesWithoutADiagonal) {
   std::mt19937 random(2);
   int checked = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -193,7 +193,7 @@ TEST(KktFactorisation, SmallPivotsLateInABarrierDoNotSpoilTheInertia) {
   }
 }
 
-TEST(KktFactorisation, RefactorisesOtherValuesOfThePattern) {
+TEST(KktFactorisation, RefactorisesOtherValuesOfTheSamePattern) {
   std::mt19937 random(5);
   Shape shape;
   shape.num_primal = 50;
@@ -214,7 +214,7 @@ TEST(KktFactorisation, RefactorisesOtherValuesOfThePattern) {
   }
 }
 
-TEST(KktFactorisation, TellsDependentConstraintsAndEmptyRows) {
+TEST(KktFactorisation, DependentConstraintsAndEmptyRowsAreSingular) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 100; ++trial) {
     Shape shape;
@@ -236,7 +236,7 @@ TEST(KktFactorisation, TellsDependentConstraintsAndEmptyRows) {
     KktFactorisation kkt(sample.size, sample.num_dual, sample.rows, sample.columns);
     SCOPED_TRACE(trial);
     EXPECT_EQ(kkt.Factorise(sample.values.data(), 1e-8), KktStatus::kSingular);
-    // What Ipopt does about it.
+    // What Ipopt does in this case.
     for (int k = 0; k < sample.num_dual; ++k) {
       sample.Add(shape.num_primal + k, shape.num_primal + k, -1e-8);
     }
@@ -244,9 +244,9 @@ TEST(KktFactorisation, TellsDependentConstraintsAndEmptyRows) {
   }
 }
 
-TEST(KktFactorisation, ZeroColumnsAreNotCarriedToTheRoot) {
-  // A coordinate that the dynamics hold at its bound: x_k+1 = x_k + h v_k, v_k+1 = v_k with a
-  // barrier term so large on every x that the rows of x say nothing but what those of v say.
+TEST(KktFactorisation, FewPivotsOfZeroColumnsAreDelayed) {
+  // A coordinate that the dynamics hold at its bound: x_k+1 = x_k + h v_k, v_k+1 = v_k. The barrier
+  // term on every x is so large that the rows of x carry no other information than those of v.
   std::mt19937 random(9);
   constexpr int kSteps = 60;
   constexpr double kStep = 0.01;
@@ -283,7 +283,7 @@ TEST(KktFactorisation, RefusesWhatIsNotANumber) {
     std::vector<double> values = sample.values;
     values[values.size() / 2] = bad;
     EXPECT_EQ(kkt.Factorise(values.data(), 1e-8), KktStatus::kNotFinite);
-    // And is as good as new afterwards.
+    // Afterwards it works as before.
     EXPECT_EQ(kkt.Factorise(sample.values.data(), 1e-8), KktStatus::kFactorised);
   }
   VectorXd x = VectorXd::Constant(sample.size, std::nan(""));
@@ -291,7 +291,7 @@ TEST(KktFactorisation, RefusesWhatIsNotANumber) {
   EXPECT_EQ(x, VectorXd::Zero(sample.size));
 }
 
-TEST(KktFactorisation, CanBeInterruptedAndUsedAgain) {
+TEST(KktFactorisation, IsUsableAfterAnInterruption) {
   std::mt19937 random(8);
   Shape shape;
   shape.num_primal = 400;
@@ -314,7 +314,7 @@ TEST(KktFactorisation, CanBeInterruptedAndUsedAgain) {
   EXPECT_LT((sample.Dense() * x - b).norm(), 1e-9 * b.norm());
 }
 
-TEST(KktFactorisation, ChecksItsPattern) {
+TEST(KktFactorisation, RefusesAnInvalidPattern) {
   EXPECT_THROW(KktFactorisation(2, 0, {0, 2}, {0, 1}), std::invalid_argument);
   EXPECT_THROW(KktFactorisation(2, 0, {0, -1}, {0, 1}), std::invalid_argument);
   EXPECT_THROW(KktFactorisation(2, 3, {0}, {0}), std::invalid_argument);

@@ -17,7 +17,7 @@ using dynamics::RichardsonJacobian;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Every operation that a jet knows.
+/// Every operation of a jet.
 std::shared_ptr<Function> Everything() {
   return Differentiated<3, 4>([](const auto& z, auto* y) {
     auto sum = z[0];

@@ -81,7 +81,7 @@ TEST(MultibodyFunctionsTest, AnImpactSolvesTheImpactMap) {
   }
 }
 
-TEST(MultibodyFunctionsTest, PointsMoveAsTheDynamicsSay) {
+TEST(MultibodyFunctionsTest, PointAccelerationsAndDistancesAgreeWithTheDynamics) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 20; ++trial) {
     const PlanarModel model =
@@ -146,7 +146,8 @@ TEST(MultibodyFunctionsTest, DistancesAndAccelerationsAreMaskedWhereNothingDepen
   // No distance within the system changes as its base moves.
   EXPECT_FALSE(SquaredDistance(model, points[0], points[1])->JacobianMask().leftCols(3).any());
   EXPECT_FALSE(SquaredDistance(model, points[0], points[1])->HessianMask().leftCols(3).any());
-  // Neither the place nor the velocity of the base accelerates a point; its acceleration does.
+  // Place and velocity of the base do not affect a point's acceleration. The base's acceleration
+  // does.
   const Mask mask = PointAccelerations(model, points)->JacobianMask();
   EXPECT_FALSE(mask.middleCols(1, 2).any());
   EXPECT_FALSE(mask.middleCols(n + 1, 2).any());

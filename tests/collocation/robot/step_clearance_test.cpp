@@ -26,7 +26,7 @@ TEST(StepClearance, IsFlatOutsideTheStep) {
   EXPECT_NEAR(step.Value(1.5), 0.15, 1e-15);
 }
 
-TEST(StepClearance, RisesMonotonicallyOrFalls) {
+TEST(StepClearance, RisesOrFallsMonotonically) {
   for (const double height : {0.2, -0.2}) {
     const SmoothStep step{-0.1, 0.4, height};
     for (double x = -0.2; x < 0.5; x += 0.01) {
@@ -60,14 +60,14 @@ TEST(StepClearance, DerivativesAgreeWithDifferences) {
     const int links = model->tree().num_links();
     const std::vector<ContactPoint> points = {{links - 1, dynamics::RandomVector(&random, 3, 0.3)},
                                               {0, dynamics::RandomVector(&random, 3, 0.3)}};
-    // So wide that no point comes near its ends, where the third derivative breaks.
+    // The step is so wide that no point comes near its ends, where the third derivative jumps.
     const auto clearance = StepClearance(model, points, {-20, 20, trial % 2 == 0 ? 8.0 : -8.0});
     ExpectExactDerivatives(clearance.get(), dynamics::RandomVector(&random, model->nv(), 1.5),
                            dynamics::RandomVector(&random, 2, 1));
   }
 }
 
-TEST(StepClearance, RefusesAStepThatDoesNotBegin) {
+TEST(StepClearance, RefusesAStepOfNoLength) {
   std::mt19937 random(3);
   const auto model = dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 2));
   EXPECT_THROW(StepClearance(model, {}, {1, 1, 0.1}), std::invalid_argument);

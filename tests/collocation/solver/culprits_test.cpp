@@ -1,4 +1,4 @@
-// Problems that cannot be solved, each with an error that names what is wrong with it.
+// Problems that cannot be solved. Each has an error that names its cause.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +52,7 @@ TEST(Culprits, InfeasibleNamesTheWorstConstraintItsKnotAndHowFar) {
   EXPECT_TRUE(Contains(worst.where, "knot 20")) << worst.where;
 }
 
-TEST(Culprits, InfeasibleForWantOfForce) {
+TEST(Culprits, InfeasibleByABoundOnForceNamesTheConstraint) {
   Mass mass({-0.1, 0.1});
   mass.phase.SetDuration(0.5);
   mass.phase.Fix(mass.q, 2, At::kEnd);
@@ -62,8 +62,8 @@ TEST(Culprits, InfeasibleForWantOfForce) {
   EXPECT_TRUE(Contains(result.message, "is off by ")) << result.message;
 }
 
-/// Nothing bounds the position, which the objective wants to be large.
-TEST(Culprits, UnboundedNamesWhatRanAway) {
+/// Nothing bounds the position, and the objective rewards a large one.
+TEST(Culprits, UnboundedNamesTheVariableThatGrew) {
   Mass mass;
   mass.phase.SetDuration(1);
   mass.problem.AddCost({mass.q, At::kEnd}, -1);
@@ -75,8 +75,8 @@ TEST(Culprits, UnboundedNamesWhatRanAway) {
   EXPECT_LT(result.objective, -1e6);
 }
 
-/// The objective runs away long before a variable does.
-TEST(Culprits, UnboundedByAnExponential) {
+/// The objective diverges long before a variable does.
+TEST(Culprits, UnboundedByAnExponentialIsNamed) {
   Mass mass;
   mass.phase.SetDuration(1);
   mass.phase.AddIntegralCost(
@@ -91,7 +91,7 @@ TEST(Culprits, NotANumberInTheDynamicsNamesTheKnot) {
   Phase& phase = problem.AddPhase("go");
   const Variable x = phase.AddCoordinate("x");
   phase.SetDuration(1);
-  // The guess goes from 1 to 0 along a line; below 0.48 the root is none: from knot 11 on.
+  // The guess goes from 1 to 0 along a line. Below 0.48 the root is undefined: from knot 11 on.
   phase.SetDynamics(
       Differentiated<1, 1>([](const auto& z, auto* f) { (*f)[0] = sqrt(z[0] - 0.48); }), {x});
   phase.Fix(x, 1, At::kStart);
@@ -123,7 +123,7 @@ TEST(Culprits, NotANumberInACostNamesTheCostAndTheKnot) {
       << result.message;
 }
 
-/// A function that says itself that it cannot be evaluated.
+/// A function that throws because it cannot be evaluated.
 class Refuses : public Function {
  public:
   Refuses() : Function(1, 1) {}
@@ -136,7 +136,7 @@ class Refuses : public Function {
   }
 };
 
-TEST(Culprits, WhatAFunctionThrowsIsTheMessage) {
+TEST(Culprits, AnExceptionOfAFunctionIsTheMessage) {
   Mass mass;
   mass.phase.SetDuration(1);
   mass.phase.Constrain("table", std::make_shared<Refuses>(), {mass.q}, {{0, 0}});
@@ -145,7 +145,7 @@ TEST(Culprits, WhatAFunctionThrowsIsTheMessage) {
   EXPECT_TRUE(Contains(result.message, "the table ends at 3")) << result.message;
 }
 
-TEST(Culprits, AGuessThatIsNoNumberNamesItsKnot) {
+TEST(Culprits, AGuessThatIsNotANumberNamesItsKnot) {
   Mass mass;
   mass.phase.SetDuration(1);
   mass.phase.Guess(mass.q, [](double s) { return s > 0.96 ? std::nan("") : 0; });
@@ -154,7 +154,7 @@ TEST(Culprits, AGuessThatIsNoNumberNamesItsKnot) {
             "q' is nan");
 }
 
-TEST(Culprits, PhasesWithoutLength) {
+TEST(Culprits, PhasesWithoutDurationOrAscendingMeshAreRefused) {
   Mass mass;
   EXPECT_EQ(Refusal(mass.problem), "mass: phase 'lift': no duration was set");
   EXPECT_EQ(MessageOf([&] { mass.phase.SetDuration(0); }),
@@ -172,7 +172,7 @@ TEST(Culprits, PhasesWithoutLength) {
             "mass: phase 'lift': the mesh must ascend from 0 to 1");
 }
 
-TEST(Culprits, ContradictoryBounds) {
+TEST(Culprits, ContradictoryBoundsAreRefusedByName) {
   Mass mass({-1, 1});
   mass.phase.SetDuration(1);
   mass.phase.Fix(mass.u, 2, At::kEnd);
@@ -189,7 +189,7 @@ TEST(Culprits, ContradictoryBounds) {
             "mass: parameter 'gain': contradictory bounds [nan, 1]");
 }
 
-TEST(Culprits, ContradictoryBoundsWherePhasesMeet) {
+TEST(Culprits, ContradictoryBoundsWherePhasesMeetAreRefusedByName) {
   OptimalControlProblem problem("relay");
   for (const char* name : {"first", "second"}) {
     Phase& phase = problem.AddPhase(name);
@@ -203,7 +203,7 @@ TEST(Culprits, ContradictoryBoundsWherePhasesMeet) {
             "phases meet");
 }
 
-TEST(Culprits, EmptyProblems) {
+TEST(Culprits, ProblemsWithoutPhasesOrCoordinatesAreRefused) {
   OptimalControlProblem problem("nothing");
   EXPECT_EQ(Refusal(problem), "nothing: the problem has no phase");
   Phase& phase = problem.AddPhase("void");
@@ -211,7 +211,7 @@ TEST(Culprits, EmptyProblems) {
   EXPECT_EQ(Refusal(problem), "nothing: phase 'void': the phase has no coordinates");
 }
 
-TEST(Culprits, MeshesThatDoNotFit) {
+TEST(Culprits, MeshesOfWrongNumberOrSizeAreRefused) {
   Mass mass;
   mass.phase.SetDuration(1);
   OptimalControlOptions options;

@@ -9,17 +9,18 @@
 
 namespace possibility::collocation {
 
-/// A program of any size with the structure of direct collocation: a chain of actuated pendulums,
-/// coupled by springs, swings from hanging to a target in least time and effort; trapezoidal rule,
-/// free duration (a dense column), bounds, and at each knot an inequality on the torques.
+/// A program of any size with the structure of direct collocation. A chain of actuated pendulums,
+/// coupled by springs, swings from hanging to a target in least time and effort. It has the
+/// trapezoidal rule, a free duration (a dense column), bounds, and at each knot an inequality on
+/// the torques.
 class PendulumChain : public NonlinearProgram {
  public:
   struct Settings {
     int pendulums = 4;
     int knots = 50;
     double target = M_PI;          // upright: many local minima; 0.5: one
-    double torque = 0.6;           // bound of each
-    double torques_squared = 0.9;  // bound of their sum of squares
+    double torque = 0.6;           // bound of each torque
+    double torques_squared = 0.9;  // bound of the torques' sum of squares
     double spring = 0.3;
     double effort = 0.1;
   };

@@ -52,7 +52,7 @@ inline Hyper Sqrt(const Hyper& a) {
   return Hyper::Chain(a, root, 0.5 / root, -0.25 / (root * a.value));
 }
 
-/// A program of a few variables whose functions are written down as formulas; dense derivatives.
+/// A program of a few variables whose functions are given as formulas, with dense derivatives.
 class SmallProgram : public NonlinearProgram {
  public:
   using Formula = std::function<Hyper(const std::vector<Hyper>&)>;
@@ -76,7 +76,7 @@ class SmallProgram : public NonlinearProgram {
     for (int j = 0; j < num_variables(); ++j) jacobian_.Add(row, j);
     return *this;
   }
-  /// Spoils bounds, to see what Solve says.
+  /// Lets a test set invalid bounds, to check the message of Solve.
   Eigen::VectorXd& mutable_lower() { return lower_; }
   SparsityPattern& mutable_jacobian_pattern() { return jacobian_; }
 

@@ -35,7 +35,7 @@ double ThreadSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(SolveControl, CancelledBeforehandEndsAtOnce) {
+TEST(SolveControl, ASolveCancelledBeforehandEndsAtOnce) {
   for (const auto linear : {LinearSolver::kSparseLdlt, LinearSolver::kMumps}) {
     PendulumChain program = ShortProgram();
     SolveControl control;

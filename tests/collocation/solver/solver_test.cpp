@@ -115,7 +115,7 @@ TEST(Solver, FindsTheKnownOptimaOfTextbooks) {
         EXPECT_EQ(result.evaluations.hessian > 0, mode == HessianMode::kExact);
         iterations.push_back(result.history.size());
       }
-      // Rounding may lengthen a path, not change what is found.
+      // Rounding may lengthen the iterations, but must not change the optimum.
       EXPECT_LE(iterations[0], 2 * iterations[1] + 5);
       EXPECT_LE(iterations[1], 2 * iterations[0] + 5);
     }
@@ -170,7 +170,7 @@ TEST(Solver, FixedVariablesKeepTheirValues) {
   EXPECT_NEAR(result.objective, 1, 1e-6);
 }
 
-TEST(Solver, EverythingFixedIsSolvedOrInfeasible) {
+TEST(Solver, AProgramWithAllVariablesFixedIsSolvedOrInfeasible) {
   SmallProgram program(Boxes(2, 1, 1), [](const X& x) { return x[0] + x[1]; });
   program.Add(2, 2, [](const X& x) { return x[0] + x[1]; });
   SolverResult result = Solve(&program, At(Vector({0, 0})));
@@ -183,7 +183,7 @@ TEST(Solver, EverythingFixedIsSolvedOrInfeasible) {
   EXPECT_NE(result.message.find("'g2' is off by 4"), std::string::npos) << result.message;
 }
 
-TEST(Solver, DependentConstraintsDoNotStopIt) {
+TEST(Solver, ProgramsWithDependentConstraintsAreSolved) {
   SmallProgram program(Boxes(3, -kInfinity, kInfinity),
                        [](const X& x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; });
   for (const double factor : {1.0, -2.0}) {
@@ -225,7 +225,7 @@ TEST(Solver, MoreEqualitiesThanVariablesAreRefused) {
   EXPECT_NE(result.message.find("fewer free variables"), std::string::npos) << result.message;
 }
 
-TEST(Solver, NotANumberAtTheStartIsNamed) {
+TEST(Solver, AnInvalidNumberAtTheStartNamesTheConstraint) {
   SmallProgram program(Boxes(2, -kInfinity, kInfinity), [](const X& x) { return x[0] * x[0]; });
   program.Add(0, 0, [](const X& x) { return x[0]; }).Add(0, 0, [](const X& x) {
     return Log(x[1]) + x[0];
@@ -236,7 +236,7 @@ TEST(Solver, NotANumberAtTheStartIsNamed) {
   EXPECT_NE(result.message.find("starting point"), std::string::npos) << result.message;
 }
 
-TEST(Solver, NotANumberOnTheWayShortensTheStep) {
+TEST(Solver, AnInvalidNumberAtATrialPointShortensTheStep) {
   // log is undefined where full steps would go.
   SmallProgram program(Boxes(1, -kInfinity, kInfinity),
                        [](const X& x) { return x[0] - Log(x[0]); });
@@ -259,7 +259,7 @@ TEST(Solver, NotANumberOnTheWayShortensTheStep) {
   EXPECT_GT(undefined, 0);
 }
 
-/// Fails in one of its functions after some evaluations.
+/// A program one of whose functions fails after some evaluations.
 class Failing : public SmallProgram {
  public:
   enum class Where { kGradient, kJacobian, kHessian, kHessianThrows, kObjectiveThrowsLogic };
@@ -290,7 +290,7 @@ class Failing : public SmallProgram {
   int calls_ = 0;
 };
 
-TEST(Solver, NotANumberInDerivativesIsNamed) {
+TEST(Solver, AnInvalidNumberInDerivativesIsNamed) {
   const std::vector<std::pair<Failing::Where, std::string>> cases = {
       {Failing::Where::kGradient, "objective with respect to 'x2' is nan"},
       {Failing::Where::kJacobian, "constraint 'g2' with respect to 'x2' is inf"},
@@ -310,7 +310,7 @@ TEST(Solver, NotANumberInDerivativesIsNamed) {
   }
 }
 
-TEST(Solver, OtherExceptionsOfTheProgramComeThrough) {
+TEST(Solver, OtherExceptionsOfTheProgramPassThrough) {
   const Textbook hs071 = Textbooks()[4];
   Failing program(hs071.program, Failing::Where::kObjectiveThrowsLogic);
   EXPECT_THROW(Solve(&program, At(hs071.start)), std::logic_error);

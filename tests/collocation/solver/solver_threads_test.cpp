@@ -52,13 +52,15 @@ void ExpectSameAsSerial(int count, int variants, LinearSolver linear) {
   }
 }
 
-TEST(SolverThreads, EightAtATimeEqualTheSerialSolves) {
+TEST(SolverThreads, EightSolvesAtATimeEqualTheSerialSolves) {
   ExpectSameAsSerial(48, 12, LinearSolver::kSparseLdlt);
 }
 
-TEST(SolverThreads, MumpsSolvesTakeTurns) { ExpectSameAsSerial(16, 4, LinearSolver::kMumps); }
+TEST(SolverThreads, MumpsSolvesByEightThreadsEqualTheSerialSolves) {
+  ExpectSameAsSerial(16, 4, LinearSolver::kMumps);
+}
 
-TEST(SolverThreadsLong, FiveHundredEightAtATime) {
+TEST(SolverThreadsLong, FiveHundredSolvesEightAtATimeEqualTheSerialSolves) {
   ExpectSameAsSerial(500, 35, LinearSolver::kSparseLdlt);
 }
 

@@ -7,10 +7,10 @@
 
 namespace possibility::collocation {
 
-/// Problems that come in families: one number apart, the same structure.
+/// Families of problems of the same structure that differ by one number.
 
-/// 1 kg moved from rest to rest in 1 s with the least integral of force^2 (12 distance^2 where the
-/// force's bound does not bite).
+/// 1 kg is moved from rest to rest in 1 s with the least integral of force^2. The integral is 12
+/// distance^2 where the force's bound is not active.
 inline std::unique_ptr<OptimalControlProblem> BlockMove(double distance, double strongest = 100) {
   auto problem = std::make_unique<OptimalControlProblem>("block move");
   Phase& phase = problem->AddPhase("move", 2);
@@ -27,7 +27,7 @@ inline std::unique_ptr<OptimalControlProblem> BlockMove(double distance, double 
   return problem;
 }
 
-/// The Goddard rocket in the units of COPS 3 (Dolan, More & Munson 2004): as high as it goes until
+/// The Goddard rocket in the units of COPS 3 (Dolan, More & Munson 2004): the greatest height until
 /// `final_mass` is left.
 inline std::unique_ptr<OptimalControlProblem> Goddard(double final_mass) {
   auto problem = std::make_unique<OptimalControlProblem>("Goddard rocket");
@@ -57,7 +57,7 @@ inline std::unique_ptr<OptimalControlProblem> Goddard(double final_mass) {
   return problem;
 }
 
-/// Kelly 2017, section 6: swing-up with the cart's end `distance` from its start.
+/// Kelly 2017, section 6: swing-up. The cart's end is `distance` from its start.
 inline std::unique_ptr<OptimalControlProblem> CartPole(double distance) {
   auto problem = std::make_unique<OptimalControlProblem>("cart-pole swing-up");
   Phase& phase = problem->AddPhase("swing", 2);
@@ -92,8 +92,8 @@ inline std::unique_ptr<OptimalControlProblem> CartPole(double distance) {
   return problem;
 }
 
-/// Two phases of free duration that share a state, a parameter and a bounded control: the shortest
-/// time to x = `distance`, at most `speed` in the first phase.
+/// Two phases of free duration that share a state, a parameter and a bounded control. The objective
+/// is the shortest time to x = `distance`, with a speed of at most `speed` in the first phase.
 inline std::unique_ptr<OptimalControlProblem> TwoLegs(double distance, double speed) {
   auto problem = std::make_unique<OptimalControlProblem>("two legs");
   const Variable drag = problem->AddParameter("drag", {0.1, 2}, 1, 1);

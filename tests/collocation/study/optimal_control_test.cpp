@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// x' = -x + u with the least integral of x^2 + u^2: smooth, and not polynomial, so that every
-/// scheme has an error.
+/// x' = -x + u with the least integral of x^2 + u^2. The solution is smooth but not polynomial, so
+/// every scheme has an error.
 std::unique_ptr<OptimalControlProblem> Smooth() {
   auto problem = std::make_unique<OptimalControlProblem>("smooth");
   Phase& phase = problem->AddPhase("only");
@@ -53,7 +53,7 @@ double ErrorWith(const TranscriptionScheme& scheme, int intervals) {
   return std::abs(result.objective - SmoothOptimum());
 }
 
-TEST(OptimalControlTest, OrdersOfConvergence) {
+TEST(OptimalControlTest, SchemesHaveTheirOrdersOfConvergence) {
   for (const auto& [scheme, order] : {std::pair{Trapezoidal(), 2.0},
                                       {HermiteSimpson(), 4.0},
                                       {CompressedHermiteSimpson(), 4.0}}) {
@@ -64,7 +64,7 @@ TEST(OptimalControlTest, OrdersOfConvergence) {
   }
 }
 
-/// A pendulum swung to the side with least effort, of order 2 or as a first-order system.
+/// A pendulum swung to the side with least effort, as a second-order or a first-order system.
 std::unique_ptr<OptimalControlProblem> Pendulum(int order) {
   auto problem = std::make_unique<OptimalControlProblem>("pendulum");
   Phase& phase = problem->AddPhase("swing", order);
@@ -92,7 +92,7 @@ std::unique_ptr<OptimalControlProblem> Pendulum(int order) {
   return problem;
 }
 
-/// Greatest |q'' - f(q, u)| between the knots, q'' the second derivative of the q that is returned.
+/// Greatest |q'' - f(q, u)| between the knots, with q'' the second derivative of the returned q.
 double DynamicsError(int order, int intervals) {
   const auto problem = Pendulum(order);
   OptimalControlOptions options;
@@ -104,7 +104,7 @@ double DynamicsError(int order, int intervals) {
   for (int i = 0; i < 40 * intervals; ++i) {
     const double s = (i + 0.5) / (40 * intervals);
     const double step = 1e-5;
-    // The second derivative from q alone; never across a knot.
+    // The second derivative comes from q alone and never spans a knot.
     const double q = motion.Coordinates(s)[0];
     const double h = step * motion.duration;
     const double acceleration =
@@ -135,7 +135,7 @@ TEST(OptimalControlTest, RefinesTheMeshUntilTheErrorIsSmallEnough) {
   EXPECT_NEAR(result.objective, SolveOptimalControl(*problem, options).objective, 1e-4);
 }
 
-TEST(OptimalControlTest, StartsFromAnotherSolution) {
+TEST(OptimalControlTest, StartFromASolutionTakesFewerIterations) {
   const auto problem = Pendulum(2);
   const OptimalControlResult cold = SolveOptimalControl(*problem);
   ASSERT_TRUE(cold.succeeded());
@@ -145,7 +145,7 @@ TEST(OptimalControlTest, StartsFromAnotherSolution) {
   EXPECT_NEAR(warm.objective, cold.objective, 1e-6 * cold.objective);
 }
 
-TEST(OptimalControlTest, CancelledWhileItsProgramIsBuilt) {
+TEST(OptimalControlTest, CancelledWhileTheProgramIsBuiltGivesNoTrajectory) {
   const auto problem = Smooth();
   SolveControl control;
   control.Cancel();
@@ -157,7 +157,7 @@ TEST(OptimalControlTest, CancelledWhileItsProgramIsBuilt) {
   EXPECT_TRUE(result.violations.empty());
 }
 
-TEST(OptimalControlTest, CancelledOnItsWayKeepsTheMotionItHad) {
+TEST(OptimalControlTest, CancelledAfterAnIterationGivesItsTrajectory) {
   const auto problem = Smooth();
   SolveControl control;
   const OptimalControlResult result = SolveOptimalControl(

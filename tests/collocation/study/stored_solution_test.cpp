@@ -22,7 +22,7 @@ namespace {
 
 using models::TemporaryFolder;
 
-/// Tight, so that optima agree beyond the solver's usual tolerance.
+/// Tight tolerances, so that optima agree more closely than the solver's usual tolerance.
 OptimalControlOptions Options(const TranscriptionScheme& scheme, int intervals) {
   OptimalControlOptions options;
   options.scheme = scheme;
@@ -31,7 +31,7 @@ OptimalControlOptions Options(const TranscriptionScheme& scheme, int intervals) 
   return options;
 }
 
-/// Through a file, as somebody else's solve would get it.
+/// The solution after a file, as another program would read it.
 StoredSolution ThroughFile(const StoredSolution& solution) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "solution.json";
@@ -39,8 +39,8 @@ StoredSolution ThroughFile(const StoredSolution& solution) {
   return ReadSolution(file);
 }
 
-/// The solve of one problem, cold and from its neighbour's solution: the same optimum in at most
-/// `share` of the iterations.
+/// Solves one problem cold and from its neighbour's solution. The optimum must be the same, with at
+/// most `share` of the iterations.
 void ExpectWarmStartHelps(const OptimalControlProblem& neighbour,
                           const OptimalControlProblem& problem,
                           const OptimalControlOptions& options, double share) {
@@ -59,28 +59,28 @@ void ExpectWarmStartHelps(const OptimalControlProblem& neighbour,
       << problem.name() << ": " << warm.iterations << " iterations, cold " << cold.iterations;
 }
 
-TEST(StoredSolution, StartsABlockMoveOverAnotherDistance) {
+TEST(StoredSolution, WarmStartsABlockMoveOverAnotherDistance) {
   ExpectWarmStartHelps(*BlockMove(1), *BlockMove(1.2), Options(HermiteSimpson(), 20), 0.7);
 }
 
-TEST(StoredSolution, StartsABlockMoveWithAnotherBound) {
+TEST(StoredSolution, WarmStartsABlockMoveWithAnotherBound) {
   ExpectWarmStartHelps(*BlockMove(1, 5.5), *BlockMove(1, 5.2), Options(HermiteSimpson(), 20), 0.6);
 }
 
-TEST(StoredSolution, StartsARocketOfAnotherFinalMass) {
+TEST(StoredSolution, WarmStartsARocketOfAnotherFinalMass) {
   ExpectWarmStartHelps(*Goddard(0.6), *Goddard(0.601), Options(Trapezoidal(), 100), 0.6);
 }
 
-TEST(StoredSolution, StartsACartPoleThatEndsElsewhere) {
+TEST(StoredSolution, WarmStartsACartPoleWithAnotherEnd) {
   ExpectWarmStartHelps(*CartPole(1), *CartPole(1.05), Options(HermiteSimpson(), 40), 0.6);
   ExpectWarmStartHelps(*CartPole(1), *CartPole(1.05), Options(CompressedHermiteSimpson(), 40), 0.6);
 }
 
-TEST(StoredSolution, StartsSeveralPhasesWithAParameter) {
+TEST(StoredSolution, WarmStartsSeveralPhasesWithAParameter) {
   ExpectWarmStartHelps(*TwoLegs(4, 1.5), *TwoLegs(4.2, 1.5), Options(Trapezoidal(), 30), 0.8);
 }
 
-TEST(StoredSolution, ItsOwnProblemIsSolvedAtOnce) {
+TEST(StoredSolution, SolvesItsOwnProblemInTwoIterations) {
   const auto problem = CartPole(1);
   const auto options = Options(HermiteSimpson(), 30);
   const OptimalControlResult cold = SolveOptimalControl(*problem, options);
@@ -102,7 +102,7 @@ TEST(StoredSolution, OnAnotherMeshItIsInterpolated) {
   EXPECT_LT(2 * warm.iterations, cold.iterations);
 }
 
-TEST(StoredSolution, GivesItsMesh) {
+TEST(StoredSolution, ItsRefinedMeshNeedsNoRefinement) {
   const auto problem = CartPole(1);
   OptimalControlOptions options = Options(HermiteSimpson(), 10);
   options.mesh_tolerance = 1e-3;
@@ -162,7 +162,7 @@ std::string Difference(const OptimalControlProblem& problem, const StoredSolutio
   return MessageOf([&] { SolveOptimalControl(problem, solution); });
 }
 
-TEST(StoredSolution, OfAnotherProblemIsRefusedByTheFirstDifference) {
+TEST(StoredSolution, OfAnotherProblemIsRefusedWithTheFirstDifference) {
   const auto block = BlockMove(1);
   const StoredSolution stored = Store(*block, SolveOptimalControl(*block));
   EXPECT_EQ(Difference(*CartPole(1), stored),
@@ -186,7 +186,7 @@ TEST(StoredSolution, OfAnotherProblemIsRefusedByTheFirstDifference) {
   other.parameters = {"gain"};
   EXPECT_EQ(Difference(*block, other),
             "block move: parameter 0 of the stored solution is 'gain', expected none");
-  other = stored;  // names and numbers that do not fit each other
+  other = stored;  // numbers that do not match the names
   other.trajectory.phases[0].coordinates[1].conservativeResize(2, Eigen::NoChange);
   EXPECT_EQ(Difference(*block, other),
             "block move: phase 'move': a guess has 2 coordinates, expected 1");
@@ -229,7 +229,7 @@ TEST(StoredSolution, ReadsBackToTheSameBits) {
       }
       EXPECT_TRUE(SameBits(a.controls, b.controls));
     }
-    // Any bits a number can have, signed zeros and denormals among them.
+    // Any bits that a number can have, signed zeros and denormals among them.
     for (double& value : stored.trajectory.phases[0].controls.reshaped()) {
       do {
         value = std::bit_cast<double>(random());
@@ -240,7 +240,7 @@ TEST(StoredSolution, ReadsBackToTheSameBits) {
   }
 }
 
-TEST(StoredSolution, NumbersThatAreNoneAreNotWritten) {
+TEST(StoredSolution, InvalidNumbersAndPathsAreNotWritten) {
   const auto problem = BlockMove(1);
   StoredSolution stored = Store(*problem, SolveOptimalControl(*problem));
   stored.multipliers.constraints[0].values[0] = std::nan("");
@@ -252,7 +252,7 @@ TEST(StoredSolution, NumbersThatAreNoneAreNotWritten) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-/// What the reader says of a text, without the file's name; "" if it takes it.
+/// The reader's message on a text, without the file's name; "" if the text is accepted.
 std::string Complaint(const std::string& text) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "s.json";
@@ -276,7 +276,7 @@ std::string Written(const StoredSolution& stored) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-TEST(StoredSolution, MalformedFilesAreOneClearLine) {
+TEST(StoredSolution, MalformedFilesAreRefusedWithOneLine) {
   const auto problem = BlockMove(1);
   OptimalControlOptions options;
   options.intervals = {2};
@@ -320,7 +320,7 @@ TEST(StoredSolution, MalformedFilesAreOneClearLine) {
   EXPECT_EQ(with("/multipliers/lower", 3), "multipliers.lower: expected an array, got number");
 }
 
-TEST(StoredSolution, DamagedFilesNeverDoHarm) {
+TEST(StoredSolution, DamagedFilesAreUsedOrRefused) {
   const auto problem = BlockMove(1, 5.5);
   OptimalControlOptions options;
   options.intervals = {3};
@@ -346,7 +346,7 @@ TEST(StoredSolution, DamagedFilesNeverDoHarm) {
       ++refused;
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     } catch (const std::invalid_argument&) {
-      ++refused;  // a name that is another now
+      ++refused;  // a changed name
     }
   }
   EXPECT_GT(refused, 100);

@@ -6,7 +6,7 @@
 namespace possibility::collocation {
 namespace {
 
-TEST(WorkedExampleTest, BlockMove) {
+TEST(WorkedExampleTest, BlockMoveMeetsItsClosedForm) {
   OptimalControlProblem problem("block move");
   Phase& move = problem.AddPhase("move", 2);
   const Variable x = move.AddCoordinate("x");

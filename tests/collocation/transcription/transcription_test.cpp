@@ -16,7 +16,7 @@ using dynamics::RichardsonJacobian;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Everything at once: two phases of different order, free and fixed durations, time, a
+/// A problem with every feature: two phases of different order, free and fixed durations, time, a
 /// parameter, bounds inside, links, costs of every kind.
 std::unique_ptr<OptimalControlProblem> Medley() {
   auto problem = std::make_unique<OptimalControlProblem>("medley");
@@ -127,8 +127,8 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
   }
 }
 
-TEST_P(EveryScheme, APolynomialMotionHasNoDefect) {
-  // q of degree 2 + the highest derivative's: the transcription is exact for it.
+TEST_P(EveryScheme, APolynomialMotionIsTranscribedExactly) {
+  // q is of degree 2 + the highest derivative's degree. The transcription is exact for it.
   OptimalControlProblem problem("polynomial");
   Phase& phase = problem.AddPhase("only", 2);
   const Variable q = phase.AddCoordinate("q");
@@ -141,7 +141,7 @@ TEST_P(EveryScheme, APolynomialMotionHasNoDefect) {
   VectorXd defects;
   program.Constraints(x, &defects);
   EXPECT_LT(defects.cwiseAbs().maxCoeff(), 1e-14);
-  // ... and evaluating it anywhere gives it back, with all its derivatives.
+  // The trajectory gives the motion back everywhere, with all its derivatives.
   const Trajectory trajectory = program.TrajectoryOf(x);
   for (double s = 0; s <= 1; s += 0.05) {
     const PhaseTrajectory& motion = trajectory.phases[0];
@@ -149,7 +149,7 @@ TEST_P(EveryScheme, APolynomialMotionHasNoDefect) {
     EXPECT_NEAR(motion.Coordinates(s, 1)[0], (-2 + 12 * s - 12 * s * s) / 2, 1e-13);
     EXPECT_NEAR(motion.Coordinates(s, 2)[0], (12 - 24 * s) / 4, 1e-13);
   }
-  // Another mesh starts from it without loss.
+  // A guess on another mesh starts from it without loss.
   Transcription finer(problem, GetParam(), {UniformMesh(7)});
   finer.Constraints(finer.GuessFrom(trajectory), &defects);
   EXPECT_LT(defects.cwiseAbs().maxCoeff(), 1e-13);
@@ -179,12 +179,12 @@ TEST(TranscriptionTest, CompressedHasNoStatesInside) {
   const std::vector<Mesh> meshes = {UniformMesh(4), UniformMesh(3)};
   const Transcription separated(*problem, HermiteSimpson(), meshes);
   const Transcription compressed(*problem, CompressedHermiteSimpson(), meshes);
-  // 2 states in 4 interval middles, 4 in 3; where they are bounded a row takes their place.
+  // 2 states in 4 interval middles and 4 in 3. Where they are bounded, a row takes their place.
   EXPECT_EQ(separated.num_variables() - compressed.num_variables(), 2 * 4 + 4 * 3);
   EXPECT_EQ(separated.num_constraints() - compressed.num_constraints(), 1 * 4 + 3 * 3);
 }
 
-TEST(TranscriptionTest, NamesSayWhereAndWhat) {
+TEST(TranscriptionTest, NamesHoldPhaseKnotAndQuantity) {
   const auto problem = Medley();
   const Transcription program(*problem, HermiteSimpson(), {UniformMesh(2), UniformMesh(1)});
   EXPECT_EQ(program.VariableName(0), "gain");
@@ -195,7 +195,7 @@ TEST(TranscriptionTest, NamesSayWhereAndWhat) {
   EXPECT_EQ(program.ConstraintName(program.num_constraints() - 1), "jump[1]");
 }
 
-TEST(TranscriptionTest, SaysWhatContradictsItself) {
+TEST(TranscriptionTest, ContradictoryProblemsAreRefusedByName) {
   const auto transcribe = [](const OptimalControlProblem& problem) {
     Transcription(problem, HermiteSimpson(), {UniformMesh(2)});
   };
