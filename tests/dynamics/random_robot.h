@@ -26,7 +26,7 @@ inline Eigen::Isometry3d RandomPose(std::mt19937* random, double distance) {
   return X;
 }
 
-/// A solid ellipsoid, anywhere near the link's origin.
+/// A solid ellipsoid at a random place near the link's origin.
 inline models::Inertial RandomInertial(std::mt19937* random) {
   models::Inertial inertial;
   inertial.mass = Uniform(random, 0.5, 8);
@@ -55,7 +55,7 @@ inline models::RobotModel RandomTree(std::mt19937* random, int num_joints) {
     joint.type = kind == 0   ? models::JointType::kPrismatic
                  : kind == 1 ? models::JointType::kContinuous
                              : models::JointType::kRevolute;
-    // Mostly chains, with a branch now and then.
+    // Mostly chains, with an occasional branch.
     joint.parent = (*random)() % 3 == 0 ? static_cast<int>((*random)() % (i + 1)) : i;
     joint.X_PJ = RandomPose(random, 0.3);
     const Eigen::Vector3d direction = RandomVector(random, 3, 1);

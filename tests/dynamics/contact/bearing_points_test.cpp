@@ -15,8 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A rigid body of mass 1 and inertia `inertia` about all axes, v = (angular, linear) of its
-/// centre; `offsets` from there; `motion` (6) without contacts.
+/// A rigid body of mass 1 and inertia `inertia` about all axes, with v = (angular, linear) of its
+/// centre and contact points at `offsets` from there. `motion` (6) is its motion without contacts.
 UnilateralContacts Body(double inertia, const std::vector<Vector3d>& offsets,
                         const VectorXd& motion) {
   UnilateralContacts contacts;
@@ -60,22 +60,22 @@ TEST(BearingPoints, TurningBodyBearsOnOneEdge) {
   EXPECT_EQ(bearing.points, (std::vector<int>{2, 3}));
 }
 
-TEST(BearingPoints, SlowPointsStay) {
+TEST(BearingPoints, PointsBelowTheStayingVelocityBear) {
   UnilateralContacts contacts = Body(0.01, kCorners, Motion(0, 0, 0, 1e-3));
   EXPECT_TRUE(SelectBearingPoints(contacts).points.empty());
   contacts.staying = 2e-3;
   EXPECT_EQ(SelectBearingPoints(contacts).points.size(), 4);
 }
 
-TEST(BearingPoints, PushedDownAndAlongBearsOnTheFrontEdgeOrTips) {
-  // A tall body pushed along: no sliding, so it turns over its front edge.
+TEST(BearingPoints, ABodyPushedAlongBearsOnAllPointsOrItsFrontEdge) {
+  // A tall body pushed along. Friction does not let it slide, so it turns over its front edge.
   const BearingPoints tips = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 5, -1)));
   EXPECT_EQ(tips.points, (std::vector<int>{2, 3}));
   const BearingPoints stays = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 0.5, -1)));
   EXPECT_EQ(stays.points.size(), 4);
 }
 
-/// What holding the points does to the unconstrained motion, and the forces that do it.
+/// The motion that results if the points are held, and the forces that hold them.
 VectorXd Held(const UnilateralContacts& contacts, const std::vector<int>& points,
               VectorXd* forces) {
   std::vector<int> rows;
@@ -92,7 +92,7 @@ VectorXd Held(const UnilateralContacts& contacts, const std::vector<int>& points
 }
 
 TEST(BearingPoints, RandomBodiesMeetTheConditionsOfContactOrAreJammed) {
-  // Three points at most: then forces are unique and signs can be checked one by one.
+  // Three points at most, so that forces are unique and signs can be checked one by one.
   std::mt19937 random(6);
   int jammed = 0, bears[4] = {};
   for (int trial = 0; trial < 2000; ++trial) {
@@ -115,7 +115,7 @@ TEST(BearingPoints, RandomBodiesMeetTheConditionsOfContactOrAreJammed) {
       ++jammed;
       continue;
     }
-    // Normal forces of points on one link are unique up to three points not on a line.
+    // Normal forces of points on one link are unique for up to three points not on a line.
     for (size_t i = 0; i < bearing.points.size(); ++i) {
       EXPECT_GE(forces[3 * i + 2], -1e-5) << "a point pulls, trial " << trial;
     }
@@ -126,8 +126,8 @@ TEST(BearingPoints, RandomBodiesMeetTheConditionsOfContactOrAreJammed) {
   EXPECT_LT(jammed, 400);
 }
 
-TEST(BearingPoints, JammedRod) {
-  // Painleve's rod: at rest it would fall onto its tip, but turned fast enough the tip needs a
+TEST(BearingPoints, ARodIsJammedExactlyIfItsForcePulls) {
+  // Painleve's rod. At rest it would fall onto its tip. If it turns fast enough, the tip needs a
   // pull to stay, while friction would lift it.
   const double lean = 0.9;
   const Vector3d tip(-std::sin(lean), 0, -std::cos(lean));
@@ -139,7 +139,7 @@ TEST(BearingPoints, JammedRod) {
   EXPECT_EQ(bearing.jammed.empty(), forces[2] >= 0);
 }
 
-TEST(BearingPoints, NonsenseIsRejected) {
+TEST(BearingPoints, InvalidArgumentsAreRefused) {
   UnilateralContacts contacts = Body(0.01, kCorners, Motion(0, 0, 0, -1));
   contacts.unconstrained[3] = NAN;
   EXPECT_THROW(SelectBearingPoints(contacts), std::invalid_argument);

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// What a pyramid of 32 edges loses at most.
+// The factor that a pyramid of 32 edges loses at most.
 const double kPyramid = 1 / std::cos(M_PI / 32);
 
 models::RobotModel Block() {
@@ -64,7 +64,7 @@ Vector3d Inclined(double angle) { return {-std::sin(angle), 0, std::cos(angle)};
 TEST(ContactMargins, BlockOnASlopeNeedsTheTangentOfItsInclination) {
   MultibodyDynamics block(MultibodyModel::Spatial(Block()));
   for (const double angle : {0.0, 0.1, 0.4, -0.6}) {
-    // The block stands upright on steps of the slope under its com, so that all bear alike.
+    // The block stands upright on steps of the slope under its com, so that all points bear alike.
     std::vector<ContactPoint> points;
     for (const double y : {-0.1, 0.1}) {
       points.push_back({0, {0.1, y, -0.5}, Inclined(angle)});
@@ -93,13 +93,13 @@ TEST(ContactMargins, AGrooveHoldsWithoutFriction) {
   const auto margins = ComputeContactMargins(&block, points, Fine());
   ASSERT_TRUE(margins);
   EXPECT_LT(margins->friction_fraction, 2 * kMarginPrecision);
-  // At the very angle of friction zero, too.
+  // This holds at zero friction, too.
   ContactForceSettings smooth = Fine();
   smooth.friction = 0;
   EXPECT_TRUE(ComputeContactMargins(&block, points, smooth));
 }
 
-/// Two points in the plane: one internal force s is free. Scanned, it gives both margins.
+/// Two points in the plane. One internal force s is free; a scan over it gives both margins.
 struct Scan {
   double friction = kInfinity;
   double effort = kInfinity;
@@ -200,7 +200,7 @@ TEST(ContactMargins, ScaleWithFrictionAndEfforts) {
     EXPECT_LE(margins->friction_fraction, forces->friction_utilisation);
     EXPECT_LE(margins->effort_fraction, forces->torque_utilisation);
     EXPECT_GT(margins->effort_fraction, 0.01);
-    // At the margins it still can be done, a little below no more.
+    // At the margins the motion is still possible, a little below them no more.
     for (const double factor : {0.99, 1.01}) {
       ContactForceSettings at = settings;
       at.torque_margin = factor * margins->effort_fraction;
@@ -290,7 +290,7 @@ TEST(ImpulseFeasibility, LandingBoxSticksSlipsOrTips) {
       EXPECT_FALSE(result.feasible);
       EXPECT_EQ(result.friction_fraction, kInfinity);
       ASSERT_TRUE(result.pulling_point);
-      // The corners away from where it is going are the ones that would have to pull.
+      // The corners at the trailing edge are the ones that would have to pull.
       EXPECT_LT(landing.points[*result.pulling_point].p_L.x() * velocity.x(), 0);
     }
     EXPECT_LT((result.impulses.rowwise().sum() + 10 * velocity).norm(), 1e-7);
@@ -298,8 +298,8 @@ TEST(ImpulseFeasibility, LandingBoxSticksSlipsOrTips) {
 }
 
 TEST(ImpulseFeasibility, AnotherDistributionNeedNotPull) {
-  // Nearly all of the weight over one end of a row of points: linear in the position, the impulses
-  // of least norm pull at the other end; the two nearest points alone do not.
+  // Nearly all of the weight is over one end of a row of points. The impulses of least norm are
+  // linear in the position and pull at the other end. The two nearest points alone do not pull.
   models::RobotModel model = Block();
   model.links[0].inertial.p_LC = Vector3d(0.45, 0, 0);
   ForwardDynamics dynamics(MultibodyModel::Planar(model));
@@ -321,7 +321,7 @@ TEST(ImpulseFeasibility, AnotherDistributionNeedNotPull) {
 }
 
 TEST(ImpulseFeasibility, FramesTurnTogether) {
-  // Everything turned by one rotation: the same fractions but for the pyramids' sides.
+  // Everything is turned by one rotation. The fractions stay the same but for the pyramids' sides.
   std::mt19937 random(5);
   for (int trial = 0; trial < 20; ++trial) {
     const int count = 2 + static_cast<int>(random() % 4);

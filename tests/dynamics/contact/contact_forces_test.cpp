@@ -59,7 +59,7 @@ std::vector<ContactPoint> Rectangle(int link, double x0, double x1, double y0, d
   return {{link, {x0, y0, z}}, {link, {x1, y0, z}}, {link, {x1, y1, z}}, {link, {x0, y1, z}}};
 }
 
-/// What DistributeContactForces promises, checked with nothing but inverse dynamics.
+/// The promises of DistributeContactForces, checked with inverse dynamics only.
 void ExpectValid(TreeKinematics* kinematics, const VectorXd& a,
                  const std::vector<ContactPoint>& points, const ContactForceSettings& settings,
                  const ContactForces& result) {
@@ -112,7 +112,7 @@ TEST(ContactForces, TwoAndThreePointSupportsFollowTheLeverLaw) {
   EXPECT_NEAR(one->forces(2, 0), 10 * kGravity, 1e-9);
 }
 
-TEST(ContactForces, CoincidentPointsShare) {
+TEST(ContactForces, CoincidentPointsShareTheLoadEqually) {
   Standing block(Block());
   std::vector<ContactPoint> points = Rectangle(0, -0.1, 0.3, -0.1, 0.1, -0.5);
   points.push_back(points[0]);
@@ -123,7 +123,7 @@ TEST(ContactForces, CoincidentPointsShare) {
   ExpectValid(&block.kinematics, VectorXd::Zero(6), points, block.settings, *result);
 }
 
-TEST(ContactForces, NoneWhenTheCentreOfMassIsOutsideTheSupport) {
+TEST(ContactForces, NoForcesExistIfTheCentreOfMassIsOutsideTheSupport) {
   Standing block(Block());
   EXPECT_FALSE(block.Forces(Rectangle(0, 0.001, 0.3, -0.1, 0.1, -0.5)));
   EXPECT_TRUE(block.Forces(Rectangle(0, -0.001, 0.3, -0.1, 0.1, -0.5)));
@@ -132,7 +132,7 @@ TEST(ContactForces, NoneWhenTheCentreOfMassIsOutsideTheSupport) {
   EXPECT_FALSE(block.Forces({{0, {0.01, 0, -0.5}}}));
 }
 
-TEST(ContactForces, PlanarAccelerationsInsideTheTippingAndSlidingLimitsOnly) {
+TEST(ContactForces, ForcesExistExactlyWithinTheTippingAndSlidingLimits) {
   Standing block(Block());
   block.settings.friction = 0.5;
   block.settings.friction_margin = 1;
@@ -144,8 +144,8 @@ TEST(ContactForces, PlanarAccelerationsInsideTheTippingAndSlidingLimitsOnly) {
     a[3] = Uniform(&random, -6, 6);
     a[5] = Uniform(&random, -12, 6);
     const double normal = a[5] + kGravity;
-    // The force passes through the com: it tips beyond half / height, slides beyond the octagon,
-    // whose side faces +x at cos(pi / 8) of the friction.
+    // The force passes through the com. The block tips beyond half / height and slides beyond the
+    // octagon, whose side faces +x at cos(pi / 8) of the friction.
     const double bound = std::min(half / height, 0.5 * std::cos(M_PI / 8)) * normal;
     const double slack = bound - std::abs(a[3]);
     if (std::abs(slack) < 1e-6) continue;
@@ -157,7 +157,7 @@ TEST(ContactForces, PlanarAccelerationsInsideTheTippingAndSlidingLimitsOnly) {
 }
 
 TEST(ContactForces, TorqueLimitsBoundTheLoad) {
-  // The only point bears the weight straight under the com, 0.05 m in front of the joint.
+  // The only point bears the weight right under the com, 0.05 m in front of the joint.
   const double least = 0.05 * 10 * kGravity;
   for (const double ratio : {0.9, 0.999, 1.001, 2.0}) {
     models::RobotModel model = BlockWithLimb(ratio * least / 0.95);
@@ -173,8 +173,8 @@ TEST(ContactForces, TorqueLimitsBoundTheLoad) {
   }
 }
 
-TEST(ContactForces, UnloadedJointsCountToo) {
-  // An arm that no contact holds: its weight's moment is what its joint must bear.
+TEST(ContactForces, TorqueLimitsOfUnloadedJointsHold) {
+  // An arm that no contact holds. Its joint must bear the moment of its weight.
   for (const double effort : {1.0, 100.0}) {
     models::RobotModel model = BlockWithLimb(effort);
     model.links[1].inertial.mass = 1;
@@ -188,7 +188,7 @@ TEST(ContactForces, UnloadedJointsCountToo) {
   }
 }
 
-TEST(ContactForces, FreeFlight) {
+TEST(ContactForces, FreeFlightIsFeasibleOnlyAtGravitysAcceleration) {
   Standing robot(BlockWithLimb(1));
   VectorXd a = VectorXd::Zero(7);
   EXPECT_FALSE(robot.Forces(a, {}));
@@ -210,7 +210,7 @@ TEST(ContactForces, NormalReserveHoldsAtEveryPoint) {
   EXPECT_FALSE(block.Forces(points));
 }
 
-/// Random trees pushed by random forces inside the cones: what those forces do can be done.
+/// Random trees pushed by random forces inside the cones. Such motions are feasible.
 TEST(ContactForces, FindsForcesWhereverTheyExist) {
   std::mt19937 random(2);
   int limited = 0;
@@ -235,7 +235,7 @@ TEST(ContactForces, FindsForcesWhereverTheyExist) {
       const Vector3d force(tangential * std::cos(angle), tangential * std::sin(angle), normal);
       kinematics.AddPointForce(points.back().link, points.back().p_L, force, &loads);
     }
-    // The root's acceleration under those forces, the joints' at random.
+    // The root's acceleration results from those forces; the joints' is random.
     const int nv = model.nv();
     VectorXd a = RandomVector(&random, nv, 2);
     a.head<6>().setZero();

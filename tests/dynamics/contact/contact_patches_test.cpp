@@ -50,7 +50,7 @@ TEST(ContactPatches, PointsOnALineTipAboutTheirEndsAndAPointLiftsOff) {
   EXPECT_DOUBLE_EQ(single[0].Moment(single[0].edges[0], force), 3);
 }
 
-TEST(ContactPatches, LinksAndPlanesAreApart) {
+TEST(ContactPatches, PointsOfOtherLinksOrPlanesAreOtherPatches) {
   std::vector<PatchPoint> points = Rectangle(0, 1, 1);
   points[1].link = 1;
   points[2].normal_W = Vector3d::UnitX();
@@ -59,7 +59,7 @@ TEST(ContactPatches, LinksAndPlanesAreApart) {
   EXPECT_EQ(patches[0].points, (std::vector<int>{0, 3}));
 }
 
-TEST(ContactPatches, FrictionUtilisation) {
+TEST(ContactPatches, FrictionUtilisationIsTheRatioToTheConesLimit) {
   const auto patches = MakePatches(Rectangle(0, 1, 1));
   Matrix3Xd forces = Matrix3Xd::Zero(3, 4);
   EXPECT_EQ(patches[0].FrictionUtilisation(forces, 0.5), 0);
@@ -71,8 +71,8 @@ TEST(ContactPatches, FrictionUtilisation) {
   EXPECT_EQ(patches[0].FrictionUtilisation(forces, 0.5), std::numeric_limits<double>::infinity());
 }
 
-/// Whether normal forces >= 0 at the points have the resultant and moments of `forces`: a
-/// quadratic program says it, which knows nothing of edges.
+/// Whether some normal forces >= 0 at the points have the resultant and moments of `forces`. A
+/// quadratic program decides, which knows nothing of edges.
 bool CanPush(const std::vector<PatchPoint>& points, const Matrix3Xd& forces) {
   const int count = static_cast<int>(points.size());
   QuadraticProgram program;

@@ -65,7 +65,7 @@ void ExpectOptimal(const QuadraticProgram& p, const QuadraticProgramSolution& s)
 }
 
 /// The least cost over all subsets of active inequalities whose equality-constrained minimum is
-/// feasible; none if no subset's is. Needs generic data with n >= equalities.
+/// feasible; none if there is no such subset. Needs generic data with n >= equalities.
 std::optional<double> BruteForceCost(const QuadraticProgram& p) {
   std::optional<double> best;
   const int n = static_cast<int>(p.g.size());
@@ -128,12 +128,12 @@ TEST(QuadraticProgram, LargerProgramsMeetTheOptimalityConditions) {
   }
 }
 
-TEST(QuadraticProgram, DependentRowsAndDegenerateVertices) {
+TEST(QuadraticProgram, IsSolvedWithDependentRowsAndDegenerateVertices) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 200; ++trial) {
     QuadraticProgram program = RandomProgram(&random, 8, 6, 40);
-    // Equalities of rank 3 and every other inequality a copy or a combination, most through one
-    // point.
+    // The equalities have rank 3. Every other inequality is a copy or a combination. Most of them
+    // pass through one point.
     program.E.bottomRows(3) = RandomMatrix(&random, 3, 3) * program.E.topRows(3);
     for (int i = 1; i < 20; i += 2) program.C.row(i) = 2 * program.C.row(i - 1);
     for (int i = 21; i < 40; i += 2) program.C.row(i) = program.C.row(i - 1) - program.C.row(i - 2);
@@ -142,7 +142,7 @@ TEST(QuadraticProgram, DependentRowsAndDegenerateVertices) {
   }
 }
 
-TEST(QuadraticProgram, OppositeInequalitiesAreAnEquality) {
+TEST(QuadraticProgram, OppositeInequalitiesActAsAnEquality) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 100; ++trial) {
     QuadraticProgram program = RandomProgram(&random, 6, 0, 8);
@@ -159,7 +159,7 @@ TEST(QuadraticProgram, OppositeInequalitiesAreAnEquality) {
   }
 }
 
-TEST(QuadraticProgram, CostsOfVeryDifferentSizes) {
+TEST(QuadraticProgram, TheSolutionDoesNotDependOnTheScaleOfTheCost) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 100; ++trial) {
     QuadraticProgram program = RandomProgram(&random, 10, 3, 20);
@@ -174,7 +174,7 @@ TEST(QuadraticProgram, CostsOfVeryDifferentSizes) {
   }
 }
 
-TEST(QuadraticProgram, FindsContradictions) {
+TEST(QuadraticProgram, ContradictoryConstraintsAreInfeasible) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 100; ++trial) {
     QuadraticProgram equalities = RandomProgram(&random, 6, 4, 5);
@@ -193,7 +193,7 @@ TEST(QuadraticProgram, FindsContradictions) {
   }
 }
 
-TEST(QuadraticProgram, RowsOfZeros) {
+TEST(QuadraticProgram, RowsOfZerosAreIgnoredOrInfeasible) {
   QuadraticProgram program;
   program.H = MatrixXd::Identity(2, 2);
   program.g = VectorXd::Constant(2, -1);

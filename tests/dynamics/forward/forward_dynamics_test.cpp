@@ -47,7 +47,7 @@ std::vector<ContactPoint> RandomPoints(const models::RobotModel& model, int coun
   return points;
 }
 
-/// Held where they are.
+/// Points held where they are.
 std::vector<HeldPoint> Hold(ForwardDynamics* dynamics, const std::vector<ContactPoint>& points) {
   std::vector<HeldPoint> held;
   for (const ContactPoint& point : points) {
@@ -96,7 +96,8 @@ TEST(ForwardDynamics, UndoesInverseDynamicsWithCoupledJoints) {
   std::mt19937 random(2);
   for (int tree = 0; tree < 20; ++tree) {
     models::RobotModel model = RandomTree(&random, 12);
-    // Masters on other branches and further out: the mass matrix has entries off the branches.
+    // Masters are on other branches and further out, so the mass matrix has entries off the
+    // branches.
     for (const int joint : {2, 7, 9}) {
       const int master = joint == 7 ? 11 : static_cast<int>(random() % 2);
       model.joints[joint].mimic = models::Mimic{master, Uniform(&random, 0.5, 2), 0.1};
@@ -105,7 +106,7 @@ TEST(ForwardDynamics, UndoesInverseDynamicsWithCoupledJoints) {
   }
 }
 
-/// Everything from Simbody's own matrices, by a dense factorisation of the whole system.
+/// The expected values come from Simbody's own matrices, by a dense factorisation of the system.
 TEST(ForwardDynamics, HeldAndHitAgreeWithSimbodysMatrices) {
   std::mt19937 random(3);
   const models::RobotModel drc = DrcHubo();
@@ -137,7 +138,7 @@ TEST(ForwardDynamics, HeldAndHitAgreeWithSimbodysMatrices) {
       right.segment<3>(nv + 3 * i) = -simbody.PointBias(points[i].link, points[i].p_L);
     }
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors(system);
-    // Links that hang on few joints cannot follow: not every random pair can be held.
+    // Links that hang on few joints cannot follow, so not every random pair can be held.
     if (factors.rank() < nv + 6) continue;
     const VectorXd expected = factors.solve(right);
     const ConstrainedMotion& motion = dynamics.Held(forces, Hold(&dynamics, points));
@@ -177,7 +178,7 @@ TEST(ForwardDynamics, BothSolesOfDrcHuboHoldWithLeastForces) {
     const VectorXd loads = J.transpose() * Stacked(motion.forces);
     EXPECT_LT((dynamics.dynamics()->InverseDynamics() - forces - loads).norm(),
               1e-9 * (1 + loads.norm()));
-    // The smallest forces that act like these: the pseudo-inverse's.
+    // The smallest forces with the same effect: the pseudo-inverse's.
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors(J.transpose());
     EXPECT_EQ(factors.rank(), 12);
     EXPECT_LT((factors.solve(loads) - Stacked(motion.forces)).norm(),
@@ -185,7 +186,7 @@ TEST(ForwardDynamics, BothSolesOfDrcHuboHoldWithLeastForces) {
   }
 }
 
-TEST(ForwardDynamics, CoincidentAndCollinearPointsShare) {
+TEST(ForwardDynamics, CoincidentPointsShareForcesAndCollinearOnesAddNothing) {
   std::mt19937 random(5);
   const models::RobotModel model = RandomTree(&random, 8);
   ForwardDynamics dynamics(MultibodyModel::Spatial(model));
@@ -208,7 +209,7 @@ TEST(ForwardDynamics, CoincidentAndCollinearPointsShare) {
   EXPECT_LT((with_ends - with_line).norm(), 1e-8 * with_ends.norm());
 }
 
-/// Drift of a held point decays as (1 + t / T) exp(-t / T) of a displacement.
+/// The drift of a held point decays as (1 + t / T) exp(-t / T) times its displacement.
 TEST(ForwardDynamics, DriftIsFedBackCriticallyDamped) {
   std::mt19937 random(6);
   const models::RobotModel model = RandomTree(&random, 6);
@@ -239,8 +240,9 @@ models::RobotModel Body(double mass, const Vector3d& moments) {
 }
 
 TEST(ForwardDynamics, FallingRodHitsWithItsEnd) {
-  // Inclined by theta, falling without turning: it leaves turning at 3 u cos(theta) / (2 L), and
-  // the vertical impulse is m u (1 - 3/4 cos^2(theta)); no slip adds the horizontal one.
+  // The rod is inclined by theta and falls without turning. After the impact it turns at 3 u
+  // cos(theta) / (2 L). The vertical impulse is m u (1 - 3/4 cos^2(theta)), and sticking adds a
+  // horizontal one.
   const double mass = 2;
   const double length = 1.2;
   const double u = 3;
@@ -248,21 +250,21 @@ TEST(ForwardDynamics, FallingRodHitsWithItsEnd) {
   ForwardDynamics dynamics(MultibodyModel::Planar(Body(mass, {moment, moment, moment})));
   for (const double theta : {0.0, 0.3, 0.9, 1.5}) {
     dynamics.SetState(Vector3d(theta, 0, 1), Vector3d(0, 0, -u));
-    // The link's x axis points along (cos, 0, -sin) of the pitch: its end is the lower one.
+    // The link's x axis points along (cos, 0, -sin) of the pitch, so its end is the lower one.
     const Impact& impact = dynamics.Hit({{0, {length / 2, 0, 0}}});
     const double rate = 3 * u * std::cos(theta) / (2 * length);
     EXPECT_NEAR(impact.velocity[0], -rate, 1e-9);
     EXPECT_NEAR(impact.impulses(2, 0), mass * u * (1 - 0.75 * std::pow(std::cos(theta), 2)), 1e-9);
     EXPECT_NEAR(impact.impulses(0, 0), -mass * length / 2 * std::sin(theta) * rate, 1e-9);
     EXPECT_EQ(impact.impulses(1, 0), 0);
-    // About the end, angular momentum is kept: m u L/2 cos(theta) = m L^2 / 3 rate.
+    // Angular momentum about the end is kept: m u L/2 cos(theta) = m L^2 / 3 rate.
     const double after = 0.5 * (mass * length * length / 3) * rate * rate;
     EXPECT_NEAR(impact.energy_lost, 0.5 * mass * u * u - after, 1e-9);
   }
 }
 
 TEST(ForwardDynamics, BoxLandingOnOneEdgeRocksOver) {
-  // A slider's wheel of one spoke: about the edge the box keeps its angular momentum.
+  // Like a rimless wheel of one spoke: the box keeps its angular momentum about the edge.
   const double mass = 5;
   const Vector3d half(0.2, 0.3, 0.1);
   const Vector3d squares = half.array().square();
@@ -318,7 +320,7 @@ TEST(ForwardDynamics, ImpactsBalanceMomentum) {
   }
 }
 
-TEST(ForwardDynamics, StraightKneesHold) {
+TEST(ForwardDynamics, SolesAreHeldWithStraightKnees) {
   const models::RobotModel robot = DrcHubo();
   ForwardDynamics dynamics(MultibodyModel::Spatial(robot), {kInfinity});
   const std::vector<ContactPoint> points = PatchPoints(robot, {"left_sole", "right_sole"});
@@ -329,8 +331,8 @@ TEST(ForwardDynamics, StraightKneesHold) {
   EXPECT_LT((Jacobians(&dynamics, points) * rest.acceleration).norm(), 1e-8);
   EXPECT_TRUE(rest.forces.allFinite());
 
-  // Knees that swing through straight legs at 1 rad/s: thighs and shanks swing on circles whose
-  // centripetal accelerations only the falling pelvis can make up for.
+  // Knees that swing through straight legs at 1 rad/s. Thighs and shanks swing on circles, and only
+  // a falling pelvis can provide their centripetal accelerations.
   for (const char* side : {"L", "R"}) {
     v[6 + robot.JointIndex(std::string(side) + "HP")] = -1;
     v[6 + robot.JointIndex(std::string(side) + "KP")] = 2;
@@ -342,7 +344,7 @@ TEST(ForwardDynamics, StraightKneesHold) {
   EXPECT_NEAR(swing.acceleration[5], -(0.3299 + 0.33), 1e-6);
 }
 
-/// A double pendulum stretched out, its tip held: radial acceleration is out of its reach.
+/// A double pendulum stretched out with its tip held. It cannot accelerate the tip radially.
 TEST(ForwardDynamics, NamesThePointThatCannotBeHeld) {
   models::RobotModel arm = Body(1e6, Vector3d::Constant(1e6));
   for (int i = 0; i < 2; ++i) {
@@ -371,7 +373,7 @@ TEST(ForwardDynamics, NamesThePointThatCannotBeHeld) {
     EXPECT_NE(std::string(error.what()).find("(link '"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("cannot be held"), std::string::npos);
   }
-  // A hair's breadth from straight it can, at a price that grows as the angle shrinks.
+  // Slightly off straight it can, with forces that grow as the angle shrinks.
   double last = 0;
   for (const double bend : {1e-1, 1e-2, 1e-3, 1e-4}) {
     VectorXd q = VectorXd::Zero(5);
@@ -433,7 +435,7 @@ TEST(ForwardDynamics, RefusesMalformedArgumentsByName) {
   huge.head<2>().setConstant(1e200);
   EXPECT_NE(MessageOf([&] { dynamics.SetState(VectorXd::Unit(7, 0), huge); }).find("v is so large"),
             std::string::npos);
-  // A failed SetState leaves no state behind.
+  // A failed SetState leaves no valid state behind.
   EXPECT_NE(MessageOf([&] { dynamics.Free(six); }).find("SetState"), std::string::npos);
 }
 

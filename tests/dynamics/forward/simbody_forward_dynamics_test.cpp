@@ -1,4 +1,4 @@
-// Simbody's forward dynamics and energies, held to our inverse dynamics and to first principles.
+// Simbody's forward dynamics and energies, compared with our inverse dynamics and first principles.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ models::RobotModel DrcHubo1() {
   return models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
 }
 
-/// Every third joint mimics some joint that is none.
+/// Every third joint mimics some joint that is not a mimic.
 models::RobotModel RandomCoupledTree(std::mt19937* random, int num_joints) {
   models::RobotModel model = RandomTree(random, num_joints);
   for (int i = 0; i < num_joints; i += 3) {
@@ -38,7 +38,7 @@ models::RobotModel RandomCoupledTree(std::mt19937* random, int num_joints) {
   return model;
 }
 
-/// Columns: what every tree velocity is for one independent velocity.
+/// Columns: the velocities of the whole tree for a unit of each independent velocity.
 MatrixXd CouplingMatrix(const models::RobotModel& model) {
   MatrixXd C = MatrixXd::Identity(model.nv(), model.nv());
   std::vector<int> independent;
@@ -97,14 +97,14 @@ TEST(SimbodyForwardDynamics, MimicJointsFollowTheirMasters) {
         if (!mimic) continue;
         EXPECT_NEAR(a[6 + j], mimic->multiplier * a[6 + mimic->joint], 1e-9 * a.norm());
       }
-      // The couplings do no work: what is left of the forces is nothing to any coupled motion.
+      // The couplings do no work, so the residual forces do no work in any coupled motion.
       const VectorXd required = ours.InverseDynamics(a);
       EXPECT_LT((C.transpose() * (required - state.forces)).norm(), 1e-8 * required.norm());
     }
   }
 }
 
-/// Held points neither accelerate nor do anything but their forces to the robot.
+/// Held points do not accelerate, and their forces are all that they do to the robot.
 void ExpectHeld(const RandomState& state, const std::vector<ContactPoint>& held,
                 TreeKinematics* ours, SimbodyDynamics* simbody) {
   ours->SetPosition(state.q);
@@ -158,7 +158,7 @@ TEST(SimbodyForwardDynamics, HoldsTheSolesOfDrcHubo) {
   }
 }
 
-TEST(SimbodyForwardDynamics, EnergiesAndMomentum) {
+TEST(SimbodyForwardDynamics, EnergiesAndMomentumAreTheSumsOverTheLinks) {
   std::mt19937 random(25);
   for (int tree = 0; tree < 20; ++tree) {
     const models::RobotModel model =
@@ -191,7 +191,7 @@ TEST(SimbodyForwardDynamics, EnergiesAndMomentum) {
   }
 }
 
-/// All that a state has to say, in one vector.
+/// All results at a state, in one vector.
 VectorXd Answers(const RandomState& state, const std::vector<ContactPoint>& held,
                  SimbodyDynamics* simbody) {
   simbody->SetState(state.q, state.v);
@@ -225,7 +225,7 @@ TEST(SimbodyForwardDynamics, ThreadsDoNotDisturbEachOther) {
   EXPECT_EQ(together[1], alone);
 }
 
-TEST(SimbodyForwardDynamics, RefusesWhatDoesNotFit) {
+TEST(SimbodyForwardDynamics, RefusesInvalidArguments) {
   std::mt19937 random(27);
   const models::RobotModel model = RandomTree(&random, 3);
   SimbodyDynamics simbody(model);

@@ -95,7 +95,7 @@ TEST(OdeIntegrator, RandomLinearSystemsAgreeWithTheirEigenmodes) {
   }
 }
 
-TEST(OdeIntegrator, TimeDependentRateAndStartTime) {
+TEST(OdeIntegrator, ATimeDependentRateFromANegativeTimeIsIntegrated) {
   OdeProblem problem;
   problem.rate = [](double t, State, Output rate) { rate[0] = 3 * t * t; };
   problem.start = VectorXd::Constant(1, -8);
@@ -108,7 +108,7 @@ TEST(OdeIntegrator, TimeDependentRateAndStartTime) {
 }
 
 TEST(OdeIntegrator, StiffProblemNeedsFewStepsWithBdf) {
-  // Prothero & Robinson: x = cos t is a solution whatever the stiffness.
+  // Prothero & Robinson: x = cos t is a solution for any stiffness.
   OdeProblem problem;
   problem.rate = [](double t, State x, Output rate) {
     rate[0] = -1e6 * (x[0] - std::cos(t)) - std::sin(t);
@@ -126,7 +126,7 @@ TEST(OdeIntegrator, StiffProblemNeedsFewStepsWithBdf) {
   EXPECT_NE(ErrorOf(problem, settings).find("steps taken"), std::string::npos);
 }
 
-TEST(OdeIntegrator, RobertsonKinetics) {
+TEST(OdeIntegrator, RobertsonKineticsAgreesWithPublishedValues) {
   // Hairer & Wanner, Solving ODEs II: Robertson's reaction; reference values at t = 40.
   OdeProblem problem;
   problem.rate = [](double, State y, Output rate) {
@@ -163,7 +163,7 @@ TEST(OdeIntegrator, GuardsFireInTheirDirectionOnly) {
   EXPECT_GT(solution.state[0], -1e-14);
 }
 
-TEST(OdeIntegrator, TheFirstOfManyGuardsWins) {
+TEST(OdeIntegrator, TheFirstOfManyGuardsEndsTheIntegration) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-0.99, 0.99);
   for (int trial = 0; trial < 100; ++trial) {
@@ -180,7 +180,7 @@ TEST(OdeIntegrator, TheFirstOfManyGuardsWins) {
   }
 }
 
-TEST(OdeIntegrator, TwoGuardsAtOnce) {
+TEST(OdeIntegrator, TwoGuardsAtOnceAreBothReported) {
   const auto values = [](double t, State x, Output out) {
     out << x[0], std::numbers::pi / 2 - t, x[0] + 0.5;
   };
@@ -191,7 +191,7 @@ TEST(OdeIntegrator, TwoGuardsAtOnce) {
   EXPECT_NEAR(solution.time, std::numbers::pi / 2, 1e-9);
 }
 
-TEST(OdeIntegrator, GuardThatStartsAtZeroAndComesBack) {
+TEST(OdeIntegrator, AGuardThatStartsAtZeroFiresAtItsNextCrossing) {
   // sin t falls at pi, not at 0 where it starts.
   const auto value = [](double, State x, Output out) { out[0] = -x[1]; };
   const OdeSolution solution =
@@ -199,7 +199,7 @@ TEST(OdeIntegrator, GuardThatStartsAtZeroAndComesBack) {
   EXPECT_NEAR(solution.time, std::numbers::pi, 1e-10);
 }
 
-TEST(OdeIntegrator, GuardThatStartsAtZeroAndLeavesItsWay) {
+TEST(OdeIntegrator, AGuardThatLeavesZeroInItsDirectionFiresAtOnceIfSet) {
   const auto value = [](double, State x, Output out) { out[0] = x[1]; };  // -sin t
   OdeProblem problem = Watching(Oscillator(10), {{GuardDirection::kFalling}}, value);
   const OdeSolution at_once = Integrate(problem, Accurate());
@@ -210,8 +210,8 @@ TEST(OdeIntegrator, GuardThatStartsAtZeroAndLeavesItsWay) {
   EXPECT_NEAR(Integrate(problem, Accurate()).time, 2 * std::numbers::pi, 1e-10);
 }
 
-TEST(OdeIntegrator, ShortFlightWithinTheFirstStep) {
-  // A throw of 0.2 milliseconds, over before the first step at these tolerances ends.
+TEST(OdeIntegrator, ACrossingWithinTheFirstStepIsFound) {
+  // A throw of 0.2 milliseconds, which is over before the first step at these tolerances ends.
   OdeProblem problem;
   problem.rate = [](double, State x, Output rate) { rate << x[1], -10; };
   problem.start = Eigen::Vector2d(0, 1e-3);
@@ -225,7 +225,7 @@ TEST(OdeIntegrator, ShortFlightWithinTheFirstStep) {
   EXPECT_LT(std::abs(solution.state[0]), 1e-11);
 }
 
-TEST(OdeIntegrator, GuardBeyondZeroFiresAfterItHasComeBack) {
+TEST(OdeIntegrator, AGuardThatStartsBelowZeroFiresAfterItHasRisen) {
   const auto value = [](double, State x, Output out) { out[0] = x[0] - 2 + x[1] * 1.9; };
   // cos t - 1.9 sin t - 2 starts at -1 and crosses twice per turn.
   const OdeSolution solution =
@@ -240,7 +240,7 @@ TEST(OdeIntegrator, GuardThatStaysZeroNeverFires) {
             OdeEnd::kTime);
 }
 
-TEST(OdeIntegrator, StopCallback) {
+TEST(OdeIntegrator, TheStopCallbackEndsTheIntegration) {
   int asked = 0;
   OdeSettings settings = Accurate();
   settings.stop = [&asked] { return ++asked > 10; };
@@ -275,7 +275,7 @@ TEST(OdeIntegrator, MaximumStepIsObeyed) {
   for (size_t i = 1; i < times.size(); ++i) EXPECT_LE(times[i] - times[i - 1], 0.01 + 1e-12);
 }
 
-TEST(OdeIntegrator, RateThatIsNotFinite) {
+TEST(OdeIntegrator, ARateThatIsNotFiniteIsNamedWithItsComponent) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   OdeProblem problem = Oscillator(10);
   problem.rate = [nan](double t, State x, Output rate) { rate << x[1], t > 1 ? nan : -x[0]; };
@@ -293,8 +293,8 @@ TEST(OdeIntegrator, RateThatIsNotFinite) {
   EXPECT_NE(ErrorOf(problem).find("component 0 is not finite"), std::string::npos);
 }
 
-TEST(OdeIntegrator, RateThatIsNotFiniteOutsideItsDomainOnly) {
-  // x' = -sqrt(x) reaches 0 at t = 2 and is NaN below: a shorter step stays in the domain.
+TEST(OdeIntegrator, ARateThatIsNotFiniteOutsideItsDomainIsIntegrated) {
+  // x' = -sqrt(x) reaches 0 at t = 2 and is NaN below. A shorter step stays in the domain.
   OdeProblem problem;
   problem.rate = [](double, State x, Output rate) { rate[0] = -std::sqrt(x[0]); };
   problem.start = VectorXd::Constant(1, 1);
@@ -302,7 +302,7 @@ TEST(OdeIntegrator, RateThatIsNotFiniteOutsideItsDomainOnly) {
   EXPECT_NEAR(Integrate(problem, Accurate(1e-10)).state[0], 0.25e-6, 1e-8);
 }
 
-TEST(OdeIntegrator, GuardThatIsNotFinite) {
+TEST(OdeIntegrator, AGuardThatIsNotFiniteIsNamed) {
   const auto value = [](double t, State, Output out) { out[0] = t > 0.5 ? NAN : 1; };
   EXPECT_NE(ErrorOf(Watching(Oscillator(1), {OdeGuard()}, value)).find("guard 0 is not finite"),
             std::string::npos);
@@ -352,7 +352,7 @@ TEST(OdeIntegrator, ExceptionsPassThrough) {
   EXPECT_THROW(Integrate(Oscillator(3), settings), Unusual);
 }
 
-TEST(OdeIntegrator, NoTimeToIntegrate) {
+TEST(OdeIntegrator, AnIntervalOfNoOrVeryShortTimeEndsAtItsEnd) {
   const OdeSolution solution = Integrate(Oscillator(0));
   EXPECT_EQ(solution.end, OdeEnd::kTime);
   EXPECT_EQ(solution.state, Eigen::Vector2d(1, 0));
@@ -367,7 +367,7 @@ TEST(OdeIntegrator, NoTimeToIntegrate) {
   EXPECT_EQ(Integrate(rounding).time, rounding.end_time);
 }
 
-TEST(OdeIntegrator, NonsenseIsRejected) {
+TEST(OdeIntegrator, InvalidArgumentsAreRefused) {
   const auto rejected = [](auto change) {
     OdeProblem problem = Oscillator(1);
     OdeSettings settings;
@@ -396,7 +396,7 @@ TEST(OdeIntegrator, NonsenseIsRejected) {
   EXPECT_THROW(Integrate(Oscillator(1)).trajectory.State(-0.1), std::invalid_argument);
 }
 
-TEST(OdeIntegrator, SameProblemSameBytes) {
+TEST(OdeIntegrator, TheSameProblemGivesTheSameBytes) {
   const OdeSolution first = Integrate(Oscillator(30)), second = Integrate(Oscillator(30));
   EXPECT_EQ(first.state, second.state);
   EXPECT_EQ(first.trajectory.StepTimes(), second.trajectory.StepTimes());

@@ -48,7 +48,7 @@ std::vector<double> QuarterHalfAndWholePeriod(double angle) {
   return {Period(angle) / 4, Period(angle) / 2, Period(angle)};
 }
 
-TEST(SimbodyAndSundials, BothIntegrateRightlyInOneProcess) {
+TEST(SimbodyAndSundials, BothIntegrateCorrectlyInOneProcess) {
   for (const double angle : {0.3, 1.2, 2.5}) {
     const std::vector<double> times = QuarterHalfAndWholePeriod(angle);
     ExpectPeriodic(angle, SwingWithCvode(angle, times));
@@ -96,7 +96,7 @@ std::vector<std::string> ExportedSymbols(const char* path) {
   return names;
 }
 
-TEST(SimbodyAndSundials, SharedLibraryShowsNothingOfSundials) {
+TEST(SimbodyAndSundials, TheSharedLibraryExportsNothingOfSundials) {
   const std::vector<std::string> names = ExportedSymbols(POSSIBILITY_ODE_LIBRARY);
   bool shows_its_own = false;
   for (const std::string& name : names) {
@@ -107,7 +107,7 @@ TEST(SimbodyAndSundials, SharedLibraryShowsNothingOfSundials) {
   EXPECT_TRUE(shows_its_own) << names.size() << " symbols";
 }
 
-TEST(SimbodyAndSundials, SundialsCannotBeLookedUp) {
+TEST(SimbodyAndSundials, SundialsSymbolsCannotBeLookedUp) {
   void* library = dlopen(POSSIBILITY_ODE_LIBRARY, RTLD_NOW | RTLD_NOLOAD);
   ASSERT_NE(library, nullptr) << dlerror();
   for (const char* name :
@@ -115,7 +115,7 @@ TEST(SimbodyAndSundials, SundialsCannotBeLookedUp) {
         "SUNDenseMatrix", "SUNLinSol_Dense", "SUNNonlinSol_FixedPoint"}) {
     EXPECT_EQ(dlsym(library, name), nullptr) << name;
   }
-  // Simbody's own copy is what the trap is about: without it this file would test nothing.
+  // Simbody's own copy is what could be mixed up. Without it this file would test nothing.
   EXPECT_NE(dlsym(RTLD_DEFAULT, "N_VNew_Serial"), nullptr);
   dlclose(library);
 }

@@ -8,10 +8,11 @@
 
 namespace possibility::dynamics {
 
-/// The compass gait (Goswami, Thuilot & Espiau 1998): two straight legs of point masses, a point
-/// mass at the hip, down a slope. State: lean of the stance leg, lean of the swing leg, their
-/// rates; leans are forward (towards +x, downhill) from vertical, foot to hip. Derived here with
-/// Lagrange's equations, in coordinates that MultibodyModel knows nothing of.
+/// The compass gait (Goswami, Thuilot & Espiau 1998): two straight legs of point masses and a point
+/// mass at the hip, walking down a slope. State: lean of the stance leg, lean of the swing leg,
+/// their rates. Leans are measured from the vertical, foot to hip, positive forward (towards +x,
+/// downhill). The equations are derived here with Lagrange's method, in other coordinates than
+/// MultibodyModel's.
 struct CompassGait {
   double leg_mass = 5;
   double hip_mass = 10;
@@ -42,8 +43,8 @@ struct CompassGait {
            gravity * ((m * a + hip_mass * l + m * l) * std::cos(x[0]) - m * b * std::cos(x[1]));
   }
 
-  /// Masses of stance leg, hip and swing leg: place (columns) and its derivatives with respect to
-  /// the two leans; stance foot at the origin.
+  /// Masses of stance leg, hip and swing leg: their places (columns) and the derivatives with
+  /// respect to the two leans. The stance foot is at the origin.
   struct Masses {
     Eigen::Matrix<double, 2, 3> place, by_stance, by_swing;
   };
@@ -59,8 +60,8 @@ struct CompassGait {
     return masses;
   }
 
-  /// The swing foot takes over: moments of momentum about it, and of the old stance leg about the
-  /// hip, stay.
+  /// The swing foot becomes the stance foot. Kept are the moment of momentum about it, and that of
+  /// the old stance leg about the hip.
   Eigen::VectorXd Touchdown(const Eigen::Ref<const Eigen::VectorXd>& x) const {
     const auto cross = [](const Eigen::Vector2d& r, const Eigen::Vector2d& p) {
       return r.x() * p.y() - r.y() * p.x();
@@ -87,8 +88,8 @@ struct CompassGait {
     return result;
   }
 
-  /// Height of the swing foot is ignored while it swings through: a step ends when both feet are
-  /// on the slope again, the swing foot in front.
+  /// The height of the swing foot is ignored while it swings through. A step ends when both feet
+  /// are on the slope again with the swing foot in front.
   std::shared_ptr<const HybridMode> Mode() const {
     auto mode = std::make_shared<HybridMode>();
     const CompassGait gait = *this;
@@ -106,7 +107,7 @@ struct CompassGait {
     return mode;
   }
 
-  /// On the limit cycle just after touchdown, in degrees and rad/s, a first guess for it.
+  /// On the limit cycle just after touchdown, in degrees and rad/s: a first guess for it.
   static Eigen::Vector4d NearLimitCycle() {
     Eigen::Vector4d x;
     x << -12.6 * M_PI / 180, 18.6 * M_PI / 180, 1.1, 0.4;

@@ -88,10 +88,10 @@ TEST_F(Landing, StandingRobotIsAtRestAtOnce) {
   EXPECT_NEAR(outcome.time, settings_.rest_time, 1e-6);
 }
 
-TEST_F(Landing, SaysWhyItFails) {
+TEST_F(Landing, AFailedLandingGivesItsReason) {
   settings_.time_limit = 0.3;
   q_[6] += 0.05;
-  // Dampers so hard that the soles tip about their toes.
+  // Dampers so stiff that the soles tip about their toes.
   settings_.damping.setConstant(100);
   const ElasticLandingOutcome late =
       LandElastically(model_, contacts_, q_, v_, posture_, settings_);
@@ -110,7 +110,7 @@ TEST_F(Landing, SaysWhyItFails) {
   EXPECT_NE(slips.reason.find("slips when it hits the ground"), std::string::npos) << slips.reason;
 }
 
-TEST_F(Landing, GainsHaveTheFrequencyAskedFor) {
+TEST_F(Landing, GainsGiveTheRequestedFrequency) {
   const ElasticGains gains = GainsOfFrequency(model_, q_, 30, 0.7);
   MultibodyDynamics dynamics(model_);
   dynamics.SetState(q_, v_);
@@ -122,7 +122,7 @@ TEST_F(Landing, GainsHaveTheFrequencyAskedFor) {
   EXPECT_THROW(GainsOfFrequency(model_, q_, -1, 1), std::invalid_argument);
 }
 
-TEST_F(Landing, NonsenseIsRejected) {
+TEST_F(Landing, InvalidArgumentsAreRefused) {
   const auto rejected = [&](auto change) {
     ElasticLandingSettings settings = settings_;
     VectorXd posture = posture_;

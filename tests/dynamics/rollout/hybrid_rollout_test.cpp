@@ -25,7 +25,7 @@ HybridSettings Accurate(double tolerance = 1e-12) {
   return settings;
 }
 
-/// A mode that is its own successor; `reset` gives the state after.
+/// A mode that is its own successor. `reset` gives the state after the event.
 std::shared_ptr<HybridMode> Looping(std::string name, OdeRate rate, OdeGuard guard,
                                     OdeGuardFunction values,
                                     std::function<VectorXd(const VectorXd&)> reset) {
@@ -51,7 +51,7 @@ std::shared_ptr<HybridMode> BouncingBall(double restitution) {
       });
 }
 
-TEST(HybridRollout, BouncingBallInClosedForm) {
+TEST(HybridRollout, BouncingBallAgreesWithItsClosedForm) {
   for (const double restitution : {0.5, 0.8, 1.0}) {
     const double height = 1.3, fall = std::sqrt(2 * height / kG);
     HybridSettings settings = Accurate();
@@ -76,7 +76,7 @@ TEST(HybridRollout, BouncingBallInClosedForm) {
   }
 }
 
-TEST(HybridRollout, ZenoIsAnErrorOrTheEnd) {
+TEST(HybridRollout, ZenoBehaviourIsAnErrorOrEndsTheRollout) {
   const double restitution = 0.5, fall = std::sqrt(2 / kG);
   const double accumulation = fall * (1 + restitution) / (1 - restitution);
   const auto ball = BouncingBall(restitution);
@@ -99,7 +99,7 @@ TEST(HybridRollout, ZenoIsAnErrorOrTheEnd) {
   EXPECT_LT(rollout.state.norm(), 1e-2);
 }
 
-TEST(HybridRollout, BallThatLiesOnTheGroundDoesNotFallThroughIt) {
+TEST(HybridRollout, ABallAtRestDoesNotFallThroughTheGround) {
   HybridSettings settings = Accurate();
   settings.end_at_zeno = true;
   const HybridRollout rollout = RollOut(BouncingBall(0.5), Eigen::Vector2d(0, 0), 0, 1, settings);
@@ -108,8 +108,8 @@ TEST(HybridRollout, BallThatLiesOnTheGroundDoesNotFallThroughIt) {
   EXPECT_GT(rollout.state[0], -1e-9);
 }
 
-TEST(HybridRollout, RimlessWheelInClosedForm) {
-  // McGeer 1990: after each impact the rate is cos(2 alpha) of that before it.
+TEST(HybridRollout, RimlessWheelAgreesWithItsClosedForm) {
+  // McGeer 1990: each impact multiplies the rate by cos(2 alpha).
   const double length = 0.7, alpha = std::numbers::pi / 8, slope = 0.12;
   const auto wheel = Looping(
       "spoke", [=](double, State x, Output rate) { rate << x[1], kG / length * std::sin(x[0]); },
@@ -131,8 +131,8 @@ TEST(HybridRollout, RimlessWheelInClosedForm) {
   EXPECT_NEAR(rollout.events.back().after[1], fixed_point, 1e-8);
 }
 
-/// Garcia, Chatterjee, Ruina & Coleman 1998, equations 1 to 5: lean of the stance leg, angle
-/// between the legs, their rates; time in units of sqrt(leg / gravity).
+/// Garcia, Chatterjee, Ruina & Coleman 1998, equations 1 to 5. State: lean of the stance leg, angle
+/// between the legs, their rates. Time is in units of sqrt(leg / gravity).
 std::shared_ptr<HybridMode> SimplestWalker(double slope) {
   return Looping(
       "step",
@@ -172,7 +172,7 @@ TEST(HybridRollout, SimplestWalkerHasItsPublishedLimitCycles) {
       map.col(i) = (step(published + h) - step(published - h)) / 2e-6;
     }
     const double growth = map.eigenvalues().cwiseAbs().maxCoeff();
-    // After Bhounsule 2014, to the digits compared: -0.1901 +- 0.5576 i and 4.0039.
+    // From Bhounsule 2014, to the digits compared: -0.1901 +- 0.5576 i and 4.0039.
     EXPECT_NEAR(growth, published[0] > 0.2 ? std::hypot(0.1900996, 0.5575993) : 4.0038652, 1e-4);
   }
 }
@@ -201,7 +201,7 @@ TEST(HybridRollout, CompassGaitSettlesOnALimitCycle) {
   const HybridEvent& last = rollout.events.back();
   const HybridEvent& previous = rollout.events[rollout.events.size() - 2];
   EXPECT_LT((last.after - previous.after).norm(), 1e-7);
-  // What the slope gives, the impact takes; in between nothing is lost.
+  // The impact takes what the slope gives. Between impacts no energy is lost.
   const double energy = gait.Energy(previous.after);
   EXPECT_NEAR(gait.Energy(last.before), energy, 1e-9 * energy);
   const double step = 2 * gait.leg() * std::sin((last.after[1] - last.after[0]) / 2);
@@ -215,7 +215,7 @@ TEST(HybridRollout, CompassGaitSettlesOnALimitCycle) {
 }
 
 TEST(HybridRollout, DoublePendulumConservesEnergy) {
-  // Two point masses of 1 kg on rods of 1 m: the compass gait's stance without its hip.
+  // Two point masses of 1 kg on rods of 1 m, like the compass gait's stance without its hip mass.
   CompassGait gait;
   const auto mode = std::make_shared<HybridMode>(HybridMode{
       "swing", [gait](double, State x, Output rate) { gait.Rate(x, rate); }, {}, {}, {}, {}});
@@ -266,7 +266,7 @@ TEST(HybridRollout, ModesAreMadeAtRunTimeAndMayChangeSize) {
   EXPECT_THROW(rollout.State(5.1), std::invalid_argument);
 }
 
-TEST(HybridRollout, GuardThatIsMerelyWatchedFiresOncePerCrossing) {
+TEST(HybridRollout, AGuardThatKeepsTheModeFiresOncePerCrossing) {
   auto mode = Looping(
       "swing", [](double, State x, Output rate) { rate << x[1], -x[0]; }, {GuardDirection::kBoth},
       [](double, State x, Output values) { values[0] = x[0]; },
@@ -278,7 +278,7 @@ TEST(HybridRollout, GuardThatIsMerelyWatchedFiresOncePerCrossing) {
   }
 }
 
-TEST(HybridRollout, StopCallbackAndEndOfTime) {
+TEST(HybridRollout, TheEndTimeOrTheStopCallbackEndsTheRollout) {
   HybridSettings settings = Accurate();
   const HybridRollout whole = RollOut(BouncingBall(1), Eigen::Vector2d(1, 0), 0, 2, settings);
   EXPECT_EQ(whole.end, HybridEnd::kTime);

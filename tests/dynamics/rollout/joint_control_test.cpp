@@ -73,7 +73,7 @@ TEST_F(JointControlOfARandomTree, FeedForwardAndFeedbackAddUpWithinTheLimits) {
 TEST_F(JointControlOfARandomTree, GravityCompensationKeepsJointsFromAcceleratingAtRest) {
   JointControl control;
   control.compensates_gravity = true;
-  // In flight, hanging on a point, on an axis, and fixed.
+  // The tree is in flight, hangs on a point or an axis, or is fixed.
   for (int count = 0; count <= 4; ++count) {
     SetState(VectorXd::Zero(model_->nv()));
     const std::vector<HeldPoint> points = RandomPoints(count);
@@ -95,7 +95,7 @@ TEST_F(JointControlOfARandomTree, GravityCompensationKeepsJointsFromAccelerating
   }
 }
 
-TEST_F(JointControlOfARandomTree, NonsenseIsRejected) {
+TEST_F(JointControlOfARandomTree, InvalidArgumentsAreRefused) {
   JointControl control;
   control.stiffness = VectorXd::Ones(4);
   EXPECT_THROW(JointTorques(*model_, control), std::invalid_argument);

@@ -52,7 +52,7 @@ std::vector<ContactPoint> PointsOf(const std::vector<RolloutContact>& contacts) 
 
 struct Conserved {
   double energy = 0;
-  double magnitude = 0;  ///< J, sum of what the energy is a difference of
+  double magnitude = 0;  ///< J, sum of the terms whose difference is the energy
   Vector3d angular = Vector3d::Zero();
   Vector3d linear = Vector3d::Zero();
 };
@@ -167,16 +167,16 @@ TEST(RobotRollout, ContactForcesAndTorquesExplainTheMotion) {
   }
   needed.tail(model->num_joints()) -= motion.torques;
   EXPECT_LT(needed.lpNorm<Eigen::Infinity>(), 1e-8);
-  // Gravity compensation alone keeps a balanced robot where it is.
+  // Gravity compensation alone keeps a balanced robot in place.
   EXPECT_LT(motion.v.lpNorm<Eigen::Infinity>(), 1e-8);
   EXPECT_NEAR(motion.forces.row(2).sum(), robot.TotalMass() * kGravity, 1e-6);
 }
 
-TEST(RobotRollout, RimlessWheelInClosedForm) {
+TEST(RobotRollout, RimlessWheelAgreesWithItsClosedForm) {
   const double length = 0.6, inertia = 0.05, slope = 0.1, alpha = std::numbers::pi / 8;
   const auto model = RimlessWheel(inertia);
   const double about_foot = inertia + length * length;
-  // Moment of momentum about the new foot: what is kept of the rate.
+  // The moment of momentum about the new foot gives the share of the rate that is kept.
   const double kept = (inertia + length * length * std::cos(2 * alpha)) / about_foot;
   const double gain = 4 * kGravity * length * std::sin(alpha) * std::sin(slope) / about_foot;
   RobotSimulator simulator(model, Spokes(8, length, slope), {}, Accurate(1e-11));
@@ -220,11 +220,12 @@ TEST(RobotRollout, CompassGaitAgreesWithLagrangesEquations) {
   for (int leg = 0; leg < 2; ++leg) {
     feet.push_back(ContactOn("foot " + std::to_string(leg), leg, {0, 0, -gait.leg()},
                              SlopeNormal(gait.slope)));
-    // In front of the other foot: what lies behind is the way through the ground.
+    // Only steps in front of the other foot count; behind it the swing foot passes through the
+    // ground.
     feet.back().lands = [leg](const VectorXd& q) { return (leg == 0 ? q[3] : -q[3]) > 0.1; };
   }
   RobotSimulator simulator(model, feet, {}, Accurate(1e-12));
-  // Leg 0 stands at the origin; the swing foot, on the slope too, is behind.
+  // Leg 0 stands at the origin. The swing foot, on the slope too, is behind.
   const double lean = consistent[0], rate = consistent[2];
   VectorXd q(4), v(4);
   q << lean, gait.leg() * std::sin(lean), gait.leg() * std::cos(lean), consistent[1] - lean;
@@ -249,7 +250,7 @@ TEST(RobotRollout, CompassGaitAgreesWithLagrangesEquations) {
   }
 }
 
-/// A box of 1 kg, 0.4 x 0.2 x 0.2 m, its four lower corners contacts; planar or in space.
+/// A box of 1 kg, 0.4 x 0.2 x 0.2 m, with contacts at its four lower corners; planar or in space.
 models::RobotModel Box() {
   models::RobotModel robot;
   robot.name = "box";
@@ -308,7 +309,7 @@ TEST(RobotRollout, BoxDroppedOnACornerComesToRest) {
 }
 
 TEST(RobotRollout, BoxOnASlopeStaysSlipsOrTips) {
-  // Friction 0.7: slips above atan 0.7 = 35 degrees; tips above atan 2 = 63 degrees.
+  // Friction 0.7: the box slips above atan 0.7 = 35 degrees and tips above atan 2 = 63 degrees.
   const auto model = MultibodyModel::Spatial(Box());
   const auto run = [&](double degrees, bool ends_at_slip) {
     const double slope = degrees * std::numbers::pi / 180;
@@ -336,7 +337,8 @@ TEST(RobotRollout, BoxOnASlopeStaysSlipsOrTips) {
 }
 
 TEST(RobotRollout, PushedBoxTipsAboutItsEdgeWhenTheMomentReachesZero) {
-  // An arm slides along the box until the weight is over its edge: the box begins to tip there.
+  // An arm slides along the box until the weight is over the box's edge. Then the box begins to
+  // tip.
   models::RobotModel robot = Box();
   robot.links.push_back(LinkOf("slider", 1, Vector3d::Zero(), 1e-3));
   models::Joint joint;
@@ -363,8 +365,8 @@ TEST(RobotRollout, PushedBoxTipsAboutItsEdgeWhenTheMomentReachesZero) {
   EXPECT_GT(rollout.v[1], 0.1);
 }
 
-TEST(RobotRollout, SeveralPlanes) {
-  // A ball dropped into a groove of two planes touches one, then the other, and lies in it.
+TEST(RobotRollout, ABallInAGrooveRestsOnBothPlanes) {
+  // A ball dropped into a groove of two planes touches one, then the other, and rests in it.
   const auto model = MultibodyModel::Spatial(Box());
   std::vector<RolloutContact> contacts;
   for (const double side : {-1.0, 1.0}) {
@@ -395,7 +397,7 @@ TEST(RobotRollout, TorquesNeverExceedTheLimits) {
   }
 }
 
-TEST(RobotRollout, SameStartSameBytes) {
+TEST(RobotRollout, TheSameStartGivesTheSameResult) {
   const auto model = MultibodyModel::Spatial(Box());
   RobotSimulator one(model, Corners(Vector3d::UnitZ()), {}),
       other(model, Corners(Vector3d::UnitZ()), {});
@@ -407,7 +409,7 @@ TEST(RobotRollout, SameStartSameBytes) {
   EXPECT_EQ(first.events.size(), third.events.size());
 }
 
-TEST(RobotRollout, StopCallback) {
+TEST(RobotRollout, TheStopCallbackEndsTheRollout) {
   const auto model = MultibodyModel::Spatial(Box());
   RobotRolloutSettings settings;
   int asked = 0;
@@ -416,7 +418,7 @@ TEST(RobotRollout, StopCallback) {
   EXPECT_EQ(simulator.Run(BoxAt(1), VectorXd::Zero(6), 0, 100).end, RobotRolloutEnd::kStopped);
 }
 
-TEST(RobotRollout, NonsenseIsRejected) {
+TEST(RobotRollout, InvalidArgumentsAreRefused) {
   const auto model = MultibodyModel::Spatial(Box());
   const VectorXd q = BoxAt(1), v = VectorXd::Zero(6);
   EXPECT_THROW(RobotSimulator(nullptr, {}, {}), std::invalid_argument);

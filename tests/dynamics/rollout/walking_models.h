@@ -31,8 +31,8 @@ inline RolloutContact ContactOn(const std::string& name, int link, const Eigen::
   return contact;
 }
 
-/// A hub of mass 1 kg and inertia `inertia` with `spokes` spokes of `length`, base at the hub;
-/// spoke k points down at pitch -2 pi k / spokes.
+/// A hub of mass 1 kg and inertia `inertia` with `spokes` spokes of `length`. The base is at the
+/// hub, and spoke k points down at pitch -2 pi k / spokes.
 inline std::shared_ptr<const MultibodyModel> RimlessWheel(double inertia) {
   models::RobotModel robot;
   robot.name = "rimless wheel";
@@ -52,8 +52,8 @@ inline std::vector<RolloutContact> Spokes(int spokes, double length, double slop
   return contacts;
 }
 
-/// The compass gait as a tree: one leg with the hip's mass is the root (base at the hip), the
-/// other hangs from it.
+/// The compass gait as a tree. One leg with the hip's mass is the root (base at the hip), the other
+/// leg hangs from it.
 inline std::shared_ptr<const MultibodyModel> CompassTree(double leg_mass, double hip_mass,
                                                          double mass_to_hip) {
   models::RobotModel robot;

@@ -10,8 +10,8 @@
 
 namespace possibility::dynamics {
 
-/// Grows a robot that is its own mirror image in y = 0 (mass properties may be left asymmetric),
-/// with link frames turned at random, so that nothing is symmetric in the links' own axes.
+/// Grows a robot that is its own mirror image in y = 0 (mass properties may be left asymmetric).
+/// Link frames are turned at random, so that nothing is symmetric in the links' own axes.
 class SymmetricRobotBuilder {
  public:
   explicit SymmetricRobotBuilder(std::mt19937* random, bool symmetric_masses = true)

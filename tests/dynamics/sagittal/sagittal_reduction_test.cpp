@@ -26,7 +26,7 @@ models::RobotModel DrcHubo() {
   return models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
 }
 
-/// E of the velocities, column by column.
+/// E, one column per velocity.
 MatrixXd Expansion(const SagittalReduction& reduction) {
   const int nv = reduction.model()->nv();
   MatrixXd E(reduction.full().nv(), nv);
@@ -34,7 +34,7 @@ MatrixXd Expansion(const SagittalReduction& reduction) {
   return E;
 }
 
-/// Both robots at one random state, the full one through recursions of its own.
+/// Both robots at one random state. The full one uses recursions of its own.
 struct Twins {
   Twins(const SagittalReduction& reduction, std::mt19937* random)
       : q(RandomVector(random, reduction.model()->nq(), 1.5)),
@@ -68,7 +68,7 @@ void ExpectSameDynamics(const SagittalReduction& reduction, int states, std::mt1
     for (const int axis : {1, 3, 5}) {
       EXPECT_NEAR(f.momentum[axis], p.momentum[axis], 1e-9 * (1 + f.momentum.norm()));
     }
-    // Of the tree's links, every one of the full robot's has the plane's motion.
+    // Every link of the full robot moves like its link of the tree in the plane.
     for (int link = 0; link < reduction.full().num_links(); ++link) {
       const ContactPoint point{link, RandomVector(random, 3, 0.3)};
       const ContactPoint lumped = reduction.LumpedPoint(point);
@@ -86,7 +86,7 @@ void ExpectSameDynamics(const SagittalReduction& reduction, int states, std::mt1
   }
 }
 
-/// Forces at the lumped contacts act like those that they expand to.
+/// Forces at the lumped contacts have the same effect as the forces that they expand to.
 void ExpectSameContactForces(const SagittalReduction& reduction, std::mt19937* random) {
   const models::RobotModel& tree = reduction.model()->tree();
   Twins twins(reduction, random);
@@ -141,7 +141,7 @@ double LargestOutOfPlane(const SagittalReduction& reduction, std::mt19937* rando
   return largest;
 }
 
-TEST(SagittalReduction, DrcHuboMovesAlikeInThePlane) {
+TEST(SagittalReduction, DrcHuboAndItsReductionMoveAlikeInThePlane) {
   std::mt19937 random(1);
   const SagittalReduction reduction(DrcHubo());
   ExpectSameDynamics(reduction, 200, &random);
@@ -149,7 +149,7 @@ TEST(SagittalReduction, DrcHuboMovesAlikeInThePlane) {
   ExpectRoundTrips(reduction, &random);
 }
 
-TEST(SagittalReduction, DrcHuboWithHandsFoldedMovesAlikeToo) {
+TEST(SagittalReduction, DrcHuboWithFoldedHandsAndItsReductionMoveAlike) {
   std::mt19937 random(2);
   const models::RobotModel robot = DrcHubo();
   const SagittalReduction reduction(robot, robot.GaitNamed("crawl").posture.joints);
@@ -158,7 +158,7 @@ TEST(SagittalReduction, DrcHuboWithHandsFoldedMovesAlikeToo) {
   EXPECT_EQ(q[7 + wrist], robot.GaitNamed("crawl").posture.joints[wrist]);
   ExpectSameDynamics(reduction, 50, &random);
   ExpectRoundTrips(reduction, &random);
-  // Its own nominal posture is one of the lumped robot's.
+  // The robot's own nominal posture is one of the lumped robot's.
   const VectorXd crawl = robot.Configuration(robot.GaitNamed("crawl").posture);
   EXPECT_LT((reduction.ExpandConfiguration(reduction.ReduceConfiguration(crawl)) - crawl).norm(),
             1e-12);
@@ -194,19 +194,19 @@ TEST(SagittalReduction, DrcHuboFoldsIntoSevenLinks) {
   EXPECT_THROW(reduction.FullPoints(1, 1), std::out_of_range);
 }
 
-TEST(SagittalReduction, RandomSymmetricRobotsMoveAlike) {
+TEST(SagittalReduction, RandomSymmetricRobotsAndTheirReductionsMoveAlike) {
   std::mt19937 random(3);
   for (int robot = 0; robot < 30; ++robot) {
     const SagittalReduction reduction(RandomSymmetricRobot(&random));
     ExpectSameDynamics(reduction, 5, &random);
     ExpectSameContactForces(reduction, &random);
     ExpectRoundTrips(reduction, &random);
-    // Mirror images press on the plane from both sides alike.
+    // Mirror images load the plane equally from both sides.
     EXPECT_LT(LargestOutOfPlane(reduction, &random), 1e-8);
   }
 }
 
-TEST(SagittalReduction, AsymmetricMassesKeepTheIdentityAndShowUpOutOfPlane) {
+TEST(SagittalReduction, AsymmetricMassesKeepTheDynamicsAndActOutOfPlane) {
   std::mt19937 random(4);
   for (int robot = 0; robot < 30; ++robot) {
     const SagittalReduction reduction(RandomSymmetricRobot(&random, false));
@@ -216,7 +216,7 @@ TEST(SagittalReduction, AsymmetricMassesKeepTheIdentityAndShowUpOutOfPlane) {
 }
 
 TEST(SagittalReduction, DrcHuboIsSymmetricButForHandsAndTrunk) {
-  // The published right hand has a finger more, and the trunk's com is off the plane by 2 mm.
+  // The published right hand has one finger more, and the trunk's com is off the plane by 2 mm.
   std::mt19937 random(5);
   const models::RobotModel robot = DrcHubo();
   const SagittalReduction reduction(robot);
@@ -319,7 +319,7 @@ struct CoupledRobot {
   std::pair<int, int> knees;
 };
 
-TEST(SagittalReduction, MimicJointsFold) {
+TEST(SagittalReduction, MimicJointsAreFoldedWithTheirCouplings) {
   std::mt19937 random(9);
   for (int trial = 0; trial < 10; ++trial) {
     CoupledRobot robot(&random);

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Everything that both engines compute, at random states.
+/// All quantities that both engines compute, at random states.
 void ExpectAgreement(const models::RobotModel& model, int states, std::mt19937* random) {
   TreeKinematics ours(model);
   SimbodyDynamics simbody(model);
@@ -80,7 +80,7 @@ TEST(SimbodyDynamics, MassMatrixMapsAccelerationsToForces) {
   }
 }
 
-TEST(SimbodyDynamics, RefusesWhatDoesNotFit) {
+TEST(SimbodyDynamics, RefusesInvalidArguments) {
   std::mt19937 random(10);
   const models::RobotModel model = RandomTree(&random, 3);
   SimbodyDynamics simbody(model);

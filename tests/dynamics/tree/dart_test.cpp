@@ -1,5 +1,5 @@
-// DART's answers to the same questions, from a skeleton built of the same numbers. Left out where
-// DART is not installed (tests/CMakeLists.txt).
+// The same quantities from DART, whose skeleton has the same numbers. Left out where DART is not
+// installed (tests/CMakeLists.txt).
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(Dart, AgreesOnRandomTrees) {
   }
 }
 
-TEST(Dart, AgreesWithoutRotation) {
+TEST(Dart, AgreesAtTheIdentityRotation) {
   std::mt19937 random(33);
   const models::RobotModel robot = RandomTree(&random, 5);
   VectorXd q = VectorXd::Zero(robot.nq());

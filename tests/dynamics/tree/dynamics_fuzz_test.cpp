@@ -30,7 +30,7 @@ struct Arguments {
   std::vector<HeldPoint> points;
   ContactForceSettings settings;
   bool huge = false;  ///< so large that results may overflow
-  /// Word that the message of the exception must contain, where an argument was spoilt.
+  /// A word that the exception's message must contain, where an argument is invalid.
   std::string bad_argument;
 
   std::vector<ContactPoint> ContactPoints() const {
@@ -48,7 +48,7 @@ struct Counts {
   int forces_found = 0;
 };
 
-/// One robot, its workspaces used over and over: a failed call must leave them usable.
+/// One robot whose workspaces are used again and again. A failed call must leave them usable.
 class Subject {
  public:
   explicit Subject(const std::shared_ptr<const MultibodyModel>& model)
@@ -90,7 +90,7 @@ class Subject {
     return arguments;
   }
 
-  /// The acceleration becomes one that torques within limits and forces in the cones bring about.
+  /// Sets the acceleration to one that torques within limits and forces in the cones produce.
   void PlantContactForces(std::mt19937* random, Arguments* arguments) {
     VectorXd forces = VectorXd::Zero(model_->nv());
     forward_.SetState(arguments->q, arguments->v);
@@ -109,7 +109,7 @@ class Subject {
   void DrawState(std::mt19937* random, Arguments* arguments) {
     VectorXd& q = arguments->q;
     q = RandomVector(random, model_->nq(), 2);
-    // Straight legs and arms, the root anywhere.
+    // Straight legs and arms, with the root anywhere.
     if ((*random)() % 3 == 0) q.tail(model_->num_joints()).setZero();
     if (model_->base() == Base::kFloating && (*random)() % 4 == 0) q.head<7>().setUnit(0);
     switch ((*random)() % 6) {
@@ -241,7 +241,7 @@ class Subject {
     }
     forward_.dynamics()->SetAcceleration(arguments.a);
     ExpectContactForces(arguments, points, random, counts);
-    // At rest after the impact, the same points hold far more often.
+    // At rest after the impact, the same points can be held far more often.
     if (points.empty()) return;
     VectorXd after;
     try {
@@ -267,7 +267,7 @@ class Subject {
     ExpectEquationOfMotion(&forward_, a, arguments.forces, 0);
   }
 
-  /// M a + bias = forces; `other`: size of what else is in the balance.
+  /// M a + bias = forces. `other`: size of the other terms in the balance.
   static void ExpectEquationOfMotion(ForwardDynamics* dynamics, const VectorXd& a,
                                      const VectorXd& forces, double other) {
     const int nv = static_cast<int>(a.size());
@@ -378,7 +378,7 @@ std::vector<std::unique_ptr<Subject>> Subjects(std::mt19937* random) {
   return subjects;
 }
 
-TEST(DynamicsFuzz, FailsByNameOrSatisfiesItsEquations) {
+TEST(DynamicsFuzz, ResultsSatisfyTheirEquationsOrFailuresNameTheirCause) {
   constexpr int kRounds = 10000;
   std::mt19937 random(1);
   const std::vector<std::unique_ptr<Subject>> subjects = Subjects(&random);

@@ -165,7 +165,7 @@ TEST(MultibodyDynamicsTest, AgreesWithSimbody) {
   }
 }
 
-/// Minutes: an engine that is not ours in the place of the function that is differenced.
+/// Takes minutes: the differenced function is computed by another engine.
 TEST(MultibodyDynamicsLong, DerivativesAgreeWithDifferencesThroughSimbody) {
   std::mt19937 random(10);
   for (const Case& c : Cases(1000, 20)) {
@@ -254,7 +254,7 @@ TEST(MultibodyDynamicsTest, CentroidalDerivativesAgreeWithDifferences) {
   }
 }
 
-/// Momentum about the centre of mass, summed up over the links from point velocities.
+/// Momentum about the centre of mass, as the sum over the links from point velocities.
 Vector3d AngularMomentum(const MultibodyDynamics& dynamics) {
   const models::RobotModel& tree = dynamics.model().tree();
   const Vector3d com = dynamics.kinematics().CentreOfMass();
@@ -263,7 +263,7 @@ Vector3d AngularMomentum(const MultibodyDynamics& dynamics) {
     const models::Inertial& inertial = tree.links[i].inertial;
     const ContactPoint centre{i, inertial.p_LC};
     const Eigen::Matrix3d R = dynamics.kinematics().X_WL()[i].linear();
-    // Angular velocity from the velocities of three points of the link.
+    // The angular velocity comes from the velocities of three points of the link.
     Eigen::Matrix3d spin;
     for (int k = 0; k < 3; ++k) {
       spin.col(k) =
@@ -286,7 +286,7 @@ TEST(MultibodyDynamicsTest, MomentumIsTheSumOverTheLinksAndChangesWithTheBaseWre
     dynamics.SetState(s.q, s.v, s.a);
     const CentroidalQuantities C = dynamics.Centroidal();
     EXPECT_LT((C.momentum.head(3) - AngularMomentum(dynamics)).norm(), 1e-10);
-    // Newton and Euler for the whole robot: its rate is the wrench on the base and gravity.
+    // Newton-Euler for the whole robot: the rate of momentum is the base wrench plus gravity.
     const VectorXd rate = C.momentum_dq * s.v + C.momentum_dv * s.a;
     const VectorXd forces = dynamics.InverseDynamics();
     const Vector3d f = forces.segment(3, 3);
@@ -348,7 +348,7 @@ TEST(MultibodyDynamicsTest, HessianAgreesWithDifferencesOfGradients) {
         return Gradient(&probe, lambda, terms);
       };
       const auto [dq, dv] = StateDifferences(gradient, nv);
-      // Along a curve the two orders of rotations count half each.
+      // Along a curve, each of the two orders of rotations has weight one half.
       MatrixXd qq = dq.topRows(nv);
       if (c.model->base() == Base::kFloating) {
         const Eigen::Matrix3d root = qq.topLeftCorner<3, 3>();
@@ -384,7 +384,7 @@ TEST(MultibodyDynamicsTest, HessianIsTheSecondDerivativeAlongAnyCurve) {
   }
 }
 
-TEST(MultibodyDynamicsTest, OneWorkspaceGivesTheSameAfterOtherCalls) {
+TEST(MultibodyDynamicsTest, AWorkspaceGivesTheSameResultAfterOtherCalls) {
   std::mt19937 random(9);
   const ModelPtr model = MultibodyModel::Spatial(Hubo());
   MultibodyDynamics used(model);
@@ -404,7 +404,7 @@ TEST(MultibodyDynamicsTest, OneWorkspaceGivesTheSameAfterOtherCalls) {
   }
 }
 
-TEST(MultibodyDynamicsTest, NamesTheArgumentThatIsBad) {
+TEST(MultibodyDynamicsTest, InvalidArgumentsAreRefusedByName) {
   const ModelPtr model = MultibodyModel::Spatial(Hubo());
   MultibodyDynamics dynamics(model);
   VectorXd q = VectorXd::Zero(model->nq());

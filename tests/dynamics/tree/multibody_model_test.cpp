@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Joint 1 is -2 times joint 3 plus 0.5, which comes after it.
+/// Joint 1 is -2 times joint 3 plus 0.5. Joint 3 comes after it.
 models::RobotModel Coupled(std::mt19937* random) {
   models::RobotModel tree = RandomTree(random, 5);
   tree.joints[1].mimic = models::Mimic{3, -2, 0.5};
@@ -40,7 +40,7 @@ TEST(MultibodyModelTest, AMimicJointAddsNoCoordinate) {
   const VectorXd tree_v = model->TreeVelocity(v);
   EXPECT_EQ(tree_v[7], -2 * v[8]);
   EXPECT_EQ(tree_v.tail(3), v.tail(3));
-  // Power is the same in both coordinates.
+  // The power is the same in both coordinates.
   const VectorXd forces = RandomVector(&random, 11, 10);
   EXPECT_NEAR(model->IndependentForces(forces).dot(v), forces.dot(tree_v), 1e-12);
 }
@@ -98,7 +98,7 @@ TEST(MultibodyModelTest, APlanarModelMovesInItsPlane) {
   EXPECT_EQ(model->Displaced(q, VectorXd::Ones(5)), q + VectorXd::Ones(5));
 }
 
-TEST(MultibodyModelTest, RefusesWhatIsNotAModel) {
+TEST(MultibodyModelTest, RefusesInvalidModelsAndSizes) {
   std::mt19937 random(5);
   models::RobotModel tree = Coupled(&random);
   tree.joints[3].mimic = models::Mimic{1, 1, 0};

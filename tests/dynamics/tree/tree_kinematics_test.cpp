@@ -30,7 +30,7 @@ struct RandomState {
     kinematics.SetPosition(at);
     kinematics.SetVelocity(velocity);
   }
-  /// State after time t of motion with velocity v and acceleration a at t = 0, exact to t^2.
+  /// The state after time t of motion with velocity v and acceleration a at t = 0, exact to t^2.
   void SetAfter(double t) { Set(Moved(q, v + t / 2 * a, t), v + t * a); }
 
   std::mt19937 random;
@@ -44,7 +44,7 @@ struct RandomState {
 constexpr int kTrials = 50;
 constexpr double kStep = 1e-5;
 
-TEST(TreeKinematics, PosesOfAHandComputedChain) {
+TEST(TreeKinematics, PosesAgreeWithAHandComputedChain) {
   models::RobotModel model;
   model.links.resize(3);
   model.joints.resize(2);
@@ -57,8 +57,8 @@ TEST(TreeKinematics, PosesOfAHandComputedChain) {
   for (models::Link& link : model.links) link.inertial.mass = 1;
   TreeKinematics kinematics(model);
   VectorXd q(9);
-  // Root turned a quarter about z (quaternion of length 2), joint a quarter about its y, which
-  // points the chain along the root's x, the world's y.
+  // The root is turned by a quarter about z (quaternion of length 2), the joint by a quarter about
+  // its y. The chain then points along the root's x, which is the world's y.
   q << std::sqrt(2.0), 0, 0, std::sqrt(2.0), 10, 20, 30, M_PI / 2, 0.5;
   kinematics.SetPosition(q);
   EXPECT_TRUE(kinematics.Position(2, Vector3d::Zero()).isApprox(Vector3d(10, 22.5, 31), 1e-14));
@@ -218,7 +218,7 @@ TEST(TreeKinematics, PointForcesAreDualToVelocities) {
   }
 }
 
-TEST(TreeKinematics, RefusesWhatDoesNotFit) {
+TEST(TreeKinematics, RefusesInvalidArguments) {
   RandomState s(1, 3);
   EXPECT_THROW(s.kinematics.SetPosition(VectorXd::Zero(9)), std::invalid_argument);
   EXPECT_THROW(s.kinematics.SetPosition(VectorXd::Zero(10)), std::invalid_argument);
