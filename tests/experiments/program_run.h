@@ -13,7 +13,7 @@
 
 namespace possibility::experiments::testing {
 
-/// A test that runs the built program in a folder of its own, as no task of Slurm.
+/// A test that runs the built program in a folder of its own, outside of Slurm.
 class ProgramRun : public ::testing::Test {
  protected:
   struct Outcome {
@@ -28,8 +28,8 @@ class ProgramRun : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// `arguments` are words for the shell, which the program replaces: killing it kills the program.
-  /// `before` are commands for the shell.
+  /// `arguments` are words for the shell. The program replaces the shell, so killing the process
+  /// kills the program. `before` are commands for the shell.
   pid_t Start(const std::string& arguments, const std::string& before = "",
               const std::string& streams = ">stdout.txt 2>stderr.txt") const {
     const std::string command =
@@ -55,8 +55,8 @@ class ProgramRun : public ::testing::Test {
     return {code, Output(), Errors()};
   }
 
-  /// A run with wrong input: exit code 1 and one line on stderr, which is returned; on stdout
-  /// nothing.
+  /// Runs with invalid input. Expects exit code 1, nothing on stdout and one line on stderr, which
+  /// is returned.
   std::string ExpectRefused(const std::string& arguments) const {
     const Outcome outcome = Run(arguments);
     EXPECT_EQ(outcome.code, 1) << arguments << "\n" << outcome.err;

@@ -45,7 +45,7 @@ inline models::Scenario SampleScenario() {
   return scenario;
 }
 
-/// A smooth motion with irrational numbers, so that rounding shows.
+/// A smooth motion with irrational numbers, so that rounding is visible.
 inline actions::Knot SampleKnot(const models::RobotModel& robot, double t, int num_points) {
   actions::Knot knot;
   knot.t = t;

@@ -34,7 +34,7 @@ models::Scenario ThreeRoutes() {
   return models::LoadScenario(kSource + "/experiments/scenarios/three_routes_a.yaml");
 }
 
-/// Start to goal, every stance and every way between them valid.
+/// Expects a way from start to goal, with every stance and every part between them valid.
 void ExpectWay(const SingleGaitSearch& search, const FoundPath& path) {
   ASSERT_TRUE(path.found);
   ASSERT_GE(path.poses.size(), 2U);
@@ -69,7 +69,7 @@ TEST(ObstacleFieldTest, TheSameArgumentsGiveTheSameField) {
             other.environment.obstacles.back().X_WO.matrix());
 }
 
-TEST(ObstacleFieldTest, HasTheObstaclesThatWereAskedForAndStaysAsCrowded) {
+TEST(ObstacleFieldTest, HasTheRequestedObstaclesAtTheSameDensity) {
   for (const int count : {0, 1, 16, 17, 1000, 10000}) {
     const models::Scenario field = ObstacleField(count, 1);
     EXPECT_EQ(field.environment.obstacles.size(), static_cast<size_t>(count) + 1);
@@ -85,7 +85,7 @@ TEST(ObstacleFieldTest, HasTheObstaclesThatWereAskedForAndStaysAsCrowded) {
   EXPECT_THROW(ObstacleField(-1, 1), std::invalid_argument);
 }
 
-TEST(ObstacleFieldTest, SomeObstaclesStandInTheWayOfWalkingAloneAndSomeOfBoth) {
+TEST(ObstacleFieldTest, SomeObstaclesBlockWalkingAloneAndSomeBothGaits) {
   int low = 0;
   int tall = 0;
   int overhead = 0;
@@ -105,7 +105,7 @@ TEST(ObstacleFieldTest, SomeObstaclesStandInTheWayOfWalkingAloneAndSomeOfBoth) {
   EXPECT_GT(overhead, 300);
 }
 
-TEST(SingleGaitSearchTest, EveryGaitFindsAWayThroughEveryScene) {
+TEST(SingleGaitSearchTest, EachGaitFindsAWayThroughEachScene) {
   for (const std::string gait : {"walk", "crawl"}) {
     for (const models::Scenario& scene : {ThreeRoutes(), ObstacleField(1000, 1)}) {
       const SingleGaitSearch search(Robot(), gait, scene);
@@ -119,7 +119,7 @@ TEST(SingleGaitSearchTest, EveryGaitFindsAWayThroughEveryScene) {
   }
 }
 
-TEST(SingleGaitSearchTest, RefusesWhatCannotBeSearched) {
+TEST(SingleGaitSearchTest, RefusesUnknownGaitsAndStartsInCollision) {
   EXPECT_THROW(SingleGaitSearch(Robot(), "hop", ThreeRoutes()), InputError);
   EXPECT_THROW(SingleGaitSearch(Robot(), "jump", ThreeRoutes()), InputError);
   models::Scenario inside = ThreeRoutes();
@@ -154,7 +154,7 @@ TEST(BenchGraphTest, ReportHasARatioPerGait) {
   }
 #ifdef POSSIBILITY_WITH_OMPL
   for (const std::string gait : {"walk", "crawl"}) {
-    // The smaller lead over the best of all peers.
+    // The smaller lead of the two scenes over the best of all peers.
     double least = 1e300;
     for (const std::string scene : {"three_routes_a", "field_of_200"}) {
       const std::string begin = scene + ", " + gait + ": ";
@@ -174,7 +174,7 @@ TEST(BenchGraphTest, ReportHasARatioPerGait) {
 }
 
 #ifdef POSSIBILITY_WITH_OMPL
-TEST(OmplPeersTest, WaysOfEveryPlannerAreValidByOurOwnChecks) {
+TEST(OmplPeersTest, WaysOfEachPlannerPassOurOwnChecks) {
   int found = 0;
   for (const std::string gait : {"walk", "crawl"}) {
     const SingleGaitSearch search(Robot(), gait, ThreeRoutes());
@@ -209,7 +209,7 @@ TEST(OmplPeersTest, OneSeedGivesOneAnswer) {
   EXPECT_NE(LengthOf(first), LengthOf(other));
 }
 
-TEST(OmplPeersTest, KeepToTheTimeLimitAndRefuseUnknownPlanners) {
+TEST(OmplPeersTest, TheTimeLimitIsKeptAndUnknownPlannersAreRefused) {
   models::Scenario closed = ThreeRoutes();
   closed.environment.obstacles.push_back(
       {"wall", models::Shape::Box({0.2, 8, 2}), PlanarPose{5, 0, 0}.At(1), false});

@@ -16,7 +16,7 @@ TEST(BenchmarkTest, MedianOfOddAndEvenNumbers) {
 
 TEST(BenchmarkTest, RatioPairsTheRounds) {
   BenchmarkReport report;
-  // The machine was ten times slower in the second round: the ratio does not see it.
+  // The machine was ten times slower in the second round. The ratio must not depend on that.
   report.rows = {{"slow", 0, {4, 40, 4}}, {"fast", 0, {2, 20, 2}}};
   EXPECT_EQ(report.Ratio("slow", "fast"), 2);
   EXPECT_THROW(report.Ratio("slow", "faster"), std::invalid_argument);
@@ -38,7 +38,7 @@ TEST(BenchmarkTest, TimesEveryCaseInEveryRound) {
   EXPECT_GE(calls, 4);
 }
 
-TEST(BenchmarkTest, TwoThreadsEachGetAWorkerOfTheirOwn) {
+TEST(BenchmarkTest, EachOfTwoThreadsGetsItsOwnWorker) {
   std::atomic<int> workers = 0;
   std::atomic<int> calls = 0;
   const auto worker = [&]() -> std::function<void(int)> {

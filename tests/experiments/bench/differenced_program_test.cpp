@@ -23,8 +23,8 @@ VectorXd RandomPoint(const collocation::NonlinearProgram& program, const VectorX
   return x;
 }
 
-/// Against the exact Jacobian, for every problem of the suite.
-TEST(DifferencedProgram, JacobianIsThatOfTheProgram) {
+/// Compared with the exact Jacobian, for every problem of the suite.
+TEST(DifferencedProgram, JacobianAgreesWithTheExactOne) {
   std::mt19937 random(3);
   for (const RegressionProblem& problem : RegressionProblems()) {
     const auto posed = problem.build();
@@ -65,7 +65,7 @@ TEST(DifferencedProgram, GroupsDoNotGrowWithTheMesh) {
   EXPECT_LE(groups[0], 7);  // x, q and their rates and accelerations, and the force
 }
 
-TEST(DifferencedProgram, LeadsToTheSameOptimum) {
+TEST(DifferencedProgram, HasTheSameOptimum) {
   const auto problems = RegressionProblems();
   const auto found = std::find_if(problems.begin(), problems.end(), [](const auto& p) {
     return p.name == "linear_tangent_steering";

@@ -17,7 +17,7 @@ namespace {
 
 const std::string kSource = POSSIBILITY_SOURCE_DIR;
 
-/// The tutorial's scene with a plinth as high as wanted.
+/// The tutorial's scene with a plinth of any height.
 models::Scenario Plinth(double height) {
   models::Scenario scenario = models::LoadScenario(kSource + "/experiments/examples/plinth.yaml");
   for (models::Obstacle& obstacle : scenario.environment.obstacles) {
@@ -61,7 +61,7 @@ TEST(StepUpTest, StepsUpAndDownAgainBehindThePlinth) {
   EXPECT_EQ(NumberOfSteps(result.plan), 2);
 }
 
-TEST(StepUpTest, WithoutTheActionThePlinthIsTheEnd) {
+TEST(StepUpTest, WithoutTheActionThePlinthIsExhausted) {
   PlanRequest request;
   request.time_limit = 1000;
   request.actions = {"walk"};
@@ -77,8 +77,8 @@ TEST(StepUpTest, APlinthTooHighIsRefused) {
   }
 }
 
-/// Every height that the action offers, in both directions, at any heading.
-TEST(StepUpTest, WhatItOffersIsPossibleAsMotion) {
+/// Heights over the whole range that the action offers, in both directions, at several headings.
+TEST(StepUpTest, MotionExistsForAllHeightsOffered) {
   const LocomotionModel& model = DrcHubo1Locomotion();
   const StepUpMotion motion(DrcHubo1(), *model.gaits[0]);
   for (const double rise : {StepUp::kLowest, 0.03, 0.06, 0.09, 0.12, StepUp::kHighest}) {
@@ -109,7 +109,7 @@ class StepUpScene : public testing::Test {
   std::unique_ptr<StepUp> step_up_;
 };
 
-TEST_F(StepUpScene, NecessaryConditionsAreRefusedOneByOne) {
+TEST_F(StepUpScene, EachUnmetNecessaryConditionRefusesTheStep) {
   const graph::Point low = At(-0.02, 0, 0, 0);
   const graph::Point high = At(0.48, 0, 0, 0.1);
   EXPECT_TRUE(step_up_->CN(graph::PointPair{low, high}));
@@ -142,7 +142,7 @@ TEST_F(StepUpScene, TheExpectedDurationIsThatOfTheMotion) {
   }
 }
 
-TEST_F(StepUpScene, StancesAtAnEdgeAreFoundFromBothSides) {
+TEST_F(StepUpScene, LaunchesAndLandingsAtAnEdgeAreFoundFromBothSides) {
   const graph::Point target = At(1.5, 0.3, 0, 0.1);
   const auto launch = step_up_->FindLaunchPoint(At(-1, 0.2, 2, 0), target);
   ASSERT_TRUE(launch.has_value());
@@ -160,14 +160,14 @@ TEST_F(StepUpScene, StancesAtAnEdgeAreFoundFromBothSides) {
   EXPECT_TRUE(step_up_->CN(graph::PointPair{step_up_->ReverseExtend(*arrival, floor), *arrival}));
 }
 
-TEST_F(StepUpScene, TheJobConfirmsAndRefutesAndSaysWhy) {
+TEST_F(StepUpScene, TheJobConfirmsRefutesWithAReasonOrIsCancelled) {
   const graph::PointPair edge = {At(-0.02, 0, 0, 0), At(0.48, 0, 0, 0.1)};
   graph::JobControl control;
   EXPECT_FALSE(step_up_->CS(edge));
   EXPECT_EQ(step_up_->SpawnConfirmationJob(edge)->Run(&control), graph::JobVerdict::kConfirmed);
   EXPECT_TRUE(step_up_->CS(edge));
 
-  // Above the stances, but in the way of a robot that stretches.
+  // The beam is above the stances, but in the way of a robot that stretches.
   models::Obstacle beam;
   beam.name = "beam";
   beam.shape = models::Shape::Box({0.06, 3, 0.04});
@@ -190,8 +190,8 @@ std::string TextOf(const std::string& file) {
   return text.str();
 }
 
-/// What the tutorial shows as C++ is in the source, word for word.
-TEST(StepUpTutorialTest, QuotesTheSource) {
+/// The C++ code in the tutorial must be in the source, word for word.
+TEST(StepUpTutorialTest, QuotesTheSourceWordForWord) {
   std::string sources;
   for (const std::string file : {"step_up.h", "step_up.cpp", "step_up_motion.h",
                                  "step_up_motion.cpp", "step_up_main.cpp", "plinth.yaml"}) {

@@ -20,7 +20,7 @@ std::shared_ptr<Function> Inner() {
   });
 }
 
-/// Half of the elements zero, so that the masks have something to exclude.
+/// Half of the elements are zero, so that the masks have something to exclude.
 MatrixXd Sparse(int rows, int columns, std::mt19937* random) {
   std::normal_distribution<double> normal;
   MatrixXd matrix(rows, columns);
@@ -28,7 +28,7 @@ MatrixXd Sparse(int rows, int columns, std::mt19937* random) {
   return matrix;
 }
 
-TEST(LinearExtension, DerivativesAreThoseOfItsValues) {
+TEST(LinearExtension, DerivativesAgreeWithDifferences) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 50; ++trial) {
     const auto f = LinearExtension(Inner(), Sparse(3, 4, &random), Sparse(2, 4, &random));
@@ -56,7 +56,7 @@ TEST(LinearExtension, DerivativesAreThoseOfItsValues) {
   }
 }
 
-TEST(LinearExtension, IsTheFunctionAndATerm) {
+TEST(LinearExtension, IsTheSumOfTheFunctionAndALinearTerm) {
   MatrixXd A = MatrixXd::Zero(3, 2), B = MatrixXd::Zero(2, 2);
   A << 1, 0, 0, 1, 1, 1;
   B(0, 1) = 5;

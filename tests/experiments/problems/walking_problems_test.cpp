@@ -1,5 +1,5 @@
-// The solved walking problems against mechanics written down here by hand, body by body, and
-// against the published log.
+// The solved walking problems, compared with mechanics written by hand, body by body, and with the
+// published log.
 #include "experiments/problems/walking_problems.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 using Angles = Eigen::Vector<double, 5>;
 
 constexpr double kGravity = 9.80665;
-/// The source's gravity is 9.81: its motion is ours, faster by this.
+/// The source's gravity is 9.81. Its motion is ours, faster by this factor.
 const double kSlower = std::sqrt(9.81 / kGravity);
 
 RegressionProblem ProblemNamed(const std::string& name) {
@@ -32,7 +32,7 @@ RegressionProblem ProblemNamed(const std::string& name) {
   throw std::logic_error(name);
 }
 
-/// Solved once, as `regress` does it.
+/// Each problem is solved once, as `regress` solves it.
 const OptimalControlResult& Solved(const std::string& name) {
   static std::map<std::string, OptimalControlResult> results;
   if (!results.count(name)) {
@@ -108,7 +108,8 @@ double TimeIntegral(const PhaseTrajectory& phase, Integrand&& integrand) {
 
 constexpr double kMasses[] = {3.2, 6.8, 20, 6.8, 3.2};
 constexpr double kInertias[] = {0.93, 1.08, 2.22, 1.08, 0.93};
-/// Centre of mass k = sum over i of Arms()(k, i) times the direction of link i; last the foot.
+/// Centre of mass k = sum over i of Arms()(k, i) times the direction of link i. The last one is the
+/// foot.
 Eigen::Matrix<double, 6, 5> Arms() {
   Eigen::Matrix<double, 6, 5> arms;
   arms << 0.272, 0, 0, 0, 0,      //
@@ -120,7 +121,7 @@ Eigen::Matrix<double, 6, 5> Arms() {
   return arms;
 }
 
-/// Of the links against the vertical, and their rates.
+/// Angles of the links from the vertical, and their rates.
 Angles Absolute(const VectorXd& q) {
   Angles angles;
   for (int i = 0; i < 5; ++i) angles[i] = (i == 0 ? 0 : angles[i - 1]) + q[i];
@@ -144,7 +145,7 @@ Bodies BipedBodies(const Angles& angles, const Angles& rates, const Vector2d& fo
   return bodies;
 }
 
-/// Lagrange's equations of the pinned chain in absolute angles; A_ij = sum of m P_ki P_kj over k:
+/// Lagrange's equations of the pinned chain in absolute angles. A_ij = sum of m P_ki P_kj over k:
 /// A_ij cos(t_i - t_j) t_j'' + I_i t_i'' + A_ij sin(t_i - t_j) t_j'^2 - g sin(t_i) sum m P_ki.
 Angles LagrangeForces(const Angles& t, const Angles& v, const Angles& a) {
   Angles forces;
@@ -168,7 +169,7 @@ TEST(FiveLinkStep, ObeysLagrangesEquations) {
       const Angles forces = LagrangeForces(Absolute(phase.coordinates[0].col(point)),
                                            Absolute(phase.coordinates[1].col(point)),
                                            Absolute(phase.coordinates[2].col(point)));
-      // Torque i acts between links i - 1 and i; the foot has none.
+      // Torque i acts between links i - 1 and i. The foot has no torque.
       const auto torques = phase.controls.col(point).tail<4>();
       for (int i = 0; i < 5; ++i) {
         const double here = i == 0 ? 0 : torques[i - 1];
@@ -179,7 +180,7 @@ TEST(FiveLinkStep, ObeysLagrangesEquations) {
   }
 }
 
-TEST(FiveLinkStep, GainsTheEnergyThatItsMotorsGive) {
+TEST(FiveLinkStep, GainsTheWorkOfItsMotors) {
   for (const char* name : kSteps) {
     const PhaseTrajectory& phase = Solved(name).trajectory.phases.at(0);
     const auto energy = [&](double s) {
@@ -194,8 +195,8 @@ TEST(FiveLinkStep, GainsTheEnergyThatItsMotorsGive) {
   }
 }
 
-/// The contact acts on the new stance foot alone and hinges transmit no moment, so each part of
-/// the chain beyond a hinge keeps its angular momentum about it.
+/// The contact acts on the new stance foot alone, and hinges transmit no moment. So each part of
+/// the chain beyond a hinge keeps its angular momentum about that hinge.
 TEST(FiveLinkStep, TheImpactKeepsAngularMomentumAboutEveryHinge) {
   for (const char* name : kSteps) {
     const PhaseTrajectory& phase = Solved(name).trajectory.phases.at(0);
@@ -204,7 +205,7 @@ TEST(FiveLinkStep, TheImpactKeepsAngularMomentumAboutEveryHinge) {
     const Vector2d new_foot = BipedPoint(5, angles);
     Bodies after =
         BipedBodies(Absolute(phase.Coordinates(0)), Absolute(phase.Coordinates(0, 1)), new_foot);
-    std::reverse(after.begin(), after.end());  // the legs have changed their names
+    std::reverse(after.begin(), after.end());  // the legs have swapped their names
     const Vector2d old_knee = 0.4 * Direction(angles[0]);
     const Vector2d hip = old_knee + 0.4 * Direction(angles[1]);
     const Vector2d new_knee = hip - 0.4 * Direction(angles[3]);
@@ -245,10 +246,10 @@ TEST(FiveLinkStep, KneesDoNotBendForward) {
   EXPECT_GT(phase.coordinates[0].row(4).minCoeff(), -1e-8);
 }
 
-/// SNOPT's log has the states at the ends, five digits after the point; angles counted backwards.
-/// It stopped at an objective 8e-8 above the one that finer meshes converge to, where states are
-/// still off by 2e-5 and rates by 2e-4.
-TEST(FiveLinkStep, MeetsThePublishedStates) {
+/// SNOPT's log has the states at the ends, with five digits after the point and angles counted
+/// backwards. It stopped at an objective 8e-8 above the limit of finer meshes. There, states still
+/// differ by 2e-5 and rates by 2e-4.
+TEST(FiveLinkStep, AgreesWithThePublishedStates) {
   const PhaseTrajectory& phase = Solved("five_link_step_short").trajectory.phases.at(0);
   const Angles start = -Angles(0.02013, 0.41495, -0.02620, -0.28219, -0.30287);
   const Angles start_rates = -Angles(-0.89700, -1.16032, 0.17595, -0.31220, -2.00701);
@@ -297,8 +298,8 @@ TEST(Hop, FliesOnAParabolaWithConstantAngularMomentum) {
   }
 }
 
-/// The ground acts on the foot alone; the hip transmits no moment and the leg, which slides freely,
-/// no force along itself.
+/// The ground acts on the foot alone. The hip transmits no moment, and the leg, which slides
+/// freely, no force along itself.
 TEST(Hop, TouchdownObeysTheImpactEquations) {
   const auto& trajectory = Solved("planar_hop").trajectory;
   const Bodies before = HopperAt(trajectory.phases.at(1), 1);
@@ -318,7 +319,7 @@ TEST(Hop, TouchdownObeysTheImpactEquations) {
   EXPECT_LT(Energy(after), Energy(before) - 1);
 }
 
-TEST(Hop, StandsInItsFrictionConesAndIsMovedByItsMotors) {
+TEST(Hop, StanceStaysInItsFrictionConeAndBalancesEnergyAndMomentum) {
   for (const int index : {0, 2}) {
     const PhaseTrajectory& stance = Solved("planar_hop").trajectory.phases.at(index);
     for (int point = 0; point < stance.num_points(); ++point) {
@@ -358,7 +359,7 @@ TEST(WalkingProblems, BothLinearSolversAndAFinerMeshAgree) {
   }
 }
 
-TEST(WalkingProblems, EachMeetsTheExtremalOfItsGuess) {
+TEST(WalkingProblems, EachConvergesToTheExtremalOfItsGuess) {
   const std::map<std::string, std::string> expected = {{"five_link_step", "global"},
                                                        {"five_link_step_short", "knees backward"},
                                                        {"five_link_step_forward", "knees forward"},

@@ -1,4 +1,4 @@
-// The built program as its users run it: exit codes, and what goes to which stream.
+// The built program as its users run it: its exit codes and what it writes to which stream.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ class Program : public ProgramRun {
       fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/scenarios/three_routes_b.yaml";
 };
 
-TEST_F(Program, HelpIsNoError) {
+TEST_F(Program, HelpExitsWith0AndWritesNoError) {
   for (const char* arguments : {"--help", "plan --help", "verify --help", "view --help",
                                 "export --help", "regress --help", "bench --help"}) {
     const Outcome outcome = Run(arguments);
@@ -67,7 +67,7 @@ TEST_F(Program, HelpIsNoError) {
   }
 }
 
-TEST_F(Program, ANoLeavesAPlanFileAndAPageThatSayWhy) {
+TEST_F(Program, ANoWritesAPlanFileAndAPageWithTheReason) {
   const std::string room = POSSIBILITY_SOURCE_DIR "/experiments/scenarios/closed_room.yaml";
   fs::create_directories(folder_ / "out");
   std::ofstream(folder_ / "out" / "plan.json") << "an older plan";
@@ -148,7 +148,7 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
   for (const std::string& arguments : cases) ExpectRefused(arguments);
 }
 
-/// Of every option of every command that takes a value, --help tells which; and of every argument.
+/// For every option with a value and every argument of every command that --help lists.
 TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
   int options = 0;
   for (const std::string command : {"plan", "verify", "view", "export", "bench", "regress",
@@ -213,8 +213,8 @@ TEST_F(Program, VerifyNamesTheFilesThatItUsed) {
   EXPECT_FALSE(FindViolation(json, "file_mismatch"));
 }
 
-/// A copy of the robot with a tenth of the mass, beside the plan.
-TEST_F(Program, APlanOfALighterRobotIsNoneForTheScenario) {
+/// A copy of the robot with a tenth of the mass, in the plan's folder.
+TEST_F(Program, APlanOfALighterRobotIsAFileMismatch) {
   WriteStandingPlan();
   const fs::path lighter = WriteLighterRobot();
   auto plan = nlohmann::json::parse(ReadText(folder_ / "plan.json"));
@@ -228,8 +228,8 @@ TEST_F(Program, APlanOfALighterRobotIsNoneForTheScenario) {
   }
 }
 
-/// The plan's own paths may lead nowhere.
-TEST_F(Program, VerifyTakesRobotAndScenarioFromElsewhere) {
+/// The paths in the plan may be invalid.
+TEST_F(Program, VerifyReadsRobotAndScenarioFromOptions) {
   WriteStandingPlan();
   auto plan = nlohmann::json::parse(ReadText(folder_ / "plan.json"));
   plan["robot"]["file"] = "gone.yaml";
@@ -247,7 +247,7 @@ TEST_F(Program, VerifyTakesRobotAndScenarioFromElsewhere) {
   EXPECT_TRUE(FindViolation(nlohmann::json::parse(outcome.out), "goal")) << outcome.out;
 }
 
-TEST_F(Program, ViewWritesThePageBesideThePlanOrWhereTold) {
+TEST_F(Program, ViewWritesThePageBesideThePlanOrToTheGivenFile) {
   WriteStandingPlan();
   EXPECT_EQ(Run("view .").code, 0);
   const std::string page = ReadText(folder_ / "plan.html");
@@ -257,7 +257,7 @@ TEST_F(Program, ViewWritesThePageBesideThePlanOrWhereTold) {
   EXPECT_EQ(Run("view plan.json --out no_such_folder/page.html").code, 1);
 }
 
-TEST_F(Program, ViewRefusesWhatIsNeitherPlanNorJump) {
+TEST_F(Program, ViewRefusesFilesThatAreNeitherPlanNorJump) {
   WriteStandingPlan();
   const std::string robot = POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml";
   std::ofstream(folder_ / "text.json") << "no JSON";
@@ -280,7 +280,7 @@ TEST_F(Program, ViewRefusesWhatIsNeitherPlanNorJump) {
   }
 }
 
-TEST_F(Program, ViewNeedsToKnowTheRobotOfAJump) {
+TEST_F(Program, ViewOfAJumpAloneNeedsTheRobotOption) {
   fs::path jump;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(POSSIBILITY_SOURCE_DIR) /
                                                             "models/drchubo1/jumps")) {
@@ -326,7 +326,7 @@ TEST_F(Program, BenchDynamicsPrintsRowsAndRatios) {
   EXPECT_GT(json["ratios"]["two_thread_throughput"].get<double>(), 0);
 }
 
-TEST_F(Program, BenchNamesTheSubjectItDoesNotKnow) {
+TEST_F(Program, BenchRefusesAnUnknownSubjectByName) {
   const Outcome outcome = Run("bench dynamix");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_EQ(outcome.err,
@@ -335,7 +335,7 @@ TEST_F(Program, BenchNamesTheSubjectItDoesNotKnow) {
   EXPECT_EQ(Run("bench dynamics --robot no_such_robot.yaml").code, 1);
 }
 
-TEST_F(Program, RegressWritesARunThatTheNextIsComparedWith) {
+TEST_F(Program, RegressComparesARunWithTheOneBefore) {
   const Outcome first = Run("regress --problem block_move,kirk --out runs/first.json --json");
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_EQ(first.err, "");
@@ -354,7 +354,7 @@ TEST_F(Program, RegressWritesARunThatTheNextIsComparedWith) {
   EXPECT_NE(same.out.find("nothing got worse"), std::string::npos) << same.out;
 }
 
-TEST_F(Program, RegressFailsIfSomethingGotWorse) {
+TEST_F(Program, RegressFailsIfAProblemIsWorseOrMissesItsOptimum) {
   ASSERT_EQ(Run("regress --problem block_move --out old.json").code, 0);
   auto json = nlohmann::json::parse(ReadText(folder_ / "old.json"));
   json["problems"][0]["iterations"] = 0;

@@ -1,4 +1,4 @@
-// Table, sweep and merge of the built program, killed and resumed.
+// Table, sweep and merge of the built program, also killed and resumed.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using testing::ProgramRun;
 using testing::ReadText;
 
-/// With small scenarios that are planned in a moment.
+/// Runs with small scenarios whose plans take only a moment.
 class ExperimentProgram : public ProgramRun {
  protected:
   void SetUp() override {
@@ -33,7 +33,7 @@ class ExperimentProgram : public ProgramRun {
                   "2.8");
   }
 
-  /// A few steps across a floor, or not.
+  /// A scenario of a few steps across a floor, with or without a way.
   void WriteScenario(const std::string& name, const std::string& obstacles,
                      const std::string& goal_x = "1.7") const {
     std::ofstream(folder_ / "scenarios" / (name + ".yaml"))
@@ -49,7 +49,7 @@ class ExperimentProgram : public ProgramRun {
         << obstacles;
   }
 
-  /// The records of a finished run without what may differ between runs.
+  /// The records of a finished run, without what may differ between runs.
   std::vector<std::string> Facts(const fs::path& folder) const {
     std::vector<std::string> lines;
     for (TrialRecord record : ReadResults(folder_ / folder / "results.jsonl")) {
@@ -61,7 +61,7 @@ class ExperimentProgram : public ProgramRun {
     return lines;
   }
 
-  /// Runs a table to its end, killing it `kills` times on the way, at random moments.
+  /// Runs a table to its end and kills it `kills` times at random moments.
   void RunKilled(const std::string& table, const fs::path& out, int kills, int longest_ms) const {
     std::mt19937 random(static_cast<unsigned>(kills));
     const std::string arguments = table + " --out " + out.string();
@@ -81,7 +81,7 @@ class ExperimentProgram : public ProgramRun {
 };
 using ExperimentProgramLong = ExperimentProgram;
 
-TEST_F(ExperimentProgram, ATableThatIsKilledAndResumedEndsLikeAnUndisturbedOne) {
+TEST_F(ExperimentProgram, AKilledAndResumedTableEqualsAnUninterruptedOne) {
   const std::string table = table_ + "--trials 5 --threads 2";
   ASSERT_EQ(Run(table + " --out whole").code, 0) << Errors();
   RunKilled(table, "killed", 4, 300);
@@ -94,14 +94,14 @@ TEST_F(ExperimentProgram, ATableThatIsKilledAndResumedEndsLikeAnUndisturbedOne) 
   }
 }
 
-TEST_F(ExperimentProgramLong, TwentyKillsLeaveNoTrace) {
+TEST_F(ExperimentProgramLong, ATableKilledTwentyTimesEqualsAnUninterruptedOne) {
   const std::string table = table_ + "--trials 20 --preset both --threads 2";
   ASSERT_EQ(Run(table + " --out whole").code, 0) << Errors();
   RunKilled(table, "killed", 20, 1200);
   EXPECT_EQ(Facts("killed"), Facts("whole"));
 }
 
-TEST_F(ExperimentProgram, AFinishedTableIsNotMeasuredAgainAndMayGrow) {
+TEST_F(ExperimentProgram, AFinishedTableIsKeptAndMayBeExtended) {
   ASSERT_EQ(Run(table_ + "--trials 1 --out t").code, 0) << Errors();
   const std::string before = ReadText(folder_ / "t/results.jsonl");
   ASSERT_EQ(Run(table_ + "--trials 1 --out t --json").code, 0) << Errors();
@@ -113,7 +113,7 @@ TEST_F(ExperimentProgram, AFinishedTableIsNotMeasuredAgainAndMayGrow) {
   EXPECT_EQ(Facts("t").size(), 2u);
 }
 
-TEST_F(ExperimentProgram, ShardsMergeToWhatOneRunGives) {
+TEST_F(ExperimentProgram, MergedShardsEqualOneRun) {
   ASSERT_EQ(Run(table_ + "--trials 5 --out whole").code, 0) << Errors();
   for (const char* shard : {"0/2", "1/2"}) {
     ASSERT_EQ(Run(table_ + "--trials 5 --shard " + shard + " --out part" + shard[0]).code, 0)
@@ -130,7 +130,7 @@ TEST_F(ExperimentProgram, ShardsMergeToWhatOneRunGives) {
   }
 }
 
-TEST_F(ExperimentProgram, ResultsOfOtherScenariosOrSettingsAreNotMixed) {
+TEST_F(ExperimentProgram, ResultsOfOtherScenariosOrSettingsAreRefused) {
   ASSERT_EQ(Run(table_ + "--trials 1 --out t").code, 0) << Errors();
   const std::string before = ReadText(folder_ / "t/results.jsonl");
   EXPECT_EQ(Run(table_ + "--trials 2 --out t --time-limit 20").code, 1);
@@ -145,7 +145,7 @@ TEST_F(ExperimentProgram, ResultsOfOtherScenariosOrSettingsAreNotMixed) {
   EXPECT_EQ(Run("merge t other --out merged").code, 1);
 }
 
-TEST_F(ExperimentProgram, ATwinIsAnsweredNo) {
+TEST_F(ExperimentProgram, AnInfeasibleTwinIsAnsweredNo) {
   ASSERT_EQ(
       Run("table --scenarios scenarios --scenario closed_room --trials 2 --out t --json").code, 0)
       << Errors();
@@ -153,7 +153,7 @@ TEST_F(ExperimentProgram, ATwinIsAnsweredNo) {
   EXPECT_TRUE(json["rows"].empty());
   ASSERT_EQ(json["twins"].size(), 1u);
   EXPECT_EQ(json["twins"][0]["plans"], 0);
-  // Which "no" it is is the planner's affair, but not that it ran out of time.
+  // Either "no" is allowed, but not a time limit.
   const auto& no = json["twins"][0]["no"];
   EXPECT_EQ(no.value("proven_infeasible", 0) + no.value("exhausted", 0), 2);
 }
@@ -226,7 +226,7 @@ TEST_F(ExperimentProgram, WrongInputsGiveOneLineAndExitCode1) {
   for (const std::string& arguments : cases) ExpectRefused(arguments);
 }
 
-TEST_F(ExperimentProgram, PlanKnowsThePresets) {
+TEST_F(ExperimentProgram, ThePaperPresetGivesALongerPlan) {
   ASSERT_EQ(
       Run("plan scenarios/three_routes_a.yaml --preset paper --threads 1 --out paper --json").code,
       0)
@@ -234,7 +234,7 @@ TEST_F(ExperimentProgram, PlanKnowsThePresets) {
   const auto paper = nlohmann::ordered_json::parse(Output());
   ASSERT_EQ(Run("plan scenarios/three_routes_a.yaml --threads 1 --out default --json").code, 0);
   const auto best = nlohmann::ordered_json::parse(Output());
-  // What is found is refined only by the default planner.
+  // Only the default planner improves the plan that it found.
   EXPECT_LT(best["plan_duration_s"].get<double>(), paper["plan_duration_s"].get<double>());
 }
 

@@ -27,14 +27,14 @@ json RunOf(const std::vector<json>& problems) {
   return {{"format", "possibility-regress/1"}, {"problems", problems}};
 }
 
-/// Compares a problem with itself after `members` have been replaced.
+/// Compares a problem with itself after `members` have been replaced in the copy.
 RegressionComparison After(const json& members) {
   json changed = Problem("hop");
   changed.update(members);
   return CompareRegressions(RunOf({Problem("hop")}), RunOf({changed}));
 }
 
-/// What differs, e.g. "worse iterations".
+/// The differences, e.g. "worse iterations".
 std::vector<std::string> Kinds(const RegressionComparison& comparison) {
   std::vector<std::string> kinds;
   for (const auto& difference : comparison.differences) {
@@ -71,7 +71,7 @@ TEST(RegressionComparison, SecondsAreReportedButNeverFail) {
   EXPECT_FALSE(slower.failed());
 }
 
-TEST(RegressionComparison, FiveMillisecondsAreNoise) {
+TEST(RegressionComparison, DifferencesUnderFiveMillisecondsAreNotReported) {
   json before = Problem("hop"), after = Problem("hop");
   before["seconds"]["total"] = 0.001;
   after["seconds"]["total"] = 0.0055;
@@ -80,7 +80,7 @@ TEST(RegressionComparison, FiveMillisecondsAreNoise) {
   EXPECT_EQ(Kinds(CompareRegressions(RunOf({before}), RunOf({after}))), Strings{"slower seconds"});
 }
 
-TEST(RegressionComparison, TheErrorIsWorseBeyondWhatTheSolverLeavesOpen) {
+TEST(RegressionComparison, AnErrorBeyondTheSolversToleranceIsWorse) {
   EXPECT_EQ(Kinds(After({{"relative_error", 1.09e-7}})), Strings{});
   EXPECT_EQ(Kinds(After({{"relative_error", 1.2e-7}})), Strings{"worse error"});
   json before = Problem("hop");
@@ -90,7 +90,7 @@ TEST(RegressionComparison, TheErrorIsWorseBeyondWhatTheSolverLeavesOpen) {
   EXPECT_EQ(Kinds(CompareRegressions(RunOf({before}), RunOf({after}))), Strings{});
 }
 
-TEST(RegressionComparison, AFailureIsWorseAndSaysWhichStatus) {
+TEST(RegressionComparison, AFailureIsWorseAndNamesItsStatus) {
   const RegressionComparison failed = After({{"status", "infeasible"},
                                              {"optimum", nullptr},
                                              {"objective", nullptr},
@@ -100,13 +100,13 @@ TEST(RegressionComparison, AFailureIsWorseAndSaysWhichStatus) {
   EXPECT_EQ(Kinds(After({{"status", "acceptable"}})), Strings{"worse status"});
 }
 
-TEST(RegressionComparison, WhatIsRepairedMayTakeLonger) {
+TEST(RegressionComparison, ARepairedProblemMayTakeLonger) {
   json before = Problem("hop");
   before.update({{"status", "failed"}, {"optimum", nullptr}, {"iterations", 2}});
   EXPECT_EQ(Kinds(CompareRegressions(RunOf({before}), RunOf({Problem("hop")}))), Strings{});
 }
 
-TEST(RegressionComparison, AnotherOptimumIsWorseIfItLiesHigher) {
+TEST(RegressionComparison, AnotherOptimumIsWorseIfItsObjectiveIsHigher) {
   const RegressionComparison higher =
       After({{"optimum", "second basin"}, {"objective", 2.1}, {"relative_error", 1e-5}});
   EXPECT_EQ(Kinds(higher), Strings{"worse optimum"});
@@ -137,7 +137,7 @@ TEST(RegressionComparison, OtherOptionsAndMachinesAreNoted) {
   EXPECT_FALSE(comparison.failed());
 }
 
-TEST(RegressionComparison, TextAndJsonTellTheSame) {
+TEST(RegressionComparison, TextAndJsonHoldTheSameDifferences) {
   const RegressionComparison worse = After({{"iterations", 40}, {"seconds", {{"total", 1.0}}}});
   EXPECT_EQ(worse.Text(),
             "worse   hop: iterations 20, now 40 (+100 %)\n"
@@ -150,8 +150,9 @@ TEST(RegressionComparison, TextAndJsonTellTheSame) {
   EXPECT_EQ(object["differences"][1]["what"], "seconds");
 }
 
-/// Every member that is missing or of another kind is an error of one line that names it.
-TEST(RegressionComparison, RejectsWhatIsNoRun) {
+/// Every member that is missing or of another type gives an error of one line that names the
+/// member.
+TEST(RegressionComparison, RejectsAMalformedRun) {
   const json good = RunOf({Problem("hop")});
   const auto rejects = [&](const json& bad, const std::string& culprit) {
     try {

@@ -68,8 +68,9 @@ TEST(TrajectoryPlot, ShowsTheMotionWithItsKnots) {
   }
 }
 
-/// The stored solution of a neighbour starts the humanoid's squat, too: a heavier robot.
-TEST(WarmStart, OfTheSquatOfAHeavierRobot) {
+/// The stored solution of a neighbour starts the humanoid's squat as well. The neighbour is the
+/// lighter robot.
+TEST(WarmStart, OfAHeavierRobotsSquatHalvesTheIterations) {
   const auto robot =
       models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
   auto heavier = robot;

@@ -11,7 +11,7 @@
 namespace possibility::experiments {
 namespace {
 
-/// A unit mass moved by 1 in 1 s from rest to rest: 12, the least integral of force^2.
+/// A unit mass moved by 1 in 1 s from rest to rest. The least integral of force^2 is 12.
 RegressionProblem BlockMove(std::vector<KnownOptimum> optima) {
   const auto problems = RegressionProblems();
   auto problem = *std::find_if(problems.begin(), problems.end(),
@@ -20,7 +20,7 @@ RegressionProblem BlockMove(std::vector<KnownOptimum> optima) {
   return problem;
 }
 
-TEST(RegressionProblems, AreToldApartAndStateTheirSource) {
+TEST(RegressionProblems, HaveUniqueNamesASourceAndOptima) {
   std::set<std::string> names;
   for (const RegressionProblem& problem : RegressionProblems()) {
     EXPECT_TRUE(names.insert(problem.name).second) << problem.name;
@@ -47,7 +47,7 @@ TEST(RegressionRun, NamesTheOptimumThatWasMet) {
   EXPECT_GT(record.evaluations.jacobian, 0);
 }
 
-TEST(RegressionRun, AMissIsTheErrorToTheNearest) {
+TEST(RegressionRun, AMissIsMeasuredToTheNearestOptimum) {
   const RegressionReport report = RunRegression(
       {BlockMove({{"far", 15, 1e-6}, {"near", 12.5, 1e-6}})}, {}, [](int, const std::string&) {});
   const RegressionRecord& record = report.problems[0];
@@ -75,7 +75,7 @@ TEST(RegressionRun, AProblemThatThrowsDoesNotEndTheRun) {
   EXPECT_EQ(report.problems[0].status, "error");
   EXPECT_EQ(report.problems[0].message, "no such thing");
   EXPECT_TRUE(report.problems[1].within_tolerance);
-  // What was written can be read, numbers that are none included.
+  // The written run can be read, including numbers that are not finite.
   const auto json = nlohmann::json::parse(report.Json().dump());
   EXPECT_FALSE(CompareRegressions(json, json).failed());
 }

@@ -90,7 +90,7 @@ TEST_F(CsvTables, KnotsReadBackToTheSameNumbers) {
   }
 }
 
-TEST_F(CsvTables, ForcesStandBesideThePointsTheyActOn) {
+TEST_F(CsvTables, ForcesAreListedWithTheirPoints) {
   const std::vector<Row> rows = Parse(ContactForces(plan_, robot_));
   ASSERT_EQ(rows.size(), 1u + 9 * 4 + 9 * 5);
   // The peg is the last point of the last knot, fixed to the root at (0.2, 0, 0).
@@ -143,7 +143,7 @@ TEST_F(CsvTables, StepThatLandsOnAKnotGivesThatKnot) {
   }
 }
 
-TEST_F(CsvTables, RefusesAStepThatWouldFillTheDisk) {
+TEST_F(CsvTables, RefusesAStepOfTooManyRows) {
   EXPECT_THROW(SamplesEvery(plan_, 1e-9), InputError);
 }
 

@@ -43,7 +43,7 @@ TEST(PlanSummary, JsonOfAPlanNamesRouteAndFiles) {
   EXPECT_TRUE(json["verification"]["accepted"]);
 }
 
-TEST(PlanSummary, JsonWithoutAPlanSaysWhyAndNamesTheFilesThatDo) {
+TEST(PlanSummary, JsonWithoutAPlanHoldsTheReasonAndTheFiles) {
   actions::PlanResult result;
   result.status = actions::PlanStatus::kExhausted;
   result.explanation = "the bars are too low";

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Elements nest and close, attributes are quoted, and nothing but entities starts with &.
+/// Whether elements nest and close, attributes are quoted, and & begins entities only.
 bool IsXml(const std::string& text) {
   static const std::regex tag("<(/?)([A-Za-z]+)((?:\\s+[A-Za-z0-9:-]+=\"[^\"<]*\")*)\\s*(/?)>");
   static const std::regex bad_entity("&(?!amp;|lt;|gt;|quot;)");
@@ -35,7 +35,7 @@ bool IsXml(const std::string& text) {
   return open.empty() && roots == 1 && text.find_first_of("<>", at) == std::string::npos;
 }
 
-TEST(SvgPlot, TheXmlCheckTellsBadFromGood) {
+TEST(SvgPlot, TheXmlCheckRefusesMalformedXml) {
   EXPECT_TRUE(IsXml("<a x=\"1\"><b/>text &amp; more</a>"));
   for (const char* bad :
        {"<a><b></a>", "<a>x & y</a>", "<a>1 < 2</a>", "<a x=1/>", "", "<a/><a/>", "<a y=\"<\"/>"}) {
@@ -72,7 +72,7 @@ TEST(SvgPlot, TicksAreRoundAndFillTheRange) {
   }
 }
 
-TEST(SvgPlot, TicksOfKnownRanges) {
+TEST(SvgPlot, TicksOfKnownRangesAreExact) {
   EXPECT_EQ(LinearTicks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
   EXPECT_EQ(LinearTicks(-1, 1, 4), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
   EXPECT_EQ(LinearTicks(3.2, 17, 3), (std::vector<double>{5, 10, 15}));
@@ -81,7 +81,7 @@ TEST(SvgPlot, TicksOfKnownRanges) {
   EXPECT_TRUE(LinearTicks(0, HUGE_VAL, 5).empty());
 }
 
-TEST(SvgPlot, LogarithmicTicks) {
+TEST(SvgPlot, LogarithmicTicksOfKnownRangesAreExact) {
   const auto expect = [](std::vector<double> ticks, const std::vector<double>& expected) {
     ASSERT_EQ(ticks.size(), expected.size());
     for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -95,13 +95,13 @@ TEST(SvgPlot, LogarithmicTicks) {
   EXPECT_TRUE(LogarithmicTicks(-1, 1).empty());
 }
 
-TEST(SvgPlot, RangesLeaveOutWhatIsNotDrawn) {
+TEST(SvgPlot, RangesExcludeNumbersThatAreNotDrawn) {
   EXPECT_EQ(AxisRange({3, kNaN, 1, HUGE_VAL, -HUGE_VAL}, false, 0), std::pair(1.0, 3.0));
   EXPECT_EQ(AxisRange({0, 10}, false, 0.1), std::pair(-1.0, 11.0));
   EXPECT_EQ(AxisRange({0, -5, 1, 100}, true, 0), std::pair(1.0, 100.0));
   EXPECT_EQ(AxisRange({}, false, 0.1), std::pair(0.0, 1.0));
   EXPECT_EQ(AxisRange({kNaN}, true, 0.1), std::pair(1.0, 10.0));
-  // A constant has a range around it, and so has one that trembles.
+  // A constant has a range around it, and so do numbers that differ by rounding only.
   for (const double constant : {0.0, 5.0, -5.0, 1e-30}) {
     const auto [low, high] = AxisRange({constant, constant * (1 + 1e-15)}, false, 0.1);
     EXPECT_LT(low, constant);
@@ -128,7 +128,7 @@ Plot Example() {
   return plot;
 }
 
-TEST(SvgPlot, IsXmlWhateverTheNames) {
+TEST(SvgPlot, IsXmlForAnyNames) {
   const std::string svg = SvgDocument({Example(), Example()});
   EXPECT_TRUE(IsXml(svg));
   EXPECT_NE(svg.find("a &lt; b &amp; &quot;c&quot; "), std::string::npos);
@@ -139,7 +139,7 @@ TEST(SvgPlot, IsXmlWhateverTheNames) {
   EXPECT_TRUE(IsXml(SvgDocument({Plot{}})));
 }
 
-TEST(SvgPlot, WhatIsNotFiniteBreaksTheLine) {
+TEST(SvgPlot, NonFiniteNumbersBreakTheLine) {
   Plot plot = Example();
   const auto moves = [](const Plot& p) {
     const std::string svg = SvgDocument({p});
@@ -161,7 +161,7 @@ TEST(SvgPlot, WhatIsNotFiniteBreaksTheLine) {
   EXPECT_EQ(moves(plot), 2);
 }
 
-TEST(SvgPlot, NothingToShowIsStillAPicture) {
+TEST(SvgPlot, AnEmptyPlotIsStillAPicture) {
   Plot plot = Example();
   plot.curves[0].y = {kNaN, kNaN, kNaN, kNaN};
   plot.curves[0].marker_y = {kNaN, kNaN};
@@ -170,7 +170,7 @@ TEST(SvgPlot, NothingToShowIsStillAPicture) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
-TEST(SvgPlot, RegionsScatterAndLinesAreThere) {
+TEST(SvgPlot, RegionsScatterAndLinesAreDrawn) {
   Plot plot;
   plot.regions.push_back(Band("5 to 95 %", {1, 2, 3}, {1, 1, 1}, {2, 3, 2}));
   ASSERT_EQ(plot.regions[0].x, (std::vector<double>{1, 2, 3, 3, 2, 1}));

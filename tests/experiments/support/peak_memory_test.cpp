@@ -8,19 +8,19 @@
 namespace possibility::experiments {
 namespace {
 
-// Sanitizers keep memory of their own.
+// Sanitizers allocate memory of their own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 constexpr std::size_t kBytes = 200'000'000;
 
-/// Written to, or the system would not have to find any memory.
+/// The memory is written to, otherwise the system would not provide any.
 void UseMuch() {
   std::vector<char> much(kBytes, 1);
   volatile char last = much.back();
   static_cast<void>(last);
 }
 
-TEST(PeakMemory, CountsWhatIsGivenBackAgainButNotWhatCameBefore) {
+TEST(PeakMemory, CountsFreedMemoryButNoMemoryFromBefore) {
   const double before = PeakMemory().megabytes();
   if (!std::ofstream("/proc/self/clear_refs")) {
     EXPECT_EQ(before, 0) << "the system resets no peaks";

@@ -5,7 +5,7 @@
 namespace possibility::experiments {
 namespace {
 
-TEST(ProgressLine, SaysWhatIsKnownAndNothingElse) {
+TEST(ProgressLine, HoldsOnlyWhatIsKnown) {
   actions::PlanProgress progress;
   progress.stage = "exploring";
   progress.graph.vertices = 12;

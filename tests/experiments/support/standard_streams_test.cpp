@@ -1,4 +1,4 @@
-// Every command notices that its output cannot be written, and none dies of it.
+// Every command reports that its output cannot be written, and none is killed by that.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ const std::string kSource = POSSIBILITY_SOURCE_DIR;
 
 class StandardStreams : public ProgramRun {
  protected:
-  /// Standard output as `stream` says: exit code 1 and one line on standard error.
+  /// Runs with standard output set by `stream`. Expects exit code 1 and one line on standard error.
   void ExpectUnwritable(const std::string& arguments, const std::string& stream) const {
     const int code = Wait(Start(arguments, "", stream + " 2>stderr.txt"));
     const std::string errors = Errors();
@@ -43,7 +43,7 @@ class StandardStreams : public ProgramRun {
   }
 };
 
-TEST_F(StandardStreams, EveryCommandNoticesAFullDisk) {
+TEST_F(StandardStreams, EveryCommandReportsAFullDisk) {
   WriteStandingPlan();
   const std::string room = "'" + kSource + "/experiments/scenarios/closed_room.yaml'";
   const std::string commands[] = {
@@ -61,8 +61,8 @@ TEST_F(StandardStreams, EveryCommandNoticesAFullDisk) {
   for (const std::string& command : commands) ExpectUnwritable(command, ">/dev/full");
 }
 
-// Those that are left take minutes. They write through the same functions.
-TEST_F(StandardStreams, NobodyWritesPastThem) {
+// The remaining commands take minutes. They write through the same functions.
+TEST_F(StandardStreams, SourcesWriteThroughThemOnly) {
   const std::regex other(R"(fmt::print\(|std::cout|std::cerr|\bprintf\(|std::puts\()");
   for (const auto& entry : fs::directory_iterator(fs::path(kSource) / "experiments")) {
     const std::string extension = entry.path().extension().string();
@@ -71,7 +71,7 @@ TEST_F(StandardStreams, NobodyWritesPastThem) {
   }
 }
 
-TEST_F(StandardStreams, NoReaderAndNoStreamAreTheSame) {
+TEST_F(StandardStreams, AClosedStreamIsReportedLikeAFullDisk) {
   WriteStandingPlan();
   ExpectUnwritable("export plan.json --csv tables", ">&-");
   ExpectUnwritable("verify plan.json --json", ">&-");
@@ -79,7 +79,7 @@ TEST_F(StandardStreams, NoReaderAndNoStreamAreTheSame) {
   EXPECT_EQ(code, 0) << "the code of sleep";
 }
 
-TEST_F(StandardStreams, WhatIsPrintedGoesIntoNoFileThatTheProgramOpens) {
+TEST_F(StandardStreams, OutputToClosedStreamsGoesIntoNoOpenedFile) {
   WriteStandingPlan();
   EXPECT_EQ(Wait(Start("export plan.json --csv tables", "", ">&- 2>&-")), 1);
   const std::string table = ReadText(folder_ / "tables/trajectory.csv");
@@ -88,15 +88,15 @@ TEST_F(StandardStreams, WhatIsPrintedGoesIntoNoFileThatTheProgramOpens) {
   EXPECT_EQ(table.find("tables/"), std::string::npos);
 }
 
-TEST_F(StandardStreams, AnErrorThatCannotBePrintedHasItsExitCode) {
+TEST_F(StandardStreams, AnErrorThatCannotBePrintedKeepsItsExitCode) {
   EXPECT_EQ(Wait(Start("plan missing.yaml", "", ">/dev/full 2>/dev/full")), 1);
   EXPECT_EQ(Wait(Start("plan missing.yaml --json", "", ">/dev/full 2>/dev/full")), 1);
   EXPECT_EQ(Wait(Start("verify missing", "", ">&- 2>&-")), 1);
 }
 
-TEST_F(StandardStreams, AFileThatCannotBeWrittenIsNotThere) {
+TEST_F(StandardStreams, AFileThatCannotBeWrittenIsRemoved) {
   WriteStandingPlan();
-  // In blocks of 512 bytes: room for a few rows only.
+  // The limit is in blocks of 512 bytes, so there is room for a few rows only.
   const int code = Wait(Start("export plan.json --csv tables --step 1e-4", "ulimit -f 1000;",
                               ">stdout.txt 2>stderr.txt"));
   EXPECT_EQ(code, 1);
@@ -106,7 +106,7 @@ TEST_F(StandardStreams, AFileThatCannotBeWrittenIsNotThere) {
   EXPECT_EQ(FilesIn("tables"), 0);
 }
 
-TEST_F(StandardStreams, WhatAKilledRunLeavesTheNextRemoves) {
+TEST_F(StandardStreams, UnfinishedFilesOfAKilledRunAreRemovedByTheNext) {
   WriteStandingPlan();
   const pid_t run = Start("export plan.json --csv tables --step 1e-7");
   const fs::path tables = folder_ / "tables";
@@ -125,7 +125,7 @@ TEST_F(StandardStreams, WhatAKilledRunLeavesTheNextRemoves) {
   EXPECT_TRUE(fs::exists(tables / "contact_forces.csv"));
 }
 
-// The sanitizers keep what has been freed.
+// The sanitizers keep freed memory.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_F(StandardStreams, MemoryOfExportDoesNotGrowWithTheNumberOfRows) {
   WriteStandingPlan();

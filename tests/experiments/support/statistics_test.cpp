@@ -18,7 +18,7 @@ std::vector<double> OneTo(int n) {
   return values;
 }
 
-TEST(Statistics, OfOneToNAreTheClosedForms) {
+TEST(Statistics, OfOneToNAgreeWithClosedForms) {
   for (int n = 2; n < 60; ++n) {
     const SampleSummary summary = Summarise(OneTo(n));
     EXPECT_NEAR(summary.mean, (n + 1) / 2.0, 1e-12);
@@ -58,7 +58,7 @@ TEST(Statistics, PercentilesAreTheSmallestThatCoverTheirShare) {
   }
 }
 
-TEST(Statistics, RefuseWhatHasNone) {
+TEST(Statistics, RefuseEmptySamplesAndInvalidArguments) {
   EXPECT_THROW(Mean({}), std::invalid_argument);
   EXPECT_THROW(SampleStd({}), std::invalid_argument);
   EXPECT_THROW(Median({}), std::invalid_argument);
@@ -72,7 +72,7 @@ TEST(Statistics, RefuseWhatHasNone) {
 
 // The interval's ends are the probabilities p whose score (p_hat - p) / sqrt(p (1 - p) / n) is the
 // normal quantile.
-TEST(Statistics, WilsonsIntervalSolvesItsEquation) {
+TEST(Statistics, WilsonIntervalEndsSolveTheirEquation) {
   constexpr double kZ = 1.959963984540054;
   for (int n = 1; n < 40; ++n) {
     for (int k = 0; k <= n; ++k) {
@@ -95,9 +95,9 @@ TEST(Statistics, WilsonsIntervalSolvesItsEquation) {
   EXPECT_EQ(WilsonInterval(0, 0), std::make_pair(0.0, 1.0));
 }
 
-// Order statistics of the median: for n = 25 the 95 % interval lies between the 8th and 18th value
-// (binomial 0.957); the bootstrap's must be near.
-TEST(Statistics, BootstrapIntervalOfTheMedianIsThatOfOrderStatistics) {
+// Order statistics of the median: for n = 25 the 95 % interval lies between the 8th and the 18th
+// value (binomial 0.957). The bootstrap's interval must be near it.
+TEST(Statistics, BootstrapIntervalOfTheMedianIsNearThatOfOrderStatistics) {
   std::vector<double> values = OneTo(25);
   const auto [low, high] = BootstrapMedianInterval(values);
   EXPECT_NEAR(low, 8, 1.01);

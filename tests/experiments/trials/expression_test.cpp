@@ -15,7 +15,7 @@ double Evaluate(const std::string& text) {
   return EvaluateExpression(text, {{"gap", 0.4}, {"_n2", 3}, {"e", 2}});
 }
 
-TEST(Expression, KnowsPrecedenceAndNames) {
+TEST(Expression, EvaluatesPrecedenceAndNames) {
   EXPECT_EQ(Evaluate("1 + 2 * 3"), 7);
   EXPECT_EQ(Evaluate("(1 + 2) * 3"), 9);
   EXPECT_EQ(Evaluate("8 / 4 / 2"), 1);
@@ -28,7 +28,7 @@ TEST(Expression, KnowsPrecedenceAndNames) {
   EXPECT_DOUBLE_EQ(Evaluate("1.5e2"), 150);
 }
 
-/// A random expression together with its value, computed as it is built.
+/// A random expression and its value, computed while it is built.
 std::pair<std::string, double> RandomExpression(int depth, std::mt19937* random) {
   if (depth == 0 || (*random)() % 5 == 0) {
     const double number = static_cast<double>((*random)() % 1000) / 8;
@@ -52,12 +52,12 @@ TEST(Expression, AgreesWithTheMachineOnRandomExpressions) {
   std::mt19937 random(2);
   for (int round = 0; round < 2000; ++round) {
     const auto [text, value] = RandomExpression(5, &random);
-    // "a * b" within a sum is written without brackets around it.
+    // "a * b" within a sum has no brackets around it.
     EXPECT_EQ(Evaluate("(" + text + ")"), value) << text;
   }
 }
 
-TEST(Expression, SaysWhatIsWrong) {
+TEST(Expression, ErrorsNameTheFault) {
   for (const char* bad : {"", " ", "1 +", "* 2", "(1", "1)", "1 2", "gap gap", "2 ** 3", "1,5",
                           "1 / 0", "0 / 0", "nosuch", "1e999", "inf", "nan", "$", "1 + ${gap}"}) {
     EXPECT_THROW(Evaluate(bad), InputError) << bad;

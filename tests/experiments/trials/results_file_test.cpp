@@ -42,7 +42,7 @@ TEST_F(Results, AppendedLinesAreReadBackInOrder) {
   {
     ResultsFile results(file_);
     for (const TrialRecord& record : records_) results.Append(record);
-    // Before the file is closed: what is there is there at once.
+    // The file is still open: a line is there as soon as it is appended.
     EXPECT_EQ(ReadText(file_), FormatResults(records_));
   }
   const std::vector<TrialRecord> back = ReadResults(file_);
@@ -89,7 +89,7 @@ TEST_F(Results, TwoProgramsDoNotWriteTheSameFile) {
             "no error");
 }
 
-TEST_F(Results, ForeignResultsAreRefused) {
+TEST_F(Results, ResultsOfAnotherExperimentAreRefused) {
   {
     ResultsFile results(file_);
     for (const TrialRecord& record : records_) results.Append(record);
@@ -132,7 +132,7 @@ TEST_F(Results, ManyThreadsAppendWholeLines) {
                              [](const auto& a, const auto& b) { return a.key.seed < b.key.seed; }));
 }
 
-TEST_F(Results, MergedShardsAreWhatOneRunGives) {
+TEST_F(Results, MergedShardsEqualOneRun) {
   std::vector<TrialRecord> whole;
   for (const char* row : {"a", "b", "c"}) {
     for (std::uint64_t seed = 1; seed <= 7; ++seed) {
@@ -147,14 +147,14 @@ TEST_F(Results, MergedShardsAreWhatOneRunGives) {
         if (Shard{k, count}.Has(i)) parts.back().second.push_back(whole[i]);
       }
     }
-    parts.push_back(parts.front());  // the same part twice is no harm
+    parts.push_back(parts.front());  // the same part twice is allowed
     std::vector<TrialRecord> merged = MergeRecords(parts);
     SortRecords({"a", "b", "c"}, &merged);
     EXPECT_EQ(FormatResults(merged), FormatResults(whole));
   }
 }
 
-TEST_F(Results, MergingRefusesWhatDoesNotBelongTogether) {
+TEST_F(Results, MergingRefusesResultsOfDifferentRuns) {
   const auto error = [&](auto change) {
     TrialRecord other = SampleRecord("a", "default", 2);
     change(&other);

@@ -25,7 +25,7 @@ inline TrialRecord SampleRecord(const std::string& row, const std::string& prese
   return record;
 }
 
-/// One that did not.
+/// A trial without a plan.
 inline TrialRecord FailedRecord(const std::string& row, const std::string& preset,
                                 std::uint64_t seed) {
   TrialRecord record;
@@ -37,7 +37,7 @@ inline TrialRecord FailedRecord(const std::string& row, const std::string& prese
   return record;
 }
 
-/// Of a sweep over "gap".
+/// A trial of a sweep over "gap".
 inline TrialRecord SweepRecord(double value, std::uint64_t seed, bool success) {
   const std::string row = "gap=" + std::to_string(value);
   TrialRecord record =

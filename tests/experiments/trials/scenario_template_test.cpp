@@ -48,7 +48,7 @@ TEST_F(Template, ReplacesExpressionsAndNothingElse) {
   EXPECT_EQ(Instance("actions: [${n of walk, crawl , jump}]\n", 2), "actions: [walk, crawl]\n");
 }
 
-TEST_F(Template, TheRobotIsFoundFromTheOtherFolder) {
+TEST_F(Template, TheRobotsPathIsRelativeToTheOutputFolder) {
   EXPECT_EQ(Instance("robot: ../robots/one.yaml\n", 1), "robot: ../../robots/one.yaml\n");
 }
 
@@ -66,7 +66,7 @@ TEST_F(Template, ErrorsNameFileAndLine) {
   EXPECT_THROW(ScenarioTemplate(folder_ / "none.yaml"), InputError);
 }
 
-TEST_F(Template, KnowsItsNames) {
+TEST_F(Template, MentionsTheNamesOfItsExpressions) {
   const fs::path file = folder_ / "template.yaml";
   std::ofstream(file) << "a: ${gap_2 + x}\n# ${comment}\nb: plain\n";
   const ScenarioTemplate scenario(file);
@@ -119,7 +119,7 @@ TEST_F(Template, PostsKeepLanesAndCirclesClear) {
   EXPECT_EQ(obstacles, 3000);
 }
 
-TEST_F(Template, EveryTemplateOfOursGivesScenarios) {
+TEST_F(Template, EveryShippedTemplateGivesValidScenarios) {
   const fs::path sweeps = fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/sweeps";
   const std::map<std::string, std::pair<std::string, std::vector<double>>> cases = {
       {"gap_width", {"gap", {0.2, 1}}},        {"bar_height", {"height", {0.7, 1.4}}},
@@ -144,7 +144,7 @@ TEST_F(Template, EveryTemplateOfOursGivesScenarios) {
   EXPECT_EQ(found, static_cast<int>(cases.size()));
 }
 
-TEST(SweepValues, RangesAndLists) {
+TEST(SweepValues, ParsesRangesAndLists) {
   EXPECT_EQ(ParseSweepValues("--values", "0.1:0.5:0.1"),
             (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
   EXPECT_EQ(ParseSweepValues("--values", "1:2:0.4"), (std::vector<double>{1, 1.4, 1.8}));

@@ -17,7 +17,7 @@ Shard Slurm(const std::map<std::string, std::string>& variables) {
   });
 }
 
-TEST(Shard, EveryTrialIsInExactlyOne) {
+TEST(Shard, EachTrialIsInExactlyOneShard) {
   for (int count = 1; count < 12; ++count) {
     for (std::size_t trial = 0; trial < 100; ++trial) {
       int holders = 0;
@@ -37,7 +37,7 @@ TEST(Shard, ParsesPartsFromZero) {
   }
 }
 
-TEST(Shard, ComesFromASlurmArrayWhateverItsFirstIndex) {
+TEST(Shard, IsReadFromASlurmArrayOfAnyFirstIndex) {
   EXPECT_EQ(Slurm({}).count, 1);
   EXPECT_EQ(Slurm({{"SLURM_ARRAY_TASK_ID", "4"}}).count, 1);
   for (const int first : {0, 1, 10}) {

@@ -29,7 +29,7 @@ using testing::ReadText;
 using testing::SampleRecord;
 using testing::SweepRecord;
 
-/// Two presets of one row of the paper, four trials each, one of them without a plan; a twin.
+/// Two presets of one row of the paper with four trials each, one trial without a plan, and a twin.
 TableReport SampleReport() {
   TableReport report;
   for (const char* preset : {"default", "paper"}) {
@@ -58,7 +58,7 @@ class ReportFolder : public ::testing::Test {
       fs::temp_directory_path() / ("possibility_report_" + std::to_string(::getpid()));
 };
 
-TEST(TableRows, AreThoseOfThePaper) {
+TEST(TableRows, AgreeWithThePaper) {
   ASSERT_EQ(TableRows().size(), 8u);
   double graph = 0, motion = 0, ratio = 0;
   for (const TableRow& row : TableRows()) {
@@ -69,7 +69,7 @@ TEST(TableRows, AreThoseOfThePaper) {
     EXPECT_TRUE(fs::exists(fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/scenarios" /
                            (row.scenario + ".yaml")));
   }
-  // Checksums over the columns of the paper's text.
+  // Checksums over the columns of the paper's table.
   EXPECT_NEAR(graph, 0.136 + 0.21 + 0.934 + 0.264 + 1.063 + 1.428 + 15.19 + 1.82, 1e-9);
   EXPECT_NEAR(motion, 9.28 + 9.66 + 9.38 + 10.32 + 9.89 + 7.52 + 9.13 + 4.6, 1e-9);
   EXPECT_NEAR(ratio, 146.7 + 146.2 + 146.8 + 145.7 + 145.1 + 128.23 + 134.16 + 119.54, 1e-9);
@@ -98,7 +98,7 @@ TEST(TableReportTest, SummaryHoldsEveryFigureOfRowAndPreset) {
       EXPECT_TRUE(row[key][part].is_number()) << key << ' ' << part;
     }
   }
-  // Of the three that succeeded: 0.1, 0.2, 0.3 s.
+  // The times of the three trials that succeeded: 0.1, 0.2, 0.3 s.
   EXPECT_NEAR(row["graph_s"]["mean"].get<double>(), 0.2, 1e-12);
   EXPECT_NEAR(row["graph_s"]["std"].get<double>(), 0.1, 1e-12);
   EXPECT_NEAR(row["graph_s"]["p95"].get<double>(), 0.3, 1e-12);
@@ -125,7 +125,7 @@ TEST(TableReportTest, ARowWithoutAPlanHasNoFigures) {
   EXPECT_NE(report.Markdown().find("\u2013"), std::string::npos);
 }
 
-TEST(TableReportTest, MarkdownSetsOursBesideThePrintedFigures) {
+TEST(TableReportTest, MarkdownHoldsOurFiguresBesideThePapers) {
   const std::string text = SampleReport().Markdown();
   for (const char* part :
        {"| Hallway | 3 | default | \u2013 | 0.200 (0.100) |", "3.67 (11.52)", "127.2 (6.96)",
@@ -160,7 +160,7 @@ TEST_F(ReportFolder, TheTablesFilesAreWellFormedAndStandAlone) {
   EXPECT_TRUE(IsWellFormed(page));
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_EQ(page.find("href="), std::string::npos);
-  // Four plots and the one plan that there is a picture of.
+  // Four plots, and a picture of the only plan.
   std::size_t images = 0;
   for (auto at = page.find("<img "); at != std::string::npos; at = page.find("<img ", at + 1)) {
     EXPECT_EQ(page.substr(page.find("src=", at), 31), "src=\"data:image/svg+xml;base64,");
@@ -210,7 +210,7 @@ TEST_F(ReportFolder, TheSweepsFilesAgreeWithEachOther) {
   EXPECT_TRUE(IsWellFormed(page.substr(page.find('\n') + 1)));
 }
 
-TEST(PlanPictureTest, ShowsObstaclesGraphAndTheRouteByAction) {
+TEST(PlanPictureTest, DrawsObstaclesGraphAndTheRouteByAction) {
   actions::Plan plan = testing::SamplePlan(testing::SampleRobot(), 2, 5);
   plan.explored.vertices[1].position = {0.5, 0.5, 0.8};
   const std::string svg = PlanPicture(plan, testing::SampleScenario().environment);
@@ -223,7 +223,7 @@ TEST(PlanPictureTest, ShowsObstaclesGraphAndTheRouteByAction) {
   EXPECT_TRUE(IsWellFormed(PlanPicture({}, testing::SampleScenario().environment)));
 }
 
-TEST(PlanPictureTest, ShowsTheBarrierOfANo) {
+TEST(PlanPictureTest, DrawsTheBarrierOfANo) {
   actions::Plan plan;
   plan.no = {"exhausted", "", {}};
   const models::Environment& environment = testing::SampleScenario().environment;
@@ -239,7 +239,7 @@ TEST(PlanPictureTest, ShowsTheBarrierOfANo) {
       << svg;
 }
 
-TEST(TextTableTest, EscapesWhatWouldBreakIt) {
+TEST(TextTableTest, EscapesMarkupInItsCells) {
   TextTable table;
   table.header = {"a|b", "n"};
   table.rows = {{"x<y", "1"}};
@@ -248,7 +248,7 @@ TEST(TextTableTest, EscapesWhatWouldBreakIt) {
   EXPECT_NE(table.Html().find("x&lt;y"), std::string::npos);
 }
 
-TEST(TrialProgressTest, SaysHowMuchIsLeft) {
+TEST(TrialProgressTest, NamesTheTrialsDoneAndTheTimeLeft) {
   EXPECT_EQ(DescribeTrials(0, 400, 0), "trial 0 of 400");
   EXPECT_EQ(DescribeTrials(100, 400, 50), "trial 100 of 400, 2:30 left");
   EXPECT_EQ(DescribeTrials(400, 400, 50), "trial 400 of 400");

@@ -41,7 +41,7 @@ TEST(TrialRecord, ATableRecordHasEveryTiming) {
   EXPECT_TRUE(failed["speed_m_s"].is_null());
 }
 
-TEST(TrialRecord, TimingsAndMachineDoNotTellRecordsApart) {
+TEST(TrialRecord, RecordsThatDifferInTimingsAndMachineAreTheSame) {
   const TrialRecord record = SampleRecord("a", "default", 1);
   TrialRecord other = record;
   other.timings = {};
@@ -78,7 +78,7 @@ TEST(TrialRecord, SortsByRowValuePresetAndSeed) {
   }
 }
 
-TEST(TrialRecord, LengthIsThatOfTheSegmentsWithoutSwaying) {
+TEST(TrialRecord, LengthIsMeasuredBetweenTheEndsOfSegments) {
   const models::RobotModel robot = testing::SampleRobot();
   actions::Plan plan = testing::SamplePlan(robot, 2, 5);
   const std::pair<double, double> corners[] = {{0, 0}, {3, 4}, {3, 5}};
@@ -96,7 +96,7 @@ TEST(TrialRecord, LengthIsThatOfTheSegmentsWithoutSwaying) {
   EXPECT_EQ(PlanarLength({}), 0);
 }
 
-TEST(TrialRecord, HashIsOfTheMotionAndNothingElse) {
+TEST(TrialRecord, HashDependsOnTheMotionOnly) {
   const models::RobotModel robot = testing::SampleRobot();
   const actions::Plan plan = testing::SamplePlan(robot, 2, 5);
   actions::Plan slower = plan;

@@ -6,8 +6,8 @@
 
 namespace possibility::experiments::testing {
 
-/// Whether `text` is one XML element (and XHTML's <meta charset> and <img/> close themselves):
-/// elements nest and close, attributes are quoted, nothing but entities begins with &.
+/// Whether `text` is one XML element whose elements nest and close, attributes are quoted, and &
+/// begins entities only. (XHTML's <meta charset> and <img/> close themselves.)
 inline bool IsWellFormed(const std::string& text) {
   std::vector<std::string> open;
   std::size_t roots = 0, at = 0;

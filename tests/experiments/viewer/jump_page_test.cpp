@@ -23,7 +23,7 @@ constexpr actions::JumpTask kTask = {0.5, 0};
 
 const fs::path kRobotFolder = fs::path(POSSIBILITY_SOURCE_DIR) / "models/drchubo1";
 
-/// Solved once per test program, and written as a library would.
+/// The jump, solved once per test program and written as a library would write it.
 class JumpPageTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -46,7 +46,8 @@ class JumpPageTest : public ::testing::Test {
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
-  /// What LoadJump says, "" if it succeeds; one line that names a file of the folder.
+  /// The error message of LoadJump, "" if it succeeds. It must be one line that names a file of the
+  /// folder.
   static std::string Complaint(const fs::path& file, const fs::path& robot) {
     try {
       LoadJump(file, robot);
@@ -59,7 +60,7 @@ class JumpPageTest : public ::testing::Test {
     }
   }
 
-  /// The jump with a part of its text replaced, in a file of its own.
+  /// The jump with a part of its text replaced, in a separate file.
   static fs::path Changed(const std::string& part, const std::string& by) {
     std::ostringstream text;
     text << std::ifstream(file_).rdbuf();
@@ -104,7 +105,7 @@ TEST_F(JumpPageTest, ImpulsesStopTheFallOfTheCentreOfMass) {
   ASSERT_EQ(impulses.size(), 24u);
   double sum[3] = {};
   for (std::size_t i = 0; i < impulses.size(); ++i) sum[i % 3] += impulses[i];
-  // The flight's last knot is the one before the settling's first.
+  // The flight's last knot is the one before the first knot of the settle phase.
   const std::vector<float> momenta = testing::PageMotion(data_).momenta;
   const auto after = momenta.begin() + 6 * settle["first"].get<int>();
   for (int axis = 0; axis < 3; ++axis) {
@@ -113,7 +114,7 @@ TEST_F(JumpPageTest, ImpulsesStopTheFallOfTheCentreOfMass) {
   EXPECT_GT(sum[2], 1);
 }
 
-TEST_F(JumpPageTest, FloorsEndWhereTheStancesBear) {
+TEST_F(JumpPageTest, FloorsEndAtTheContactsOfTheStances) {
   const models::RobotModel& robot = actions::DrcHubo1();
   double toes = -INFINITY;
   double first_landed = INFINITY;
@@ -137,28 +138,28 @@ TEST_F(JumpPageTest, FloorsEndWhereTheStancesBear) {
   EXPECT_GT(edge(1, 1), kTask.distance + 0.3);
 }
 
-TEST_F(JumpPageTest, TakesARobotThatIsNamed) {
+TEST_F(JumpPageTest, UsesTheGivenRobot) {
   const fs::path elsewhere = folder_ / "alone.json";
   fs::copy_file(file_, elsewhere, fs::copy_options::overwrite_existing);
   EXPECT_NE(Complaint(elsewhere, {}).find("expected --robot ROBOT.yaml"), std::string::npos);
   EXPECT_EQ(JumpPage(LoadJump(elsewhere, folder_ / "drchubo1.yaml")), JumpPage(loaded_));
 }
 
-TEST_F(JumpPageTest, DoesNotGuessBetweenRobots) {
+TEST_F(JumpPageTest, SeveralRobotFilesAreRefused) {
   std::ofstream(folder_ / "other.yaml") << "name: other\n";
   EXPECT_NE(Complaint(file_, {}).find("several YAMLs"), std::string::npos);
   fs::remove(folder_ / "other.yaml");
   EXPECT_EQ(Complaint(file_, {}), "");
 }
 
-TEST_F(JumpPageTest, KnowsALibraryThatIsNotTheRobotsAnyMore) {
+TEST_F(JumpPageTest, AJumpOfAnOldLibraryIsNotCurrent) {
   const fs::path stale = folder_ / "jumps/0123456789abcdef/jump_10_0.json";
   fs::create_directories(stale.parent_path());
   fs::copy_file(file_, stale);
   EXPECT_FALSE(LoadJump(stale, {}).is_current);
 }
 
-TEST_F(JumpPageTest, RefusesWhatIsNoJumpOfTheRobot) {
+TEST_F(JumpPageTest, RefusesFilesThatAreNoJumpOfTheRobot) {
   const fs::path robot = folder_ / "drchubo1.yaml";
   EXPECT_NE(Complaint(folder_ / "none.json", robot), "");
   EXPECT_NE(Complaint(file_, folder_ / "none.yaml"), "");

@@ -8,14 +8,14 @@
 
 namespace possibility::experiments::testing {
 
-/// The data that a viewer page holds.
+/// The data inside a viewer page.
 inline nlohmann::json EmbeddedData(const std::string& page) {
   const std::string opening = "<script type=\"application/json\" id=\"plan-data\">";
   const std::size_t begin = page.find(opening) + opening.size();
   return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-/// Little-endian numbers out of base64.
+/// Little-endian numbers decoded from base64.
 template <typename Number>
 std::vector<Number> Unpacked(const std::string& base64) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -35,7 +35,7 @@ std::vector<Number> Unpacked(const std::string& base64) {
 }
 
 /// The numbers of all knots of a page's motion, knot by knot, as experiments/viewer/kinematics.js
-/// has them.
+/// reads them.
 struct PageMotion {
   explicit PageMotion(const nlohmann::json& data) : num_joints(data["joints"].size()) {
     const auto begins = Unpacked<std::int32_t>(data["courses"]["begins"]);

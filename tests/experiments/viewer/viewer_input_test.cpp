@@ -32,11 +32,11 @@ TEST_F(FormatOfTest, IsThatOfTheOutermostObject) {
   EXPECT_EQ(Of(R"({"x": [[], {}], "format": "a/1"})"), "a/1");
 }
 
-TEST_F(FormatOfTest, IsFoundBeforeAFileBreaksOff) {
+TEST_F(FormatOfTest, IsFoundInATruncatedFile) {
   EXPECT_EQ(Of(R"({"format": "a/1", "x": [1, 2)"), "a/1");
 }
 
-TEST_F(FormatOfTest, IsEmptyIfThereIsNone) {
+TEST_F(FormatOfTest, IsEmptyWithoutAFormat) {
   for (const char* text :
        {"", "no JSON", "[]", "{}", "1", R"(["format", "a"])", R"([{"format": "a"}])",
         R"({"format": 1})", R"({"format": null, "x": "a"})", R"({"format": ["a"]})",
@@ -46,7 +46,7 @@ TEST_F(FormatOfTest, IsEmptyIfThereIsNone) {
   }
 }
 
-TEST_F(FormatOfTest, NeedsAFile) {
+TEST_F(FormatOfTest, RefusesAMissingFile) {
   EXPECT_THROW(FormatOf(file_.string() + ".none"), InputError);
   EXPECT_THROW(FormatOf(fs::temp_directory_path()), InputError);
 }

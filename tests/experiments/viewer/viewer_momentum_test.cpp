@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// M(q) v: inverse dynamics at rest, of v as acceleration, without gravity's part.
+/// M(q) v: inverse dynamics at rest with v as acceleration, less the part of gravity.
 VectorXd GeneralisedMomentum(const VectorXd& q, const VectorXd& v) {
   dynamics::TreeKinematics kinematics(actions::DrcHubo1());
   kinematics.SetPosition(q);
@@ -19,7 +19,7 @@ VectorXd GeneralisedMomentum(const VectorXd& q, const VectorXd& v) {
   return kinematics.InverseDynamics(v) - kinematics.InverseDynamics(VectorXd::Zero(v.size()));
 }
 
-TEST(CentroidalState, IsTheMassMatrixTimesVelocity) {
+TEST(CentroidalState, MomentumIsTheMassMatrixTimesVelocity) {
   const models::RobotModel& robot = actions::DrcHubo1();
   dynamics::TreeKinematics kinematics(robot);
   std::srand(7);

@@ -48,7 +48,7 @@ TEST_F(ViewerPageTest, HoldsEveryName) {
   EXPECT_EQ(data["explored"]["actions"], (std::vector<std::string>{"walk", "crawl"}));
 }
 
-TEST_F(ViewerPageTest, SaysWhichPointsOfAPatchBear) {
+TEST_F(ViewerPageTest, HoldsThePointsOfAPatchThatBear) {
   using Points = std::vector<std::vector<int>>;
   EXPECT_EQ(EmbeddedData(Page())["segments"][1]["phases"][0]["points"],
             (Points{{0, 1, 2, 3}, {0}}));
@@ -95,12 +95,12 @@ TEST_F(ViewerPageTest, NamesCannotBecomeMarkupOrCode) {
   EXPECT_EQ(EmbeddedData(page)["segments"][0]["action"], kNasty);
 }
 
-TEST_F(ViewerPageTest, TextThatIsNotUtf8DoesNotBreakThePage) {
+TEST_F(ViewerPageTest, InvalidUtf8IsReplacedInThePage) {
   scenario_.environment.obstacles[0].name = "wall\xff\xfe";
   EXPECT_EQ(EmbeddedData(Page())["obstacles"][0]["name"], "wall\uFFFD\uFFFD");
 }
 
-TEST_F(ViewerPageTest, KeepsTheEndsOfEveryPhaseWhenItThinsOutKnots) {
+TEST_F(ViewerPageTest, ThinningOutKnotsKeepsTheEndsOfEachPhase) {
   plan_ = testing::SamplePlan(robot_, 4, 2001);
   const nlohmann::json data = EmbeddedData(Page());
   const nlohmann::json& first = data["segments"][0]["phases"][0];
@@ -113,7 +113,7 @@ TEST_F(ViewerPageTest, KeepsTheEndsOfEveryPhaseWhenItThinsOutKnots) {
   EXPECT_EQ(testing::PageMotion(data).knots.size(), num_knots * (1 + robot_.nq()));
 }
 
-TEST_F(ViewerPageTest, StepsThatRepeatTakeLittleRoom) {
+TEST_F(ViewerPageTest, RepeatedStepsAddLittleToTheSize) {
   plan_ = testing::SamplePlan(robot_, 4, 40);
   const std::size_t one = Page().size();
   const actions::Segment step = plan_.segments[0];
@@ -130,7 +130,7 @@ TEST_F(ViewerPageTest, StepsThatRepeatTakeLittleRoom) {
   EXPECT_LT(Page().size(), one + 100 * each);
 }
 
-TEST_F(ViewerPageTest, EveryElementThatScriptsAskForIsThere) {
+TEST_F(ViewerPageTest, EveryElementThatScriptsUseExists) {
   const std::string page = Page();
   const std::regex asked("element\\('([a-z-]+)'\\)");
   std::set<std::string> names;
@@ -143,7 +143,7 @@ TEST_F(ViewerPageTest, EveryElementThatScriptsAskForIsThere) {
   }
 }
 
-TEST_F(ViewerPageTest, LimitsThatAreNoneAreNull) {
+TEST_F(ViewerPageTest, InfiniteLimitsAreNull) {
   robot_.joints[0].lower = -1.5;
   robot_.joints[0].upper = 2;
   robot_.joints[0].velocity = 3;
@@ -170,7 +170,7 @@ TEST_F(ViewerPageTest, TablesHoldRatesAndTorquesOfTheKnots) {
   }
 }
 
-/// A hop of the shipped robot: real flight, real impact.
+/// A hop of the shipped robot, with a flight and an impact.
 class ViewerHopTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -241,7 +241,7 @@ TEST_F(ViewerHopTest, PhasesCoverTheSegmentWithoutGaps) {
     EXPECT_FALSE(phase["name"].get<std::string>().empty());
 }
 
-TEST_F(ViewerHopTest, ListsImpulsesWhereThePlanHasThem) {
+TEST_F(ViewerHopTest, ListsImpulsesExactlyWhereThePlanHasThem) {
   for (std::size_t i = 0; i < Phases().size(); ++i) {
     const Eigen::Matrix3Xd& impulses = plan_.segments[0].phases[i].impulses;
     ASSERT_EQ(Phases()[i].contains("impulses"), impulses.cols() > 0) << i;
@@ -266,12 +266,12 @@ TEST_F(ViewerHopTest, InTheAirOnlyWeightChangesMomentum) {
   }
 }
 
-TEST_F(ViewerPageTest, DrawsAPlanWithoutSegments) {
+TEST_F(ViewerPageTest, APlanWithoutSegmentsGivesAPage) {
   plan_.segments.clear();
   EXPECT_TRUE(EmbeddedData(Page())["segments"].empty());
 }
 
-TEST_F(ViewerPageTest, DrawsABarrierAndSaysWhy) {
+TEST_F(ViewerPageTest, HoldsTheBarrierAndItsReason) {
   EXPECT_TRUE(EmbeddedData(Page())["no"].is_null());
   plan_.segments.clear();
   plan_.no = {"exhausted", kNasty, {}};
@@ -288,7 +288,7 @@ TEST_F(ViewerPageTest, DrawsABarrierAndSaysWhy) {
   EXPECT_EQ(barrier["reached"][0]["outlines"][0].size(), 3u);
 }
 
-TEST_F(ViewerPageTest, MarksTheNarrowestPlace) {
+TEST_F(ViewerPageTest, HoldsTheNarrowestPlace) {
   plan_.segments.clear();
   plan_.no = {"time_limit", "why", {}};
   EXPECT_TRUE(EmbeddedData(Page())["no"]["passage"].is_null());
