@@ -21,7 +21,7 @@ namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr double kSlowdown = 8;
-constexpr bool kLimitsMemory = false;  // the sanitizers' shadow takes terabytes of addresses
+constexpr bool kLimitsMemory = false;  // the sanitizers' shadow takes terabytes of address space
 #else
 constexpr double kSlowdown = 1;
 constexpr bool kLimitsMemory = true;
@@ -29,7 +29,7 @@ constexpr bool kLimitsMemory = true;
 constexpr rlim_t kMemory = rlim_t{4} << 30;
 constexpr std::size_t kMostFailures = 20;
 
-/// What the processes share.
+/// Memory that the processes share.
 struct Progress {
   std::atomic<std::uint64_t> seed;
   std::atomic<int> refused;
@@ -54,7 +54,7 @@ class SharedProgress {
   Progress* progress_ = nullptr;
 };
 
-/// SIGPROF ends the process when the time is up.
+/// SIGPROF ends the process when its time is up.
 void LimitProcessorTime(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer = {{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - whole))}};
@@ -77,7 +77,7 @@ bool IsOneLine(std::string_view message) {
   ::_exit(1);
 }
 
-/// In the child.
+/// Runs in the child process.
 [[noreturn]] void UseAll(const Subject& subject, std::uint64_t end,
                          const SharedProgress& progress) {
   LimitMemory();
@@ -150,7 +150,7 @@ void RunCases(const Subject& subject, std::uint64_t first_seed, int count) {
                   << KeepFailure(subject.name, failure.seed, subject.extension,
                                  SpoiltText(subject, failure.seed));
   }
-  // Of texts that are all refused at the door nothing would be learnt, nor of texts that are whole.
+  // If all texts were refused, or most of them stayed whole, the test would show nothing.
   EXPECT_GT(findings.used, 0) << subject.name;
   EXPECT_GT(findings.refused, count / 4) << subject.name;
   fmt::print("{}: {} used, {} refused\n", subject.name, findings.used, findings.refused);

@@ -1,4 +1,4 @@
-// The fuzzer notices what it is there for.
+// The fuzzer finds the failures that it is meant to find.
 
 #include "tests/fuzz/case_runner.h"
 
@@ -21,7 +21,7 @@ Subject With(const std::function<void(std::uint64_t)>& use) {
   subject.name = "sample";
   subject.extension = ".json";
   subject.syntax = Syntax::kJson;
-  // As long as a file is: of a few bytes there are only so many mutations.
+  // As long as a real file. A text of a few bytes has only a few mutations.
   subject.text = [](std::uint64_t) {
     std::string text = "{\"b\": [0.5";
     for (int i = 0; i < 200; ++i) text += ", {\"a\": " + std::to_string(i) + "}";
@@ -32,7 +32,7 @@ Subject With(const std::function<void(std::uint64_t)>& use) {
   return subject;
 }
 
-TEST(CaseRunner, NamesEveryKindOfFailureAndGoesOn) {
+TEST(CaseRunner, NamesEachKindOfFailureAndContinues) {
   const Findings findings = FindFailures(With([](std::uint64_t seed) {
                                            if (seed == 3) std::abort();
                                            if (seed == 5) throw std::runtime_error("oh");
@@ -55,7 +55,7 @@ TEST(CaseRunner, NamesEveryKindOfFailureAndGoesOn) {
   EXPECT_EQ(findings.refused, 10);
 }
 
-TEST(CaseRunner, SpoilsAlikeFromOneSeedAndDifferentlyFromOthers) {
+TEST(CaseRunner, OneSeedGivesOneTextAndSeedsDiffer) {
   const Subject subject = With([](std::uint64_t) {});
   std::set<std::string> texts;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {

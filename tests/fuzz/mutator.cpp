@@ -10,7 +10,7 @@ bool IsWordCharacter(char c) {
 }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// From an opening bracket to behind the one that closes it.
+/// From an opening bracket to just behind the one that closes it.
 std::size_t BracketedLength(std::string_view text, std::size_t begin) {
   int depth = 0;
   for (std::size_t i = begin; i < text.size(); ++i) {
@@ -20,7 +20,7 @@ std::size_t BracketedLength(std::string_view text, std::size_t begin) {
   return 0;
 }
 
-/// From "<name" to behind "/>" or "</name>".
+/// From "<name" to just behind "/>" or "</name>".
 std::size_t ElementLength(std::string_view text, std::size_t begin) {
   std::size_t name_end = begin + 1;
   while (name_end < text.size() && IsWordCharacter(text[name_end])) ++name_end;
@@ -33,7 +33,7 @@ std::size_t ElementLength(std::string_view text, std::size_t begin) {
   return end == std::string_view::npos ? 0 : end + tail.size() - begin;
 }
 
-/// A line and those behind it that are indented deeper.
+/// A line and the lines after it that are indented deeper.
 std::size_t IndentedLength(std::string_view text, std::size_t begin) {
   const auto indent = [&](std::size_t at) {
     const std::size_t first = text.find_first_not_of(' ', at);

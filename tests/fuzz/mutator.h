@@ -20,7 +20,7 @@ class Mutator {
   std::string operator()(std::string text);
 
  private:
-  /// Begin and length; an empty stretch if nothing was found.
+  /// Begin and length; a length of 0 if nothing was found.
   using Stretch = std::pair<std::size_t, std::size_t>;
 
   void MutateOnce(std::string* text);
@@ -40,10 +40,10 @@ class Mutator {
   std::string SpecialText();
   std::string Nested(const std::string& inside);
 
-  /// Somewhere behind a random place.
+  /// An occurrence behind a random place.
   Stretch Number(std::string_view text);
   Stretch Word(std::string_view text);
-  /// A list or map in brackets, an XML element, or a YAML key with what is indented below it.
+  /// A list or map in brackets, an XML element, or a YAML key with the lines indented below it.
   Stretch Group(std::string_view text);
   Stretch Line(std::string_view text);
 

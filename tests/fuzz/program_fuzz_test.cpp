@@ -1,5 +1,5 @@
-// The program itself with spoilt files: exit codes 0 to 3, one line on standard error with 1, an
-// end in time.
+// The program itself with spoilt files. Exit codes are 0 to 3, an exit code of 1 comes with one
+// line on standard error, and the program ends in time.
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 struct Kind {
   const char* name;
   Subject (*make)(const fs::path&);
-  /// Of the program; SPOILT is the file, SOURCE the project's folder.
+  /// Arguments of the program. SPOILT is the file, SOURCE the project's folder.
   std::vector<std::string> commands;
-  std::string before = {};  ///< commands of the shell
+  std::string before = {};  ///< shell commands to run before
 };
 
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
@@ -83,7 +83,7 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
   }
 
  private:
-  /// A scenario whose robot is the spoilt one, and a library.
+  /// Writes a scenario whose robot is the spoilt one, and a library.
   void WriteWholeFiles(const Subject& subject) const {
     const fs::path source = POSSIBILITY_SOURCE_DIR;
     fs::copy(source / "models/drchubo1/jumps", folder_ / "library", fs::copy_options::recursive);
@@ -97,7 +97,7 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
                     "drchubo1.urdf", "spoilt.urdf");
   }
 
-  /// -1: killed by a signal, -2: not done within two minutes.
+  /// The exit code; -1: killed by a signal, -2: still running after two minutes.
   static int WaitInTime(pid_t program) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     int status = 0;
@@ -119,11 +119,11 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
   }
 };
 
-TEST_P(ProgramFuzz, EndsAsItShould) { RunCases(20000, 4); }
+TEST_P(ProgramFuzz, SpoiltFilesEndWithADocumentedExitCode) { RunCases(20000, 4); }
 
 class ProgramFuzzLong : public ProgramFuzz {};
 
-TEST_P(ProgramFuzzLong, EndsAsItShould) { RunCases(21000, 100); }
+TEST_P(ProgramFuzzLong, SpoiltFilesEndWithADocumentedExitCode) { RunCases(21000, 100); }
 
 std::string NameOf(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
 

@@ -1,4 +1,4 @@
-// Whatever a file holds: it is used, or InputError says in one line why not. Meant to run under the
+// Any file is either used or refused by an InputError of one line. Meant to run under the
 // sanitizers (docs/development.md).
 
 #include <gtest/gtest.h>
@@ -27,14 +27,14 @@ const Kind kKinds[] = {{"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},
 
 class ReadingFuzz : public testing::TestWithParam<Kind> {};
 
-TEST_P(ReadingFuzz, UsesOrRefuses) {
+TEST_P(ReadingFuzz, SpoiltFilesAreUsedOrRefused) {
   const models::TemporaryFolder folder;
   RunCases(GetParam().make(folder.path()), 0, 300);
 }
 
 class ReadingFuzzLong : public ReadingFuzz {};
 
-TEST_P(ReadingFuzzLong, UsesOrRefuses) {
+TEST_P(ReadingFuzzLong, SpoiltFilesAreUsedOrRefused) {
   const models::TemporaryFolder folder;
   RunCases(GetParam().make(folder.path()), 1000, 10000);
 }

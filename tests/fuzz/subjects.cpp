@@ -36,7 +36,7 @@ const fs::path kSource = POSSIBILITY_SOURCE_DIR;
 const fs::path kRobotFolder = kSource / "models/drchubo1";
 const fs::path kScenario = kSource / "experiments/scenarios/three_routes_b.yaml";
 
-/// Dear uses of a file that could be read are made of one case in so many.
+/// Expensive uses of a readable file are made in one case of this many.
 constexpr std::uint64_t kDear = 100;
 
 fs::path Write(const fs::path& file, const std::string& text) {
@@ -77,7 +77,7 @@ void UseRobot(const fs::path& file) {
   for (const models::Gait& gait : robot.gaits) actions::SolveNominalStance(robot, gait);
 }
 
-/// Every third of a second of somebody's plan, that texts stay short.
+/// Keeps a knot every third of a second, so that texts stay short.
 void Thin(actions::Plan* plan) {
   for (actions::Segment& segment : plan->segments) {
     for (actions::Phase& phase : segment.phases) {
@@ -89,7 +89,7 @@ void Thin(actions::Plan* plan) {
   }
 }
 
-/// The same plan with its numbers in a table, as long ones are written.
+/// The same plan with its numbers in a table, as long plans are written.
 std::string WithSeries(const std::string& text) {
   nlohmann::ordered_json plan = nlohmann::ordered_json::parse(text);
   nlohmann::ordered_json series = nlohmann::ordered_json::array();
@@ -112,8 +112,8 @@ std::string WithSeries(const std::string& text) {
   return plan.dump();
 }
 
-/// Plans in which whatever a plan can hold is to be found: standing, a hop with flight and impact,
-/// the same with a table, and a "no".
+/// Plans that contain everything a plan can hold: standing, a hop with flight and impact, the same
+/// with a table, and a "no".
 std::vector<std::string> PlanTexts(const fs::path& folder) {
   const fs::path file = folder / "whole_plan.json";
   std::vector<std::string> texts;

@@ -6,8 +6,8 @@
 
 namespace possibility::fuzz {
 
-/// What people hand the program, each beside whole files of the other kinds. `folder` is where the
-/// spoilt files go; it must outlive the subject.
+/// The files that users give the program. Each kind comes with whole files of the other kinds.
+/// `folder` is where the spoilt files go; it must outlive the subject.
 Subject ScenarioSubject(const std::filesystem::path& folder);
 Subject RobotSubject(const std::filesystem::path& folder);
 Subject UrdfSubject(const std::filesystem::path& folder);

@@ -10,7 +10,7 @@ namespace possibility::house {
 /// By room (a folder such as "actions/plan"): the rooms it uses.
 using RoomGraph = std::map<std::string, std::set<std::string>>;
 
-/// What the sources under `root` include from one another. Every folder with sources is a room.
+/// The includes among the sources under `root`. Every folder with sources is a room.
 RoomGraph IncludeGraph(const std::filesystem::path& root);
 
 /// The table of rooms in docs/development.md: `| `room` | what it holds | `room`, `room` |`.

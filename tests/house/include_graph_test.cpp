@@ -1,4 +1,4 @@
-// The rooms of docs/development.md, held against what the sources include.
+// The rooms of docs/development.md, compared with the includes of the sources.
 #include "tests/house/include_graph.h"
 
 #include <gtest/gtest.h>
@@ -26,9 +26,9 @@ TEST(IncludeGraphTest, TheTableListsExactlyTheIncludesOfEveryRoom) {
   }
 }
 
-TEST(IncludeGraphTest, RoomsHaveNoCircles) { EXPECT_EQ(FindCircle(Sources()), ""); }
+TEST(IncludeGraphTest, IncludesBetweenRoomsFormNoCircle) { EXPECT_EQ(FindCircle(Sources()), ""); }
 
-TEST(IncludeGraphTest, NoFloorIncludesFromAFloorAbove) {
+TEST(IncludeGraphTest, FloorsIncludeFromTheSameFloorOrBelowOnly) {
   const std::map<std::string, std::set<std::string>> below = {
       {"models", {"models"}},
       {"dynamics", {"models", "dynamics"}},
@@ -51,7 +51,7 @@ TEST(IncludeGraphTest, TheVerifierUsesNothingOfThePlanner) {
   }
 }
 
-TEST(IncludeGraphTest, CirclesAreFound) {
+TEST(IncludeGraphTest, ACircleOfRoomsIsFound) {
   EXPECT_EQ(FindCircle({{"a", {"b"}}, {"b", {"c"}}, {"c", {}}}), "");
   EXPECT_EQ(FindCircle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), "b -> c -> b");
 }

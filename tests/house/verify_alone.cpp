@@ -1,4 +1,4 @@
-// Linked with the verifier's room alone: what it does not need is not there to be linked.
+// Linked with the verifier's room alone, to show that it needs nothing else.
 #include <cstdio>
 
 #include "actions/plan/plan_reader.h"
