@@ -31,7 +31,7 @@ fail() {
   exit 1
 }
 
-# Keys and sockets of our own: what else runs on this machine is left alone.
+# Keys and sockets of our own, so that nothing else on this machine is affected.
 mkdir -p "$work/state" "$work/spool"
 chmod 755 "$work"
 dd if=/dev/urandom of="$work/munge.key" bs=1 count=1024 2>/dev/null
@@ -103,14 +103,14 @@ exec "$program" table --scenarios scenarios --scenario three_routes_a_1 --trials
   --out "parts/\$SLURM_ARRAY_TASK_ID"
 SH
 cd "$work"
-# From 1: the parts are counted from the array's first task.
+# The array starts at 1: parts are counted from its first task.
 sbatch --wait --array=1-3 --output="$work/job-%a.txt" "$work/array.sh" >/dev/null ||
   fail "the job array failed"
 "$program" merge parts/1 parts/2 parts/3 --out merged >merge.txt 2>&1 || fail "merge failed"
 "$program" table --scenarios scenarios --scenario three_routes_a_1 --trials 7 --out whole \
   >whole.txt 2>&1 || fail "the run in one piece failed"
 
-# Lines without what depends on how fast the machine was and what else a process had done.
+# The lines without fields that depend on the machine's speed and on the process's history.
 facts() {
   sed -E 's/"(preparation|graph|confirmation|motion|verification)_s":[^,]*,//g;
           s/"(real_time_ratio|memory_mb)":[^,]*,//g' "$1"

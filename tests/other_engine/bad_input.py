@@ -1,4 +1,4 @@
-"""Files that check_plan.py cannot look at: one line on standard error, exit code 1."""
+"""Files that check_plan.py cannot read give one line on standard error and exit code 1."""
 
 import copy
 import os

@@ -53,7 +53,7 @@ def _load(robot, joints):
 
 class DartRobot:
     """A DART skeleton with a floating root. Joints that the plan does not have stay in the skeleton
-    and are held at 0: their rows are those of a lock and nobody looks at them."""
+    and are held at 0. Their rows are those of a lock and are not checked."""
 
     def __init__(self, robot, joints):
         self._skeleton = skeleton = _load(robot, joints)

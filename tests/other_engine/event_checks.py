@@ -1,4 +1,4 @@
-"""What is checked of stretches and events: joints between phases, flights, impacts."""
+"""The checks of stretches and events: transitions between phases, flights, impacts."""
 
 from dataclasses import dataclass
 
@@ -26,7 +26,7 @@ class Flight:
 
 
 def check_continuity(plan, findings):
-    """What ends one phase begins the next."""
+    """The last state of a phase is the first of the next."""
     for check, unit, limit in (("gap in time", "s", 1e-9), ("jump of q", "m, rad", CONTINUITY),
                                ("jump of v without impact", "m/s, rad/s", CONTINUITY)):
         findings.declare(check, unit, limit)

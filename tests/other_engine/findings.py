@@ -1,4 +1,4 @@
-"""The worst value of every check, and where it was."""
+"""The worst value of each check, and its place."""
 
 from dataclasses import dataclass
 
@@ -37,7 +37,7 @@ class Findings:
         self.all[check] = Finding(check, unit, limit)
 
     def note(self, check, value, phase, time, what=""):
-        """`what` may be a function of no arguments; NaN counts as worst."""
+        """`what` may be a function without arguments. NaN counts as the worst value."""
         finding = self.all[check]
         if finding.worst is not None and (finding.worst != finding.worst or value <= finding.worst):
             return
@@ -47,7 +47,7 @@ class Findings:
         finding.what = what() if callable(what) else what
 
     def note_largest(self, check, values, phase, time, names):
-        """The largest of `values`, named by the entry of `names` at its place."""
+        """The largest of `values`, with its entry of `names`."""
         if len(values):
             i = int(values.argmax())
             self.note(check, values[i], phase, time, lambda: str(names[i]))

@@ -1,4 +1,4 @@
-"""What a plan means between its knots (docs/file_formats.md, "Between knots")."""
+"""The motion of a plan between its knots (docs/file_formats.md, "Between knots")."""
 
 from dataclasses import dataclass
 from math import factorial
@@ -53,7 +53,7 @@ def turned(rotation_vector_, quaternion):
 
 
 # Coefficients in powers of the squared angle s, highest first, of (1 - cos) / s, (angle - sin) /
-# angle^3: from 0 to beyond pi without a case apart.
+# angle^3. They hold from 0 to beyond pi without a special case.
 _A = [(-1) ** k / factorial(2 * k + 2) for k in reversed(range(16))]
 _B = [(-1) ** k / factorial(2 * k + 3) for k in reversed(range(16))]
 _DA, _DB = np.polyder(_A).tolist(), np.polyder(_B).tolist()

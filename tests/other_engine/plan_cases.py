@@ -1,4 +1,4 @@
-"""What the tests of check_plan.py share: plans of the built program, and asking for an opinion."""
+"""Shared by the tests of check_plan.py: plans of the built program, and runs of the check."""
 
 import contextlib
 import io
@@ -37,7 +37,7 @@ class Outcome:
 
 
 def check(*arguments):
-    """check_plan.py in this process: loading DART takes longer than most questions."""
+    """Runs check_plan.py in this process, since loading DART takes longer than most checks."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
@@ -48,7 +48,7 @@ def check(*arguments):
 
 
 def run_script(*arguments):
-    """check_plan.py as its users run it."""
+    """Runs check_plan.py as its users do."""
     run = subprocess.run([sys.executable, "-B", os.path.join(HERE, "check_plan.py"), *arguments],
                          capture_output=True, text=True, check=False)
     return Outcome(run.returncode, run.stdout, run.stderr)
@@ -68,7 +68,7 @@ class CheckCase(unittest.TestCase):
         return {entry["check"] for entry in report["checks"] if entry["failed"]}
 
     def refused(self, file, *options):
-        """The checks that fail; one line says where the worst is."""
+        """The checks that fail. One line names the place of the worst."""
         outcome = check(file, "--json", *options)
         self.assertEqual(outcome.code, 1, outcome.out)
         self.assert_one_line(outcome.err)
@@ -86,7 +86,7 @@ class CheckCase(unittest.TestCase):
         self.assertEqual(self.refused(file, *options), set(failing))
 
     def refuses_at_least(self, file, *failing):
-        """These checks fail; others may as well, since one change spoils several things."""
+        """These checks fail. Others may fail too, since one change spoils several things."""
         self.assertLessEqual(set(failing), self.refused(file))
 
     def refuses_input(self, file, *words):
@@ -98,7 +98,7 @@ class CheckCase(unittest.TestCase):
 
 
 class Spoilt(CheckCase):
-    """Short pieces of plans: first as they are, then with one thing changed."""
+    """Short pieces of plans, first as they are, then with one thing changed."""
 
     def write(self, plan, robot=None, scenario=None):
         """`plan` under this test's name, with another robot or scenario if given."""

@@ -1,4 +1,4 @@
-"""What is checked at every instant: forces and torques, contacts, limits of the joints."""
+"""The checks at every instant: forces and torques, contacts, limits of the joints."""
 
 import numpy as np
 from motion import Interval, State, cross, knot_state

@@ -1,4 +1,4 @@
-"""Pieces of plans with one thing changed: check_plan.py has to say which check fails."""
+"""Pieces of plans with one thing changed. check_plan.py must name the check that fails."""
 
 import copy
 import os
@@ -134,12 +134,12 @@ class SpoiltJump(Spoilt):
         self.accepts(self.write(self.plan), "--rate", "200")
 
     def test_flight_position(self):
-        """Where a flying robot is makes no difference to forces: only the integration sees it."""
+        """The place of a flying robot does not affect forces. Only the integration detects it."""
         self.flight["q"][self.middle][4] += 0.005
         self.refuses(self.write(self.plan), "flight: root away on the way")
 
     def test_flight_orientation(self):
-        """About the vertical: gravity looks the same; the turning does not join up."""
+        """Turned about the vertical. Gravity looks the same, but the rotation is discontinuous."""
         c, s = 0.9999, 0.0141  # 1.6 degrees
         w, x, y, z = self.flight["q"][self.middle][:4]
         length = (c * c + s * s) ** 0.5
@@ -148,7 +148,7 @@ class SpoiltJump(Spoilt):
         self.refuses_at_least(self.write(self.plan), "flight: root turned on the way")
 
     def test_flight_position_between_knots(self):
-        """A tenth of a millimetre, too little for the comparison of poses."""
+        """A tenth of a millimetre, which is too little for the comparison of poses."""
         self.flight["q"][self.middle][4] += 0.0001
         file = self.write(self.plan)
         self.accepts(file)
