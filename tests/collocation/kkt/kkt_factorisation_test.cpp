@@ -271,7 +271,7 @@ TEST(KktFactorisation, FewPivotsOfZeroColumnsAreDelayed) {
   ExpectFactorises(sample, 1e-6, 1e-9, &random);
 }
 
-TEST(KktFactorisation, RefusesWhatIsNotANumber) {
+TEST(KktFactorisation, RefusesNonFiniteNumbers) {
   std::mt19937 random(7);
   Shape shape;
   shape.num_primal = 20;

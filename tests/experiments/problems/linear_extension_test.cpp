@@ -66,7 +66,7 @@ TEST(LinearExtension, IsTheSumOfTheFunctionAndALinearTerm) {
   EXPECT_DOUBLE_EQ(y[1], 0.5 * 2.5 * 2.5);
 }
 
-TEST(LinearExtension, RefusesMatricesThatDoNotFit) {
+TEST(LinearExtension, RefusesMatricesOfTheWrongSize) {
   const MatrixXd A = MatrixXd::Zero(3, 4), B = MatrixXd::Zero(2, 4);
   EXPECT_NO_THROW(LinearExtension(Inner(), A, B));
   EXPECT_THROW(LinearExtension(Inner(), A.topRows(2), B), std::invalid_argument);
