@@ -1,11 +1,17 @@
 #include "actions/conditions/locomotion_model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
+#include "actions/gait/quasi_static_gait.h"
+#include "actions/motion/motion_builder.h"
+#include "actions/transition/transition_motion.h"
 #include "actions/transition/transition_volume.h"
+#include "models/input/input_error.h"
 #include "models/world/scenario.h"
 
 namespace possibility::actions {
@@ -14,6 +20,73 @@ namespace {
 bool IsJump(const models::RobotModel& robot, const std::string& action) {
   return std::any_of(robot.jumps.begin(), robot.jumps.end(),
                      [&](const models::Jump& jump) { return jump.name == action; });
+}
+
+/// Duration of a change between gaits of one stance, s.
+constexpr double kChangeTime = 0.2;
+
+using GaitEntry = LocomotionModel::GaitEntry;
+using TransitionEntry = LocomotionModel::TransitionEntry;
+
+std::unique_ptr<GaitEntry> EntryOfRobot(const models::RobotModel& robot, const std::string& name) {
+  auto entry = std::make_unique<GaitEntry>();
+  entry->gait = robot.GaitNamed(name);
+  entry->stance = SolveNominalStance(robot, entry->gait);
+  entry->motion = std::make_unique<QuasiStaticGait>(robot, entry->stance);
+  return entry;
+}
+
+std::unique_ptr<GaitEntry> EntryOfFactory(const models::RobotModel& robot,
+                                          const GaitFactory& factory) {
+  const auto found =
+      std::find_if(robot.gaits.begin(), robot.gaits.end(),
+                   [&](const models::Gait& gait) { return gait.name == factory.stance_of; });
+  if (found == robot.gaits.end()) {
+    throw InputError(
+        fmt::format("{}: gait '{}' has the stance of '{}', expected a gait of robot '{}'",
+                    robot.file.string(), factory.name, factory.stance_of, robot.name));
+  }
+  auto entry = std::make_unique<GaitEntry>();
+  entry->gait = *found;
+  entry->gait.name = factory.name;
+  entry->gait.parameters = factory.parameters;
+  entry->stance = SolveNominalStance(robot, entry->gait);
+  entry->motion = factory.make ? factory.make(robot, entry->stance) : nullptr;
+  if (!entry->motion) {
+    throw InputError(fmt::format("{}: the factory of gait '{}' {}, expected a motion",
+                                 robot.file.string(), factory.name,
+                                 factory.make ? "made nothing" : "is empty"));
+  }
+  return entry;
+}
+
+std::unique_ptr<GaitEntry> MakeEntry(const models::RobotModel& robot, const std::string& name,
+                                     const std::vector<GaitFactory>& further) {
+  for (const GaitFactory& factory : further) {
+    if (factory.name == name) return EntryOfFactory(robot, factory);
+  }
+  return EntryOfRobot(robot, name);
+}
+
+/// The robot stands still while it changes between gaits of one stance.
+TransitionEntry Change(const models::RobotModel& robot, const LocomotionModel& model, int from,
+                       int to) {
+  const GaitEntry& gait = *model.gaits[from];
+  TransitionEntry entry;
+  entry.from = from;
+  entry.to = to;
+  entry.phases = MotionBuilder(robot).Build(
+      {QuasiStaticGait(robot, gait.stance).Standing(PlanarPose(), 0, kChangeTime)}, gait.stance.q);
+  entry.sweep = gait.volumes.standing;
+  return entry;
+}
+
+/// The gait of the robot's file whose stance `name` has.
+std::string StanceOf(const std::string& name, const std::vector<GaitFactory>& further) {
+  for (const GaitFactory& factory : further) {
+    if (factory.name == name) return factory.stance_of;
+  }
+  return name;
 }
 
 }  // namespace
@@ -28,27 +101,38 @@ int LocomotionModel::GaitIndex(const std::string& name) const {
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
                                      const std::function<bool()>& keep_going,
-                                     const std::filesystem::path& library) {
-  models::CheckActionsOfRobot(actions, robot, robot.file.string());
+                                     const std::filesystem::path& library,
+                                     const std::vector<GaitFactory>& further) {
+  std::vector<std::string> names;
+  for (const GaitFactory& factory : further) names.push_back(factory.name);
+  models::CheckActionsOfRobot(actions, robot, robot.file.string(), names);
   LocomotionModel model;
   model.robot = &robot;
   for (const std::string& action : actions) {
     if (IsJump(robot, action)) continue;
-    auto entry = std::make_unique<LocomotionModel::GaitEntry>();
-    entry->stance = SolveNominalStance(robot, robot.GaitNamed(action));
-    entry->motion = std::make_unique<GaitMotion>(robot, entry->stance);
-    entry->volumes = SweepGait(robot, entry->stance, keep_going);
+    std::unique_ptr<GaitEntry> entry = MakeEntry(robot, action, further);
+    entry->volumes = SweepGait(robot, entry->stance, *entry->motion, keep_going);
     model.gaits.push_back(std::move(entry));
   }
   for (const models::Transition& transition : robot.transitions) {
-    LocomotionModel::TransitionEntry entry;
+    TransitionEntry entry;
     entry.from = model.GaitIndex(transition.from);
     entry.to = model.GaitIndex(transition.to);
     if (entry.from < 0 || entry.to < 0) continue;
-    entry.motion = std::make_unique<TransitionMotion>(
-        robot, model.gaits[entry.from]->stance, model.gaits[entry.to]->stance, library, keep_going);
-    entry.sweep = SweepTransition(robot, *entry.motion).Boxes();
+    const TransitionMotion motion(robot, model.gaits[entry.from]->stance,
+                                  model.gaits[entry.to]->stance, library, keep_going);
+    entry.displacement = motion.displacement();
+    entry.phases = motion.phases();
+    entry.sweep = SweepTransition(robot, motion).Boxes();
     model.transitions.push_back(std::move(entry));
+  }
+  for (int from = 0; from < static_cast<int>(model.gaits.size()); ++from) {
+    for (int to = from + 1; to < static_cast<int>(model.gaits.size()); ++to) {
+      if (StanceOf(model.gaits[from]->gait.name, further) ==
+          StanceOf(model.gaits[to]->gait.name, further)) {
+        model.transitions.push_back(Change(robot, model, from, to));
+      }
+    }
   }
   return model;
 }

@@ -10,7 +10,7 @@
 #include "actions/gait/gait_motion.h"
 #include "actions/gait/swept_volume.h"
 #include "actions/motion/nominal_stance.h"
-#include "actions/transition/transition_motion.h"
+#include "actions/plan/plan.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
@@ -20,6 +20,7 @@ namespace possibility::actions {
 /// threads.
 struct LocomotionModel {
   struct GaitEntry {
+    models::Gait gait;  ///< of the robot's file or a GaitFactory; stance.gait points here
     NominalStance stance;
     std::unique_ptr<GaitMotion> motion;
     GaitVolumes volumes;
@@ -27,8 +28,11 @@ struct LocomotionModel {
   struct TransitionEntry {
     int from = 0;  ///< indices into gaits
     int to = 0;
-    std::unique_ptr<TransitionMotion> motion;
+    PlanarPose displacement;    ///< second gait's stance frame in the first gait's
+    std::vector<Phase> phases;  ///< in the first gait's stance frame; backwards: Reversed()
     std::vector<Eigen::AlignedBox3d> sweep;  ///< in the first gait's stance frame
+
+    double ExpectedDuration() const { return phases.back().knots.back().t; }  ///< s
   };
 
   const models::RobotModel* robot = nullptr;
@@ -39,16 +43,19 @@ struct LocomotionModel {
   int GaitIndex(const std::string& name) const;
 };
 
-/// Solves the stances, the transitions and the swept volumes of the gaits named in `actions`. Jumps
-/// in `actions` add nothing. `robot` must outlive the result. `library`: folder of solved
+/// Solves the stances, the transitions and the swept volumes of the gaits named in `actions`: those
+/// of the robot's file and of `further`. Jumps in `actions` add nothing. Gaits of one stance get a
+/// transition that stands still. `robot` must outlive the result. `library`: folder of solved
 /// transitions, empty for none.
-/// @throws InputError if an action does not exist, or a gait's bounds allow a stride that the robot
+/// @throws InputError if an action does not exist, if a factory names no gait of the robot, is
+/// empty or makes nothing, or a gait's bounds allow a stride that the robot
 /// cannot execute (every extreme stride is generated and checked here); Abandoned if `keep_going`
 /// (may be empty) returns false.
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
                                      const std::function<bool()>& keep_going = {},
-                                     const std::filesystem::path& library = {});
+                                     const std::filesystem::path& library = {},
+                                     const std::vector<GaitFactory>& further = {});
 
 /// Upper bound, over all joint positions, of the distance from the root's origin to a point of
 /// `patch`, m.

@@ -12,17 +12,6 @@
 namespace possibility::actions {
 namespace {
 
-/// Points of E closer than this are equal, m.
-constexpr double kSamePlace = 1e-6;
-
-bool SamePoint(const graph::Point& a, const graph::Point& b) {
-  return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
-}
-
-bool SameEdge(const graph::PointPair& a, const graph::PointPair& b) {
-  return SamePoint(a.from, b.from) && SamePoint(a.to, b.to);
-}
-
 std::shared_ptr<const QuasiStaticAction> GaitOf(const PlanningContext& context,
                                                 const std::string& name, int gait) {
   if (gait < 0 || gait >= static_cast<int>(context.gaits.size())) {
@@ -49,15 +38,8 @@ bool Manoeuvre::CN(const graph::Point& vertex) const {
   return launch_->CS(vertex) || landing_->CS(vertex);
 }
 
-bool Manoeuvre::CS(const graph::PointPair& edge) const {
-  const std::optional<Verdict> verdict = VerdictOn(edge);
-  return verdict && verdict->possible;
-}
-
 bool Manoeuvre::Explorable(const graph::PointPair& edge) const {
-  if (!LaunchStance(edge.from) || !LandingStance(edge.to)) return false;
-  const std::optional<Verdict> verdict = VerdictOn(edge);
-  return verdict ? verdict->possible : CN(edge);
+  return LaunchStance(edge.from) && LandingStance(edge.to) && CN(edge);
 }
 
 std::unique_ptr<graph::ConfirmationJob> Manoeuvre::SpawnConfirmationJob(
@@ -67,38 +49,6 @@ std::unique_ptr<graph::ConfirmationJob> Manoeuvre::SpawnConfirmationJob(
 }
 
 bool Manoeuvre::ReplaceGuesses(const std::function<bool()>&) { return false; }
-
-void Manoeuvre::Forbid(const graph::PointPair& edge, const std::string& reason, bool) {
-  Record(edge, false, reason);
-}
-
-void Manoeuvre::Record(const graph::PointPair& edge, bool possible,
-                       const std::string& reason) const {
-  const std::lock_guard lock(mutex_);
-  for (Verdict& verdict : verdicts_) {
-    if (!SameEdge(verdict.edge, edge)) continue;
-    verdict = {edge, possible, reason};
-    return;
-  }
-  verdicts_.push_back({edge, possible, reason});
-}
-
-std::vector<Manoeuvre::Refusal> Manoeuvre::Refusals() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<Refusal> refusals;
-  for (const Verdict& verdict : verdicts_) {
-    if (!verdict.possible) refusals.push_back({verdict.edge, verdict.reason});
-  }
-  return refusals;
-}
-
-std::optional<Manoeuvre::Verdict> Manoeuvre::VerdictOn(const graph::PointPair& edge) const {
-  const std::lock_guard lock(mutex_);
-  for (const Verdict& verdict : verdicts_) {
-    if (SameEdge(verdict.edge, edge)) return verdict;
-  }
-  return std::nullopt;
-}
 
 std::optional<GroundedStance> Manoeuvre::LaunchStance(const graph::Point& v) const {
   return AsStance(*model_, from_, ToPose(v));

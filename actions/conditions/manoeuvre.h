@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,21 +33,13 @@ struct PlanningContext {
 
 /// An action that leads in one piece from a nominal stance of one gait to a nominal stance of
 /// another or the same gait, such as a jump or a step up. The term is from Frazzoli, Dahleh & Feron
-/// 2005; their trim trajectories correspond to our gaits. This is the whole interface to planner,
-/// routes, motion generation and floods, beside the paper's functions (graph/action.h). The class
-/// stores the verdict on every edge examined and answers half of the paper's functions from it.
-/// docs/tutorial_new_action.md adds a manoeuvre.
+/// 2005; their trim trajectories correspond to our gaits. A manoeuvre provides the paper's
+/// functions (graph/action.h), the motion of its edges, and bounds for the floods. It stores no
+/// verdicts: SearchedManoeuvre does. docs/tutorial_new_action.md adds a manoeuvre.
 ///
-/// One thread explores. Jobs, `Motion` and the stored verdicts are used from several threads at
-/// once.
+/// One thread explores. Jobs and `Motion` are used from several threads at once.
 class Manoeuvre : public graph::NonholonomicAction {
  public:
-  /// An edge known to be impossible, and the reason.
-  struct Refusal {
-    graph::PointPair edge;
-    std::string reason;
-  };
-
   /// `from`, `to`: indices of the first and the last gait.
   /// @throws InputError if `context` has no such gait.
   Manoeuvre(const PlanningContext& context, std::string name, int from, int to);
@@ -62,12 +53,11 @@ class Manoeuvre : public graph::NonholonomicAction {
   bool CS(const graph::Point& vertex) const override { return CN(vertex); }
   bool Explorable(const graph::Point& vertex) const override { return CN(vertex); }
 
-  /// Necessary conditions of an edge: optimistic and cheap. Must not depend on recorded verdicts.
+  /// Necessary conditions of an edge: optimistic and cheap.
   bool CN(const graph::PointPair& edge) const override = 0;
-  /// True if the edge is known to be possible.
-  bool CS(const graph::PointPair& edge) const override;
-  /// False unless the edge joins nominal stances of the two gaits. The recorded verdict if there is
-  /// one, else C_N.
+  /// False unless overridden: every edge needs its job.
+  bool CS(const graph::PointPair&) const override { return false; }
+  /// C_N of an edge that joins nominal stances of the two gaits.
   bool Explorable(const graph::PointPair& edge) const override;
 
   /// A MotionJob if C_N holds (motion_job.h): it generates the motion and checks it for collisions.
@@ -89,29 +79,15 @@ class Manoeuvre : public graph::NonholonomicAction {
   /// planner answers "no". @throws Abandoned if `keep_going` (may be empty) returns false.
   virtual bool ReplaceGuesses(const std::function<bool()>& keep_going);
 
-  /// Probability that a cycle skips growing this action (0.9 for jumping in the paper).
-  virtual double skip_growth() const { return 0; }
-
-  /// Marks a confirmed edge as impossible because its motion failed. `anywhere`: the fault does not
-  /// depend on the place.
-  virtual void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere);
-
-  /// Records a job's verdict. The last verdict on an edge counts.
-  void Record(const graph::PointPair& edge, bool possible, const std::string& reason) const;
-  /// In the order of recording.
-  std::vector<Refusal> Refusals() const;
+  /// Reports that the motion of a confirmed edge has a fault that does not depend on the place. A
+  /// manoeuvre that has the same motion elsewhere should exclude it there. Does nothing unless
+  /// overridden.
+  virtual void RefuteEverywhere(const graph::PointPair&) {}
 
   const LocomotionModel& model() const { return *model_; }
   const World& world() const { return world_; }
 
  protected:
-  struct Verdict {
-    graph::PointPair edge;
-    bool possible = false;
-    std::string reason;
-  };
-  std::optional<Verdict> VerdictOn(const graph::PointPair& edge) const;
-
   const QuasiStaticAction& launch_gait() const { return *launch_; }
   const QuasiStaticAction& landing_gait() const { return *landing_; }
   /// The point of E as a stance of the launch or landing gait; none if it is not nominal for it.
@@ -130,15 +106,14 @@ class Manoeuvre : public graph::NonholonomicAction {
   std::shared_ptr<const QuasiStaticAction> launch_;
   std::shared_ptr<const QuasiStaticAction> landing_;
   std::shared_ptr<const models::CollisionChecker> checker_;
-
-  mutable std::mutex mutex_;
-  mutable std::vector<Verdict> verdicts_;  ///< under mutex_
 };
 
 /// Makes a manoeuvre for the planner.
 struct ManoeuvreFactory {
   std::string name;  ///< used in scenarios and requests
   std::function<std::shared_ptr<Manoeuvre>(const PlanningContext&)> make;
+  /// Probability that a cycle of the random search skips growing this action.
+  double skip_growth = 0;
 };
 
 /// Makes the manoeuvres of `factories` that `actions` names, in the order of `factories`.

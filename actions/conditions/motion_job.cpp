@@ -32,7 +32,6 @@ graph::JobVerdict MotionJob::Run(graph::JobControl* control) {
 
 graph::JobVerdict MotionJob::Decide(const std::string& fault) {
   reason_ = fault;
-  manoeuvre_.Record(edge_, fault.empty(), fault);
   return fault.empty() ? graph::JobVerdict::kConfirmed : graph::JobVerdict::kRefuted;
 }
 

@@ -11,7 +11,7 @@ namespace possibility::actions {
 
 /// Decides whether an edge of a manoeuvre is possible in its world: generates the motion, then
 /// checks the whole robot, at samples at most 5 ms apart, for collisions with obstacles and with
-/// itself. Reports the verdict to the manoeuvre (Record).
+/// itself.
 class MotionJob : public graph::ConfirmationJob {
  public:
   /// `manoeuvre` must outlive the job. `checker`: for the manoeuvre's robot and environment.

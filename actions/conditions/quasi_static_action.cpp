@@ -459,8 +459,8 @@ const LocomotionModel::TransitionEntry* QuasiStaticAction::FindTransition(
     for (int first = 0; first < 2; ++first) {
       const std::optional<GroundedStance> a = AsStance(*model_, transition.from, ends[first]);
       if (!a) continue;
-      const Isometry3d target = model_->gaits[transition.to]->stance.RootPose(
-          a->pose * transition.motion->displacement(), a->z);
+      const Isometry3d target =
+          model_->gaits[transition.to]->stance.RootPose(a->pose * transition.displacement, a->z);
       if (target.isApprox(ends[1 - first], kSamePlace)) {
         *start = *a;
         return &transition;
@@ -472,7 +472,7 @@ const LocomotionModel::TransitionEntry* QuasiStaticAction::FindTransition(
 
 bool QuasiStaticAction::TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
                                           const GroundedStance& start) const {
-  GroundedStance end{transition.to, start.pose * transition.motion->displacement(), start.z};
+  GroundedStance end{transition.to, start.pose * transition.displacement, start.z};
   const size_t index = &transition - model_->transitions.data();
   return IsWithinBounds(start) && IsWithinBounds(end) && GroundHolds(start, 0) &&
          GroundHolds(end, 0) && BoxesFree(transition_sweeps_[index], start);
@@ -487,7 +487,7 @@ std::vector<graph::Point> QuasiStaticAction::TransitionFrom(const graph::Point& 
         AsStance(*model_, forward ? transition.from : transition.to, X_WR);
     if (!stance) continue;
     const PlanarPose displacement =
-        forward ? transition.motion->displacement() : transition.motion->displacement().Inverse();
+        forward ? transition.displacement : transition.displacement.Inverse();
     const graph::Point target =
         ToPoint(model_->gaits[gait_]->stance.RootPose(stance->pose * displacement, stance->z));
     if (CS(graph::PointPair{v, target}) && CS(target)) return {target};
@@ -505,7 +505,7 @@ double QuasiStaticAction::ExpectedDuration(const graph::PointPair& edge) const {
   const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
   if (const LocomotionModel::TransitionEntry* transition = FindTransition(ends, &start)) {
-    return transition->motion->ExpectedDuration();
+    return transition->ExpectedDuration();
   }
   const auto& [from, to] = ends;
   return ExpectedDuration(

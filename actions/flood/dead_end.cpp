@@ -84,7 +84,7 @@ class DeadEnds {
           if (transition.from != stance.gait && transition.to != stance.gait) return false;
           const PlanarPose begin = transition.from == stance.gait
                                        ? stance.pose
-                                       : stance.pose * transition.motion->displacement().Inverse();
+                                       : stance.pose * transition.displacement.Inverse();
           return IsFree(Shrunk(transition.sweep, Vector3d::Zero()), begin, stance.z);
         });
   }

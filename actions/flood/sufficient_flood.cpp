@@ -26,7 +26,7 @@ constexpr int kLaunchHalvings = 16;
 double FarthestTransition(const LocomotionModel& model) {
   double farthest = 0;
   for (const auto& transition : model.transitions) {
-    farthest = std::max(farthest, transition.motion->displacement().position().norm());
+    farthest = std::max(farthest, transition.displacement.position().norm());
   }
   return farthest;
 }
@@ -90,7 +90,7 @@ class SufficientFlood {
     }
     const int gait = cells_.GaitOf(block);
     for (const LocomotionModel::TransitionEntry& transition : model_.transitions) {
-      const PlanarPose& d = transition.motion->displacement();
+      const PlanarPose& d = transition.displacement;
       if (transition.from == gait) OfferTransition(block, transition.to, d);
       if (transition.to == gait) OfferTransition(block, transition.from, d.Inverse());
     }

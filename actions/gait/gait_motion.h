@@ -1,61 +1,50 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "actions/gait/stride.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/planar_pose.h"
+#include "actions/plan/plan.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
 
-/// A quasi-static gait. In every stride each limb swings once from one stance to the next, one limb
-/// at a time, while the others bear. Between swings the centre of mass shifts over the limbs that
-/// bear next. The robot is at rest between phases.
+/// How a gait executes strides: what distinguishes two gaits of one nominal stance. Immutable, used
+/// from several threads at once.
 class GaitMotion {
  public:
-  GaitMotion(const models::RobotModel& robot, const NominalStance& stance);
+  virtual ~GaitMotion() = default;
 
-  /// From rest in the nominal posture at strides.front() to rest in it at strides.back(), on
-  /// ground of height z. `time_scale` >= 1 stretches all durations.
-  std::vector<MotionPhase> Phases(const std::vector<PlanarPose>& strides, double z,
-                                  double time_scale) const;
+  /// The whole robot's motion from rest in the nominal stance at strides.front() to rest in it at
+  /// strides.back(), on ground of height 0, times from 0. `strides`: at least two stances, as of
+  /// PlanStrides. `knot_spacing`: s, at most. `keep_going`: to be called every few milliseconds,
+  /// may be empty. Deterministic.
+  /// @throws MotionError if there is no motion; Abandoned if `keep_going` returns false.
+  virtual std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
+                                    const std::function<bool()>& keep_going) const = 0;
 
-  /// Rests in the nominal posture at `stance` for `duration` s.
-  MotionPhase Standing(const PlanarPose& stance, double z, double duration) const;
+  /// Expected duration of a motion of `strides` strides straight ahead, s; 0 for none.
+  virtual double ExpectedDuration(int strides) const = 0;
+};
 
-  /// Frame of the swept volume of the stride from a to b.
-  static PlanarPose StrideFrame(const PlanarPose& a, const PlanarPose& b) {
-    return Interpolate(a, b, 0.5);
-  }
+/// Frame of the swept volume of the stride from a to b.
+inline PlanarPose StrideFrame(const PlanarPose& a, const PlanarPose& b) {
+  return Interpolate(a, b, 0.5);
+}
 
-  /// Expected duration of a motion of `strides` strides, s, as if they led straight ahead. Sideways
-  /// and turning strides differ by up to a tenth.
-  double ExpectedDuration(int strides) const;
-
- private:
-  struct Progress;
-  double DurationOfStridesAhead(int count) const;
-  Progress AtRest(const PlanarPose& stance, double z) const;
-  /// The gait's cycle from its start or from half-way: the one whose first swing ends farther from
-  /// the standing limbs, so that feet part before they close.
-  std::vector<int> SwingOrder(const PlanarPose& a, const PlanarPose& b) const;
-  double ClearanceAfterSwing(int limb, const PlanarPose& a, const PlanarPose& b) const;
-  std::vector<Eigen::Vector2d> Placed(int limb, const PlanarPose& at) const;
-  Eigen::Vector2d SupportedCentreOfMass(const Progress& progress, int swinging,
-                                        const PlanarPose& reference) const;
-  void AppendShift(const Eigen::Vector2d& target, bool is_end, Progress* progress,
-                   std::vector<MotionPhase>* phases) const;
-  void AppendSwing(int limb, const PlanarPose& to, double root_yaw, Progress* progress,
-                   std::vector<MotionPhase>* phases) const;
-  WholeBodyTask StandingTask(const Progress& progress) const;
-  LimbTask StandingLimb(int limb, const PlanarPose& at, double z) const;
-
-  const models::RobotModel* robot_;
-  const NominalStance* stance_;
-  double stride_time_ = 0;  ///< s, of each additional stride
-  double stop_time_ = 0;    ///< s, of the last shift
+/// A gait in addition to those of the robot's file: another way to execute strides from the nominal
+/// stance of one of them. The robot changes between gaits of one stance while it stands.
+struct GaitFactory {
+  std::string name;                   ///< used in scenarios and requests
+  std::string stance_of;              ///< gait of the robot's file
+  models::GaitParameters parameters;  ///< bounds of a stride: forward, lateral, turn
+  /// `stance` outlives the motion; `stance.gait` has the name and the parameters above.
+  std::function<std::unique_ptr<GaitMotion>(const models::RobotModel&, const NominalStance& stance)>
+      make;
 };
 
 }  // namespace possibility::actions

@@ -36,15 +36,10 @@ std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& param
   return displacements;
 }
 
-/// Builds the motion (which checks limits, torques and friction), checks self-collision at every
-/// knot and passes each knot's link poses to `visit`.
+/// Checks self-collision at every knot and passes each knot's link poses to `visit`.
 template <typename Visitor>
-void SampleMotion(const models::RobotModel& robot, const std::vector<MotionPhase>& phases,
-                  const Eigen::VectorXd& guess, const std::function<bool()>& keep_going,
-                  const Visitor& visit) {
-  MotionSettings settings;
-  settings.knot_spacing = kSamplingInterval;
-  const std::vector<Phase> motion = MotionBuilder(robot, settings).Build(phases, guess, keep_going);
+void VisitPoses(const models::RobotModel& robot, const std::vector<Phase>& motion,
+                const Visitor& visit) {
   const models::Environment nothing;
   models::CollisionChecker checker(robot, nothing);
   dynamics::TreeKinematics kinematics(robot);
@@ -68,10 +63,10 @@ SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& st
   SweptVolume volume;
   const PlanarPose start;
   try {
-    SampleMotion(robot, gait.Phases({start, displacement}, 0, 1), stance.q, keep_going,
-                 [&](const std::vector<Eigen::Isometry3d>& X_WL) {
-                   volume.Add(robot, X_WL, GaitMotion::StrideFrame(start, displacement));
-                 });
+    VisitPoses(robot, gait.Motion({start, displacement}, kSamplingInterval, keep_going),
+               [&](const std::vector<Eigen::Isometry3d>& X_WL) {
+                 volume.Add(robot, X_WL, StrideFrame(start, displacement));
+               });
   } catch (const MotionError& error) {
     throw InputError(fmt::format(
         "{}: gaits.{}.parameters: the stride ({:.3f} m, {:.3f} m, {:.3f} rad) is not possible: {}",
@@ -153,8 +148,7 @@ AlignedBox3d SweptVolume::Grown(size_t slab, double margin) const {
 }
 
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
-                      const std::function<bool()>& keep_going) {
-  const GaitMotion gait(robot, stance);
+                      const GaitMotion& gait, const std::function<bool()>& keep_going) {
   std::vector<SweptVolume> volumes(kStrideClasses.size() + 1);
   std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
   for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {

@@ -56,10 +56,11 @@ struct GaitVolumes {
   }
 };
 
+/// `motion`: of the gait that `stance` belongs to.
 /// @throws InputError naming the stride if the robot cannot execute an extreme stride of the bounds
 /// within its limits and without self-collision; Abandoned if `keep_going` (may be empty) returns
 /// false.
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
-                      const std::function<bool()>& keep_going = {});
+                      const GaitMotion& motion, const std::function<bool()>& keep_going = {});
 
 }  // namespace possibility::actions

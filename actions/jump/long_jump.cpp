@@ -50,8 +50,7 @@ LongJump::~LongJump() = default;
 /// Solves the jump unless it is known, then checks it for collisions at its place.
 class LongJump::Job : public graph::ConfirmationJob {
  public:
-  Job(const LongJump& action, graph::PointPair edge, const Leap& leap)
-      : action_(action), edge_(std::move(edge)), leap_(leap) {}
+  Job(const LongJump& action, const Leap& leap) : action_(action), leap_(leap) {}
 
   graph::JobVerdict Run(graph::JobControl* control) override {
     const std::optional<JumpAnswer> answer = action_.SolveOf(leap_.task)->Await(control);
@@ -79,12 +78,10 @@ class LongJump::Job : public graph::ConfirmationJob {
 
   graph::JobVerdict Decide(bool possible, const std::string& reason) {
     reason_ = reason;
-    action_.Record(edge_, possible, reason);
     return possible ? graph::JobVerdict::kConfirmed : graph::JobVerdict::kRefuted;
   }
 
   const LongJump& action_;
-  graph::PointPair edge_;
   Leap leap_;
   std::string reason_;
 };
@@ -100,7 +97,6 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
       reach_(library_->reach_is_derived()
                  ? library_->reach()
                  : GuessReach(*solver_, RisesOf(world().ground->levels()))),
-      skip_growth_(context.settings.skip_jumps),
       highest_rise_(BoundFlight(solver_->settings()).rise),
       pelvis_checker_(*world().environment),
       pelvis_(*model().robot, pelvis_checker_) {
@@ -114,7 +110,7 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
   };
   add(model().gaits[from()]->volumes.sweep(StrideClass::kStraight), 0);
   add(model().gaits[to()]->volumes.sweep(StrideClass::kStraight), 0);
-  if (transition_ != nullptr) add(transition_->sweep, -transition_->motion->displacement().x);
+  if (transition_ != nullptr) add(transition_->sweep, -transition_->displacement.x);
 }
 
 bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double end) const {
@@ -150,7 +146,7 @@ bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& la
   if (transition_ == nullptr || std::abs(launch.z - landing.z) > kSamePlace) return false;
   const double distance = (landing.pose.position() - launch.pose.position()).norm();
   if (WayIsOpen(launch, distance)) return true;
-  const PlanarPose& displacement = transition_->motion->displacement();
+  const PlanarPose& displacement = transition_->displacement;
   GroundedStance standing = launch;
   standing.pose = landing.pose * displacement.Inverse();
   GroundedStance sitting = landing;
@@ -279,11 +275,6 @@ bool LongJump::Explorable(const graph::PointPair& edge) const {
   return Manoeuvre::Explorable(edge);
 }
 
-bool LongJump::CS(const graph::PointPair& edge) const {
-  const std::optional<Leap> leap = AsLeap(edge);
-  return leap && !IsImpossible(leap->task) && Manoeuvre::CS(edge);
-}
-
 double LongJump::ExpectedDuration(const graph::PointPair& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   const std::lock_guard lock(mutex_);
@@ -297,7 +288,7 @@ std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
     const graph::PointPair& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap || !CN(edge)) return nullptr;
-  return std::make_unique<Job>(*this, edge, *leap);
+  return std::make_unique<Job>(*this, *leap);
 }
 
 std::vector<Phase> LongJump::Motion(const graph::PointPair& edge,
@@ -327,11 +318,8 @@ bool LongJump::ReplaceGuesses(const std::function<bool()>& keep_going) {
   return true;
 }
 
-void LongJump::Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) {
-  const std::optional<Leap> leap = AsLeap(edge);
-  if (!leap) return;
-  Record(edge, false, reason);
-  if (anywhere) RecordImpossible(leap->task);
+void LongJump::RefuteEverywhere(const graph::PointPair& edge) {
+  if (const std::optional<Leap> leap = AsLeap(edge)) RecordImpossible(leap->task);
 }
 
 void LongJump::RecordImpossible(const JumpTask& task) const {
@@ -366,12 +354,14 @@ LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) cons
   return solved_.emplace_back(Solved{std::move(jump), poses, hit});
 }
 
-std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot) {
+std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot, double skip_growth) {
   std::vector<ManoeuvreFactory> factories;
   for (const models::Jump& jump : robot.jumps) {
-    factories.push_back({jump.name, [jump](const PlanningContext& context) {
+    factories.push_back({jump.name,
+                         [jump](const PlanningContext& context) {
                            return std::make_shared<LongJump>(context, jump);
-                         }});
+                         },
+                         skip_growth});
   }
   return factories;
 }

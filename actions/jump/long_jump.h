@@ -40,12 +40,10 @@ class LongJump : public Manoeuvre {
                                                const graph::Point& v1) const override;
 
   using Manoeuvre::CN;
-  using Manoeuvre::CS;
   using Manoeuvre::Explorable;
   bool CN(const graph::PointPair& edge) const override;
-  /// True if a job has confirmed the edge.
-  bool CS(const graph::PointPair& edge) const override;
-  /// C_N, unless a job has refuted the edge or the gaits can go straight on without a jump.
+  /// C_N, unless such a jump is known to be impossible anywhere or the gaits can go straight on
+  /// without a jump.
   bool Explorable(const graph::PointPair& edge) const override;
 
   double ExpectedDuration(const graph::PointPair& edge) const override;
@@ -57,10 +55,9 @@ class LongJump : public Manoeuvre {
   ManoeuvreBounds Bounds() const override;
   /// Replaces a guessed reach by solving. Must not run while FindPath explores in another thread.
   bool ReplaceGuesses(const std::function<bool()>& keep_going) override;
-  double skip_growth() const override { return skip_growth_; }
 
-  /// `anywhere`: forbids every jump of the same distance and height.
-  void Forbid(const graph::PointPair& edge, const std::string& reason, bool anywhere) override;
+  /// Excludes every jump of the same distance and height.
+  void RefuteEverywhere(const graph::PointPair& edge) override;
 
   const JumpReach& reach() const { return reach_; }
   const JumpSolver& solver() const { return *solver_; }
@@ -108,7 +105,6 @@ class LongJump : public Manoeuvre {
   std::unique_ptr<JumpSolver> solver_;
   std::unique_ptr<JumpLibrary> library_;
   JumpReach reach_;
-  double skip_growth_;
   const LocomotionModel::TransitionEntry* transition_ = nullptr;  ///< from launch to landing gait
   Eigen::AlignedBox3d room_;  ///< of the gaits and the transition, in the launch stance
   double highest_rise_ = 0;   ///< m, of a flight above its launch
@@ -122,7 +118,9 @@ class LongJump : public Manoeuvre {
   mutable std::vector<std::shared_ptr<SharedJumpSolve>> solves_;
 };
 
-/// Factories of the jumps in a robot's file, for the planner.
-std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot);
+/// Factories of the jumps in a robot's file, for the planner. `skip_growth`:
+/// ManoeuvreFactory::skip_growth.
+std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot,
+                                            double skip_growth = 0);
 
 }  // namespace possibility::actions

@@ -15,7 +15,7 @@ namespace {
 constexpr double kAtTheGoal = 1e-6;  // m
 
 /// The first few refusals with their reasons.
-std::string Listed(const std::vector<Manoeuvre::Refusal>& refusals, const std::string& what) {
+std::string Listed(const std::vector<Refusal>& refusals, const std::string& what) {
   constexpr size_t kAtMost = 3;
   if (refusals.empty()) return {};
   std::string text = fmt::format(" {} {}:", refusals.size(), what);
@@ -153,7 +153,7 @@ std::string ExplainClosest(const ExploredGraph& explored,
                      closest.y());
 }
 
-std::string ExplainManoeuvres(const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
+std::string ExplainManoeuvres(const std::vector<std::shared_ptr<SearchedManoeuvre>>& manoeuvres,
                               const FailedJobs& failures) {
   std::string text;
   for (const auto& manoeuvre : manoeuvres) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/conditions/manoeuvre.h"
+#include "actions/conditions/searched_manoeuvre.h"
 #include "actions/plan/plan.h"
 #include "actions/planner/planner.h"
 #include "models/world/scenario.h"
@@ -14,7 +14,7 @@
 namespace possibility::actions {
 
 /// Edges whose jobs failed, by the name of their action.
-using FailedJobs = std::map<std::string, std::vector<Manoeuvre::Refusal>>;
+using FailedJobs = std::map<std::string, std::vector<Refusal>>;
 
 /// One sentence: how close the search came and what blocks the way beyond. `status`: one of the
 /// "no"s.
@@ -30,7 +30,7 @@ std::string ExplainClosest(const ExploredGraph& explored, const std::vector<mode
 
 /// Lists refused and failed manoeuvres, the first few of each, with the reasons. Begins with a
 /// space unless empty.
-std::string ExplainManoeuvres(const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
+std::string ExplainManoeuvres(const std::vector<std::shared_ptr<SearchedManoeuvre>>& manoeuvres,
                               const FailedJobs& failures);
 
 }  // namespace possibility::actions

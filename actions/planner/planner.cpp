@@ -8,9 +8,9 @@
 #include <mutex>
 
 #include "actions/conditions/exploration_pose.h"
-#include "actions/conditions/guarded_manoeuvre.h"
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/quasi_static_action.h"
+#include "actions/conditions/searched_manoeuvre.h"
 #include "actions/flood/flood_oracle.h"
 #include "actions/jump/long_jump.h"
 #include "actions/planner/passage_explanation.h"
@@ -89,7 +89,8 @@ class TraversalPlanner {
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
         model_(BuildLocomotionModel(
-            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary())),
+            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary(),
+            request.gaits)),
         floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
                 [this] { return Remaining() > 0; }) {
     if (ground_.levels().empty()) {
@@ -99,12 +100,12 @@ class TraversalPlanner {
     space_ = std::make_shared<PelvisPoseSpace>(scenario_.environment.bounds, ground_.levels(),
                                                scenario_.planner.rotation_weight);
     for (size_t gait = 0; gait < model_.gaits.size(); ++gait) {
-      actions_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
+      gaits_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
                                                              space_, scenario_.planner.step));
     }
     PrepareManoeuvres();
     const auto checked = [this](const models::Stance& stance, const std::string& key) {
-      return CheckedStance(stance, key, scenario_, model_, actions_, ActionNames());
+      return CheckedStance(stance, key, scenario_, model_, gaits_, ActionNames());
     };
     start_ = checked(scenario_.start, "start");
     for (size_t i = 0; i < scenario_.goals.size(); ++i) {
@@ -139,7 +140,7 @@ class TraversalPlanner {
               fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
                           "verified.",
                           result.plan.timings.graph_s) +
-                  refusals_.Explain() + ExplainManoeuvres(manoeuvres_, failures_),
+                  refusals_.Explain() + ExplainManoeuvres(searched_, failures_),
               &result);
         return result;
       }
@@ -149,7 +150,8 @@ class TraversalPlanner {
  private:
   /// The factories of the robot's file come first.
   std::vector<ManoeuvreFactory> AllFactories() const {
-    std::vector<ManoeuvreFactory> factories = JumpFactories(robot_);
+    std::vector<ManoeuvreFactory> factories =
+        JumpFactories(robot_, switches_.skip_jumps.value_or(scenario_.planner.skip_jumps));
     factories.insert(factories.end(), request_.manoeuvres.begin(), request_.manoeuvres.end());
     return factories;
   }
@@ -158,9 +160,14 @@ class TraversalPlanner {
     return request_.actions.empty() ? scenario_.actions : request_.actions;
   }
 
+  bool IsInUse(const ManoeuvreFactory& factory) const {
+    const std::vector<std::string>& names = ActionNames();
+    return std::find(names.begin(), names.end(), factory.name) != names.end();
+  }
+
   std::vector<std::string> GaitNames() const {
     models::CheckActionsOfRobot(ActionNames(), robot_, scenario_.file.string() + ": actions",
-                                NamesOf(request_.manoeuvres));
+                                FurtherNames(request_.gaits, request_.manoeuvres));
     std::vector<std::string> names;
     for (const std::string& name : ActionNames()) {
       const bool is_gait =
@@ -175,23 +182,22 @@ class TraversalPlanner {
     PlanningContext context;
     context.model = &model_;
     context.world = world_;
-    context.gaits.assign(actions_.begin(), actions_.end());
+    context.gaits.assign(gaits_.begin(), gaits_.end());
     context.space = space_;
     context.settings = scenario_.planner;
-    context.settings.skip_jumps = switches_.skip_jumps.value_or(scenario_.planner.skip_jumps);
     context.library = request_.library;
     context.solved_motions = switches_.solved_motions;
     context.keep_going = [this] { return Remaining() > 0; };
     const std::string where = scenario_.file.string() + ": actions";
     manoeuvres_ = MakeManoeuvres(factories_, ActionNames(), context, where);
     for (const auto& manoeuvre : manoeuvres_) {
-      guarded_.push_back(Guarded(context, manoeuvre, where));
+      searched_.push_back(std::make_shared<SearchedManoeuvre>(manoeuvre, where));
     }
   }
 
   std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
-    std::vector<std::shared_ptr<const graph::Action>> all(actions_.begin(), actions_.end());
-    all.insert(all.end(), guarded_.begin(), guarded_.end());
+    std::vector<std::shared_ptr<const graph::Action>> all(gaits_.begin(), gaits_.end());
+    all.insert(all.end(), searched_.begin(), searched_.end());
     return all;
   }
 
@@ -224,15 +230,15 @@ class TraversalPlanner {
     }
     std::vector<graph::Point> goals;
     for (const GroundedStance& goal : goals_) goals.push_back(PointOf(goal));
-    for (const auto& manoeuvre : manoeuvres_) {
-      settings.skip_growth[manoeuvre->name()] = manoeuvre->skip_growth();
+    for (const ManoeuvreFactory& factory : factories_) {
+      if (IsInUse(factory)) settings.skip_growth[factory.name] = factory.skip_growth;
     }
     return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
   }
 
   /// The explorer that answers fastest comes first.
   std::vector<graph::ExplorerFactory> Explorers() const {
-    const RouteSpace space{&model_, &actions_, &guarded_};
+    const RouteSpace space{&model_, &gaits_, &searched_};
     std::vector<graph::ExplorerFactory> explorers;
     if (switches_.shortcuts) explorers.push_back(ShortcutExploration(space, goals_));
     if (switches_.lattice) explorers.push_back(LatticeExploration(space, start_, goals_));
@@ -291,14 +297,14 @@ class TraversalPlanner {
                   ExplainClosest(result.plan.explored, scenario_.goals)
             : ExplainBarrier(result.status, floods_.barrier());
     return why + ExplainPassage(result.status, floods_.passage()) + refusals_.Explain() +
-           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(manoeuvres_, failures_);
+           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(searched_, failures_);
   }
 
   /// Turns a confirmed path into a verified plan. On failure it forbids the legs at fault.
   /// @throws Abandoned at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
-    Route route = RouteAlong(model_, manoeuvres_, path.path);
+    Route route = RouteAlong(model_, searched_, path.path);
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
     result->plan.timings.motion_s += motion_clock.seconds();
@@ -341,7 +347,7 @@ class TraversalPlanner {
     }
     if (result->verification.abandoned) throw Abandoned();
     if (result->verification.accepted()) {
-      result->explanation = ExplainManoeuvres(manoeuvres_, failures_);
+      result->explanation = ExplainManoeuvres(searched_, failures_);
       if (!result->explanation.empty()) result->explanation.erase(0, 1);
       return true;
     }
@@ -375,10 +381,11 @@ class TraversalPlanner {
     return leg;
   }
 
-  void Forbid(const RouteLeg& leg, const std::string& reason, bool anywhere = false) {
+  void Forbid(const RouteLeg& leg, const std::string& reason, bool everywhere = false) {
     const graph::PointPair edge = LegEdge(model_, leg);
-    if (leg.manoeuvre != nullptr) return leg.manoeuvre->Forbid(edge, reason, anywhere);
-    for (const auto& action : actions_) action->Forbid(edge);
+    if (leg.manoeuvre != nullptr) return leg.manoeuvre->Forbid(edge, reason, everywhere);
+    if (leg.transition < 0) return gaits_[static_cast<size_t>(leg.gait)]->Forbid(edge);
+    for (const auto& action : gaits_) action->Forbid(edge);
   }
 
   /// Reports progress, from any thread. Motion and verification of a route found in time may take
@@ -401,9 +408,9 @@ class TraversalPlanner {
   std::vector<ManoeuvreFactory> factories_;
   LocomotionModel model_;
   std::shared_ptr<PelvisPoseSpace> space_;
-  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;  ///< by gait
+  std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
-  std::vector<std::shared_ptr<Manoeuvre>> guarded_;  ///< for the search
+  std::vector<std::shared_ptr<SearchedManoeuvre>> searched_;  ///< the same, with verdicts
   FloodOracle floods_;
   FailedJobs failures_;
   RouteRefusals refusals_;
@@ -431,10 +438,10 @@ std::string ToString(PlanStatus status) {
 
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
-  RequireNewNames(robot, scenario, request.manoeuvres);
+  RequireNewNames(robot, scenario, request.gaits, request.manoeuvres);
   models::Scenario asked = scenario;
   if (!request.actions.empty()) asked.actions = request.actions;
-  models::CheckScenarioAgainstRobot(asked, robot, NamesOf(request.manoeuvres));
+  models::CheckScenarioAgainstRobot(asked, robot, FurtherNames(request.gaits, request.manoeuvres));
   try {
     return TraversalPlanner(robot, asked, request).Plan();
   } catch (const Abandoned&) {

@@ -36,7 +36,8 @@ struct PlanRequest {
   /// Actions that replace the scenario's in search and verification; empty: the scenario's. A plan
   /// with actions that the scenario's file does not list is not valid for that file.
   std::vector<std::string> actions;
-  /// Manoeuvres in addition to those of the robot's file; `actions` may name them.
+  /// Gaits and manoeuvres in addition to those of the robot's file; `actions` may name them.
+  std::vector<GaitFactory> gaits;
   std::vector<ManoeuvreFactory> manoeuvres;
   std::filesystem::path library;  ///< folder of solved jumps; empty: none
   PlannerPreset preset = PlannerPreset::kDefault;
@@ -56,8 +57,9 @@ struct PlanResult {
 /// Plans, generates the motion and verifies it. A plan that fails verification is never returned:
 /// its edge is marked impossible and the search continues until the time limit.
 /// @throws InputError if start or goal is in collision or off the ground, if an action is unknown,
-/// or if a manoeuvre's name is taken, its factory returns none or one of its conditions throws (the
-/// message names action, function and pose). Exceptions of a factory pass through.
+/// if the name of a gait or manoeuvre of the request is taken, if its factory returns none, if a
+/// gait cannot execute its extreme strides, or if a condition of a manoeuvre throws (the message
+/// names action, function and pose). Exceptions of a factory pass through.
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request);
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "actions/jump/long_jump.h"
 #include "models/input/action_name.h"
 #include "models/input/input_error.h"
 
@@ -19,25 +18,28 @@ std::string Describe(const models::Stance& stance) {
 
 }  // namespace
 
-std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories) {
+std::vector<std::string> FurtherNames(const std::vector<GaitFactory>& gaits,
+                                      const std::vector<ManoeuvreFactory>& manoeuvres) {
   std::vector<std::string> names;
-  names.reserve(factories.size());
-  for (const ManoeuvreFactory& factory : factories) names.push_back(factory.name);
+  for (const GaitFactory& factory : gaits) names.push_back(factory.name);
+  for (const ManoeuvreFactory& factory : manoeuvres) names.push_back(factory.name);
   return names;
 }
 
 void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
+                     const std::vector<GaitFactory>& gaits,
                      const std::vector<ManoeuvreFactory>& manoeuvres) {
-  std::vector<std::string> taken = NamesOf(JumpFactories(robot));
+  std::vector<std::string> taken;
+  for (const models::Jump& jump : robot.jumps) taken.push_back(jump.name);
   for (const models::Gait& gait : robot.gaits) taken.push_back(gait.name);
-  for (const std::string& name : NamesOf(manoeuvres)) {
+  for (const std::string& name : FurtherNames(gaits, manoeuvres)) {
     if (!models::IsActionName(name)) {
-      throw InputError(fmt::format("{}: actions: a manoeuvre is called {:?}, expected {}",
+      throw InputError(fmt::format("{}: actions: an action is called {:?}, expected {}",
                                    scenario.file.string(), name, models::kActionNameRule));
     }
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
       throw InputError(
-          fmt::format("{}: actions: a manoeuvre is called '{}', as another action of robot '{}' or "
+          fmt::format("{}: actions: an action is called '{}', as another one of robot '{}' or "
                       "of this request is already",
                       scenario.file.string(), name, robot.name));
     }

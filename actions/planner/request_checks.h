@@ -12,10 +12,14 @@
 
 namespace possibility::actions {
 
-std::vector<std::string> NamesOf(const std::vector<ManoeuvreFactory>& factories);
+/// Names of a request's gaits and manoeuvres.
+std::vector<std::string> FurtherNames(const std::vector<GaitFactory>& gaits,
+                                      const std::vector<ManoeuvreFactory>& manoeuvres);
 
-/// @throws InputError if one of `manoeuvres` has the name of another action.
+/// @throws InputError if a gait or manoeuvre of the request has the name of another action, or a
+/// name that no action may have.
 void RequireNewNames(const models::RobotModel& robot, const models::Scenario& scenario,
+                     const std::vector<GaitFactory>& gaits,
                      const std::vector<ManoeuvreFactory>& manoeuvres);
 
 /// Start or goal as a stance of one of `gaits` (in the order of LocomotionModel::gaits). `key` in

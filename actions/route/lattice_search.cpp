@@ -211,7 +211,7 @@ void LatticeSearch::Stride(int node) {
 void LatticeSearch::Change(int node) {
   const GroundedStance from = nodes_[node].stance;
   for (const LocomotionModel::TransitionEntry& transition : space_.model->transitions) {
-    const PlanarPose& d = transition.motion->displacement();
+    const PlanarPose& d = transition.displacement;
     GroundedStance next = from;
     if (transition.from == from.gait) {
       next.gait = transition.to;
@@ -222,7 +222,7 @@ void LatticeSearch::Change(int node) {
     } else {
       continue;
     }
-    Offer(node, next, next.gait, transition.motion->ExpectedDuration());
+    Offer(node, next, next.gait, transition.ExpectedDuration());
   }
 }
 
@@ -245,7 +245,7 @@ void LatticeSearch::Finish(int node) {
 
 void LatticeSearch::Manoeuvres(int node) {
   for (std::size_t i = 0; i < space_.manoeuvres->size(); ++i) {
-    const Manoeuvre& manoeuvre = *(*space_.manoeuvres)[i];
+    const SearchedManoeuvre& manoeuvre = *(*space_.manoeuvres)[i];
     if (manoeuvre.from() != nodes_[node].stance.gait) continue;
     const graph::Point v = PointOf(nodes_[node].stance);
     const std::optional<graph::Point> launch =
@@ -288,14 +288,15 @@ graph::Point LatticeSearch::PointAhead(int node, double distance) const {
   return PointOf(ahead);
 }
 
-bool LatticeSearch::Launches(const Manoeuvre& manoeuvre, const graph::Point& v,
+bool LatticeSearch::Launches(const SearchedManoeuvre& manoeuvre, const graph::Point& v,
                              const graph::Point& end) const {
   const std::optional<graph::Point> launch = manoeuvre.FindLaunchPoint(v, end);
   return launch && (*launch - v).norm() < kSamePoint;
 }
 
 /// Possible landings of a manoeuvre straight ahead from a node, far ones first.
-std::vector<graph::Point> LatticeSearch::Landings(int node, const Manoeuvre& manoeuvre) const {
+std::vector<graph::Point> LatticeSearch::Landings(int node,
+                                                  const SearchedManoeuvre& manoeuvre) const {
   std::vector<graph::Point> landings;
   const graph::Point v = PointOf(nodes_[node].stance);
   for (double distance = kMostAhead; distance > kLeastAhead - kSamePoint;) {

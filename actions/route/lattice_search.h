@@ -75,7 +75,7 @@ class LatticeSearch {
 
   graph::Point PointOf(const GroundedStance& stance) const;
   int num_gaits() const { return static_cast<int>(space_.gaits->size()); }
-  const Manoeuvre& ManoeuvreOf(int action) const {
+  const SearchedManoeuvre& ManoeuvreOf(int action) const {
     return *(*space_.manoeuvres)[action - num_gaits()];
   }
   double turn() const;
@@ -100,8 +100,9 @@ class LatticeSearch {
   void Manoeuvres(int node);
   void WalkTo(const graph::Point& launch, int node);
   graph::Point PointAhead(int node, double distance) const;
-  bool Launches(const Manoeuvre& manoeuvre, const graph::Point& v, const graph::Point& end) const;
-  std::vector<graph::Point> Landings(int node, const Manoeuvre& manoeuvre) const;
+  bool Launches(const SearchedManoeuvre& manoeuvre, const graph::Point& v,
+                const graph::Point& end) const;
+  std::vector<graph::Point> Landings(int node, const SearchedManoeuvre& manoeuvre) const;
   std::size_t EndOfStraight(const std::vector<int>& way, std::size_t first) const;
   graph::PathEdge EdgeBetween(int from, int to) const;
 

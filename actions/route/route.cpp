@@ -73,19 +73,19 @@ graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg) {
 }
 
 Route RouteAlong(const LocomotionModel& model,
-                 const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
+                 const std::vector<std::shared_ptr<SearchedManoeuvre>>& manoeuvres,
                  const std::vector<graph::PathEdge>& path) {
   Route route;
   for (const graph::PathEdge& edge : path) {
     const int index = edge.action - static_cast<int>(model.gaits.size());
-    Manoeuvre* manoeuvre = index < 0 ? nullptr : manoeuvres[static_cast<size_t>(index)].get();
-    const auto stance = [&](const graph::Point& point, int gait) {
-      return manoeuvre ? AsStance(model, gait, ToPose(point)) : AnyStance(model, ToPose(point));
-    };
-    const std::optional<GroundedStance> from =
-        stance(edge.points.from, manoeuvre ? manoeuvre->from() : 0);
-    const std::optional<GroundedStance> to =
-        stance(edge.points.to, manoeuvre ? manoeuvre->to() : 0);
+    SearchedManoeuvre* manoeuvre =
+        index < 0 ? nullptr : manoeuvres[static_cast<size_t>(index)].get();
+    std::optional<GroundedStance> from =
+        AsStance(model, manoeuvre ? manoeuvre->from() : edge.action, ToPose(edge.points.from));
+    std::optional<GroundedStance> to =
+        AsStance(model, manoeuvre ? manoeuvre->to() : edge.action, ToPose(edge.points.to));
+    if (!manoeuvre && !from) from = AnyStance(model, ToPose(edge.points.from));
+    if (!manoeuvre && !to) to = AnyStance(model, ToPose(edge.points.to));
     if (!from || !to) throw std::logic_error("a path leaves the nominal stances");
     RouteLeg leg;
     if (manoeuvre || from->gait == to->gait) {
@@ -111,7 +111,7 @@ double ExpectedDuration(const LocomotionModel& model, const Route& route) {
     if (leg.manoeuvre != nullptr) {
       duration += leg.manoeuvre->ExpectedDuration(LegEdge(model, leg));
     } else if (leg.transition >= 0) {
-      duration += model.transitions[leg.transition].motion->ExpectedDuration();
+      duration += model.transitions[leg.transition].ExpectedDuration();
     } else {
       const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
       const auto strides = PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);

@@ -9,28 +9,17 @@
 #include <optional>
 #include <thread>
 
+#include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/phase_sequence.h"
 
 namespace possibility::actions {
 namespace {
-
-/// Factors that stretch durations, tried in turn until the motion keeps all limits.
-constexpr double kTimeScales[] = {1, 1.4, 2};
 
 /// Duration of the pause for a leg of zero length, s.
 constexpr double kStandingTime = 0.2;
 
 /// Motions of neighbouring legs meet within this: m, rad, m/s, rad/s.
 constexpr double kContinuity = 1e-6;
-
-std::vector<MotionPhase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
-                                    double time_scale) {
-  const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
-  const std::vector<PlanarPose> strides =
-      PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);
-  if (strides.size() == 1) return {gait.motion->Standing(leg.from, leg.z, kStandingTime)};
-  return gait.motion->Phases(strides, leg.z, time_scale);
-}
 
 /// The leg shifted so that it begins at the origin, with its heading unchanged. Motion is generated
 /// there and shifted back, because tolerances must not depend on the place: 10 km from the origin,
@@ -49,16 +38,28 @@ std::vector<Phase> Shifted(std::vector<Phase> phases, const Eigen::Vector3d& by)
   return phases;
 }
 
-/// Configuration at the beginning of GaitPhases.
-Eigen::VectorXd InitialGuess(const LocomotionModel& model, const RouteLeg& leg) {
-  Eigen::VectorXd q = model.gaits[leg.gait]->stance.q;
-  q.segment<2>(4) = leg.from.position();
-  return q;
+/// Stands still at the beginning of `leg`.
+std::vector<Phase> Pause(const LocomotionModel& model, const RouteLeg& leg) {
+  const NominalStance& stance = model.gaits[leg.gait]->stance;
+  Eigen::VectorXd guess = stance.q;
+  guess.segment<2>(4) = leg.from.position();
+  return MotionBuilder(*model.robot)
+      .Build({QuasiStaticGait(*model.robot, stance).Standing(leg.from, leg.z, kStandingTime)},
+             guess);
+}
+
+/// The motion of a straight way in one gait that begins at the origin.
+std::vector<Phase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
+                              const std::function<bool()>& keep_going) {
+  const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
+  const std::vector<PlanarPose> strides = PlanStrides(gait.gait.parameters, leg.from, leg.to);
+  if (strides.size() == 1) return Pause(model, leg);
+  return gait.motion->Motion(strides, MotionSettings().knot_spacing, keep_going);
 }
 
 std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg& leg) {
-  const std::vector<Phase> phases = Placed(model.transitions[leg.transition].motion->phases(),
-                                           leg.backwards ? leg.to : leg.from, leg.z);
+  const std::vector<Phase> phases =
+      Placed(model.transitions[leg.transition].phases, leg.backwards ? leg.to : leg.from, leg.z);
   return leg.backwards ? Reversed(phases) : phases;
 }
 
@@ -103,19 +104,12 @@ void RequireFit(const LocomotionModel& model, const RouteLeg& leg,
   RequireStance(model, EndGait(model, leg), leg.to, leg.z_to, phases.back().knots.back(), "ends");
 }
 
-std::vector<Phase> ManoeuvrePhases(const LocomotionModel& model, const RouteLeg& leg,
-                                   const std::function<bool()>& keep_going) {
-  try {
-    std::vector<Phase> phases = leg.manoeuvre->Motion(LegEdge(model, leg), keep_going);
-    RequireFit(model, leg, phases);
-    return phases;
-  } catch (const MotionError&) {
-    throw;
-  } catch (const Abandoned&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw MotionError(fmt::format("no motion: {}", error.what()));
-  }
+std::vector<Phase> PhasesOf(const LocomotionModel& model, const RouteLeg& leg,
+                            const std::function<bool()>& keep_going) {
+  if (leg.manoeuvre != nullptr) return leg.manoeuvre->Motion(LegEdge(model, leg), keep_going);
+  if (leg.transition >= 0) return TransitionPhases(model, leg);
+  const RouteLeg local = SeenFromItsBeginning(leg);
+  return Shifted(GaitPhases(model, local, keep_going), {leg.from.x, leg.from.y, leg.z});
 }
 
 /// Distributes legs to workers; the first failure in route order wins.
@@ -170,20 +164,17 @@ class LegQueue {
 
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
                                const std::function<bool()>& keep_going) {
-  if (leg.manoeuvre != nullptr) return ManoeuvrePhases(model, leg, keep_going);
-  if (leg.transition >= 0) return TransitionPhases(model, leg);
-  MotionBuilder builder(*model.robot);
-  const RouteLeg local = SeenFromItsBeginning(leg);
-  for (const double scale : kTimeScales) {
-    try {
-      return Shifted(
-          builder.Build(GaitPhases(model, local, scale), InitialGuess(model, local), keep_going),
-          {leg.from.x, leg.from.y, leg.z});
-    } catch (const MotionError&) {
-      if (scale == std::end(kTimeScales)[-1]) throw;
-    }
+  try {
+    std::vector<Phase> phases = PhasesOf(model, leg, keep_going);
+    RequireFit(model, leg, phases);
+    return phases;
+  } catch (const MotionError&) {
+    throw;
+  } catch (const Abandoned&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw MotionError(fmt::format("no motion: {}", error.what()));
   }
-  return {};
 }
 
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "actions/conditions/locomotion_model.h"
-#include "actions/conditions/manoeuvre.h"
 #include "actions/conditions/quasi_static_action.h"
+#include "actions/conditions/searched_manoeuvre.h"
 
 namespace possibility::actions {
 
@@ -14,7 +14,7 @@ namespace possibility::actions {
 struct RouteSpace {
   const LocomotionModel* model = nullptr;
   const std::vector<std::shared_ptr<QuasiStaticAction>>* gaits = nullptr;  ///< by gait
-  const std::vector<std::shared_ptr<Manoeuvre>>* manoeuvres = nullptr;
+  const std::vector<std::shared_ptr<SearchedManoeuvre>>* manoeuvres = nullptr;
 };
 
 }  // namespace possibility::actions

@@ -186,7 +186,7 @@ Hop ShortcutRoadmap::Turn(int place, double from_yaw, double to_yaw) const {
 
 std::optional<PlanarPose> ShortcutRoadmap::Displacement(int from_gait, int to_gait) const {
   for (const LocomotionModel::TransitionEntry& transition : space_.model->transitions) {
-    const PlanarPose& displacement = transition.motion->displacement();
+    const PlanarPose& displacement = transition.displacement;
     if (transition.from == from_gait && transition.to == to_gait) return displacement;
     if (transition.to == from_gait && transition.from == to_gait) return displacement.Inverse();
   }

@@ -153,7 +153,7 @@ class ShortcutSearch {
 };
 
 std::vector<RouteStop> StopsOf(const RouteSpace& space, const Edges& route) {
-  const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres = *space.manoeuvres;
+  const std::vector<std::shared_ptr<SearchedManoeuvre>>& manoeuvres = *space.manoeuvres;
   const Route legs = RouteAlong(*space.model, manoeuvres, route);
   std::vector<RouteStop> stops = {
       {{StartGait(*space.model, legs.front()), legs.front().from, legs.front().z}, {}}};

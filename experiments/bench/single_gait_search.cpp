@@ -64,7 +64,7 @@ FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t se
   settings.time_limit = time_limit;
   settings.seed = seed;
   settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
-  const std::vector<std::shared_ptr<actions::Manoeuvre>> no_manoeuvres;
+  const std::vector<std::shared_ptr<actions::SearchedManoeuvre>> no_manoeuvres;
   if (actions::SwitchesOf(preset).lattice) {
     settings.straight_first = true;
     const double z = scenario_.start.z;

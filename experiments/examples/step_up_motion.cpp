@@ -21,7 +21,7 @@ struct StepUpMotion::State {
 
 StepUpMotion::StepUpMotion(const models::RobotModel& robot, const LocomotionModel::GaitEntry& gait,
                            const StepUpSettings& settings)
-    : robot_(&robot), gait_(&gait), settings_(settings) {}
+    : robot_(&robot), gait_(&gait), walking_(robot, gait.stance), settings_(settings) {}
 
 double StepUpMotion::ExpectedDuration(const PlanarPose& from) const {
   const double any_rise = settings_.clearance;  // it takes no longer to step higher
@@ -41,8 +41,8 @@ std::vector<MotionPhase> StepUpMotion::Phases(const PlanarPose& from, double z, 
   const NominalStance& stance = gait_->stance;
   const double nominal_height = z + stance.gait->posture.root_height;
   const PlanarPose before = from * PlanarPose{settings_.approach, 0, 0};
-  std::vector<MotionPhase> phases = gait_->motion->Phases(
-      PlanStrides(stance.gait->parameters, from, before), z, settings_.time_scale);
+  std::vector<MotionPhase> phases =
+      walking_.Phases(PlanStrides(stance.gait->parameters, from, before), z, settings_.time_scale);
 
   State state{before, {}, before * stance.centre_of_mass, nominal_height, 0};
   for (const Vector3d& p_SF : stance.patch_centres) state.feet.push_back(before.At(z) * p_SF);

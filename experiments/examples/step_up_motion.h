@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "actions/conditions/locomotion_model.h"
-#include "actions/gait/gait_motion.h"
+#include "actions/gait/quasi_static_gait.h"
 #include "actions/plan/plan.h"
 
 namespace possibility::actions {
@@ -64,6 +64,7 @@ class StepUpMotion {
 
   const models::RobotModel* robot_;
   const LocomotionModel::GaitEntry* gait_;
+  QuasiStaticGait walking_;
   StepUpSettings settings_;
 };
 

@@ -24,7 +24,7 @@ std::string Seconds(double value) { return fmt::format("{:.2f} s", value); }
 
 std::string RouteText(const actions::Plan& plan) {
   std::string text;
-  for (const RouteLeg& leg : RouteByAction(plan)) {
+  for (const ActionSpan& leg : RouteByAction(plan)) {
     const std::string row =
         fmt::format("{:<14} {:>8.2f} s  from {:>8.2f} s", leg.action, leg.duration, leg.begin);
     text += Row(text.empty() ? "route" : "", row);
@@ -49,8 +49,8 @@ std::string SearchText(const actions::Plan& plan) {
 
 }  // namespace
 
-std::vector<RouteLeg> RouteByAction(const actions::Plan& plan) {
-  std::vector<RouteLeg> legs;
+std::vector<ActionSpan> RouteByAction(const actions::Plan& plan) {
+  std::vector<ActionSpan> legs;
   for (const actions::Segment& segment : plan.segments) {
     if (segment.phases.empty()) continue;
     const double begin = segment.phases.front().knots.front().t;
@@ -119,7 +119,7 @@ std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& file
       json["lower_bound_s"] = plan.search->lower_bound;
     }
     json["route"] = Json::array();
-    for (const RouteLeg& leg : RouteByAction(plan)) {
+    for (const ActionSpan& leg : RouteByAction(plan)) {
       json["route"].push_back(
           {{"action", leg.action}, {"begin_s", leg.begin}, {"duration_s", leg.duration}});
     }

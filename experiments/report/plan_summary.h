@@ -10,12 +10,12 @@
 namespace possibility::experiments {
 
 /// Consecutive segments of the same action.
-struct RouteLeg {
+struct ActionSpan {
   std::string action;
   double begin = 0;     ///< s
   double duration = 0;  ///< s
 };
-std::vector<RouteLeg> RouteByAction(const actions::Plan& plan);
+std::vector<ActionSpan> RouteByAction(const actions::Plan& plan);
 
 /// Planning time, s: preparation, graph (including confirmation) and motion.
 double PlanningSeconds(const actions::Plan& plan);

@@ -116,9 +116,9 @@ class Leap : public Manoeuvre {
     return 1;
   }
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair& edge) const override {
+      const graph::PointPair&) const override {
     on_asked_("SpawnConfirmationJob");
-    return std::make_unique<Job>(*this, edge);
+    return std::make_unique<Job>(*this);
   }
   std::vector<Phase> Motion(const graph::PointPair&, const std::function<bool()>&) const override {
     return make_motion_(*this);
@@ -152,16 +152,11 @@ class Leap : public Manoeuvre {
  private:
   class Job : public graph::ConfirmationJob {
    public:
-    Job(const Leap& leap, graph::PointPair edge) : leap_(leap), edge_(std::move(edge)) {}
-    graph::JobVerdict Run(graph::JobControl* control) override {
-      const graph::JobVerdict verdict = leap_.run_job_(control);
-      if (verdict == graph::JobVerdict::kConfirmed) leap_.Record(edge_, true, {});
-      return verdict;
-    }
+    explicit Job(const Leap& leap) : leap_(leap) {}
+    graph::JobVerdict Run(graph::JobControl* control) override { return leap_.run_job_(control); }
 
    private:
     const Leap& leap_;
-    graph::PointPair edge_;
   };
 
   graph::Point At(double x) const { return PointOf({from(), {x, 0, 0}, 0}); }

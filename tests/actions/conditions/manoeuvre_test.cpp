@@ -81,23 +81,6 @@ TEST(ManoeuvreTest, AManoeuvreWithoutItsGaitsIsRefused) {
                 {"'leap'", "not planned with"});
 }
 
-TEST(ManoeuvreTest, TheLatestVerdictOnAnEdgeHolds) {
-  const Context context(PitScene(true).environment);
-  Leap leap(*context, Refutes, Slides);
-  const graph::Point from = *leap.FindLaunchPoint(ToPoint(PlanarPose{-1, 0, 0}.At(1)), {});
-  const graph::PointPair edge = {from, leap.ExtendTowards(from, {})};
-  EXPECT_TRUE(leap.Explorable(edge));
-  EXPECT_FALSE(leap.CS(edge));
-  leap.Record(edge, true, {});
-  EXPECT_TRUE(leap.CS(edge));
-  EXPECT_TRUE(leap.Refusals().empty());
-  leap.Forbid(edge, "a reason", false);
-  EXPECT_FALSE(leap.CS(edge));
-  EXPECT_FALSE(leap.Explorable(edge));
-  ASSERT_EQ(leap.Refusals().size(), 1u);
-  EXPECT_EQ(leap.Refusals().front().reason, "a reason");
-}
-
 /// The goal is on an island around a random landing of a random launch, with no ground in between.
 /// The flood must find the landing.
 TEST(ManoeuvreTest, TheFloodReachesEveryDeclaredLanding) {

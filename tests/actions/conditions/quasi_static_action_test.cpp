@@ -16,11 +16,11 @@ class QuasiStaticActionTest : public testing::TestWithParam<int> {
  protected:
   QuasiStaticActionTest() {
     for (int gait = 0; gait < 2; ++gait) {
-      actions_.push_back(std::make_unique<QuasiStaticAction>(model_, gait, world_, space_, kStep));
+      gaits_.push_back(std::make_unique<QuasiStaticAction>(model_, gait, world_, space_, kStep));
     }
   }
 
-  const QuasiStaticAction& action() const { return *actions_[GetParam()]; }
+  const QuasiStaticAction& action() const { return *gaits_[GetParam()]; }
   Point StancePoint(int gait, const PlanarPose& pose) const {
     return ToPoint(model_.gaits[gait]->stance.RootPose(pose, 0));
   }
@@ -33,7 +33,7 @@ class QuasiStaticActionTest : public testing::TestWithParam<int> {
   World world_{&environment_, &ground_};
   std::shared_ptr<PelvisPoseSpace> space_ =
       std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_.levels(), 0.137);
-  std::vector<std::unique_ptr<QuasiStaticAction>> actions_;
+  std::vector<std::unique_ptr<QuasiStaticAction>> gaits_;
 };
 
 TEST_P(QuasiStaticActionTest, ProjectKeepsPlaceAndHeadingAndIsIdempotent) {
@@ -96,7 +96,7 @@ TEST_P(QuasiStaticActionTest, TransitionEdgesAreSufficientInBothDirectionsAndFor
     EXPECT_TRUE(action().CS(path[0]));
     EXPECT_TRUE(action().CS(graph::PointPair{v, path[0]}));
     EXPECT_TRUE(action().CS(graph::PointPair{path[0], v}));
-    EXPECT_TRUE(actions_[other]->CS(graph::PointPair{v, path[0]}));
+    EXPECT_TRUE(gaits_[other]->CS(graph::PointPair{v, path[0]}));
   }
   EXPECT_GT(made, 10);
 }
@@ -121,7 +121,7 @@ TEST_P(QuasiStaticActionTest, SufficientImpliesNecessaryEverywhere) {
 TEST_P(QuasiStaticActionTest, AForbiddenEdgeStaysForbiddenInBothDirections) {
   const Point a = StancePoint(GetParam(), {0.1, 0.2, 0.3});
   const Point b = StancePoint(GetParam(), {0.2, 0.2, 0.3});
-  actions_[GetParam()]->Forbid({a, b});
+  gaits_[GetParam()]->Forbid({a, b});
   EXPECT_FALSE(action().CS(graph::PointPair{a, b}));
   EXPECT_FALSE(action().CS(graph::PointPair{b, a}));
 }

@@ -31,7 +31,7 @@ class DenseFlood {
         checker_(*world.environment) {
     double margin = 0;
     for (const auto& transition : model.transitions) {
-      margin = std::max(margin, transition.motion->displacement().position().norm());
+      margin = std::max(margin, transition.displacement.position().norm());
     }
     const Eigen::AlignedBox2d& bounds = world.environment->bounds;
     origin_ = bounds.min() - Eigen::Vector2d::Constant(margin);
@@ -133,7 +133,7 @@ class DenseFlood {
       }
     }
     for (const auto& transition : model_.transitions) {
-      const PlanarPose& d = transition.motion->displacement();
+      const PlanarPose& d = transition.displacement;
       const int base = cell[0] - GaitOf(cell);
       if (transition.from == GaitOf(cell)) OfferImage(cell, base + transition.to, d, 0, always);
       if (transition.to == GaitOf(cell)) {

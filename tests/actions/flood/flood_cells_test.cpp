@@ -132,7 +132,7 @@ TEST(FloodCellsTest, TheFloodReachesWhatADenseOneReaches) {
       if (blocks.empty()) continue;
       double margin = 0;
       for (const auto& transition : model.transitions) {
-        margin = std::max(margin, transition.motion->displacement().position().norm());
+        margin = std::max(margin, transition.displacement.position().norm());
       }
       const std::vector<GroundedStance> no_goals;
       const BlocksFromAbove view(environment.bounds.min() - Vector2d::Constant(margin),

@@ -193,7 +193,7 @@ TEST_F(NecessaryFloodTest, ARouteThatASearchFindsIsNeverRuledOut) {
     for (int gait = 0; gait < 2; ++gait) {
       gaits.push_back(std::make_shared<QuasiStaticAction>(model_, gait, world, space, 0.25));
     }
-    const std::vector<std::shared_ptr<Manoeuvre>> manoeuvres;
+    const std::vector<std::shared_ptr<SearchedManoeuvre>> manoeuvres;
     const GroundedStance start{0, {-1.5, 0, 0}, 0}, goal{0, {1.5, 0, 0}, 0};
     LatticeSearch search({&model_, &gaits, &manoeuvres}, start, {goal},
                          {.step = 0.2, .headings = 8});

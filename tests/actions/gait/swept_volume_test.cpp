@@ -51,19 +51,16 @@ PlanarPose RandomStride(StrideClass strides, const models::GaitParameters& param
 
 void ExpectVolumesHoldRandomStrides(const LocomotionModel& model, int trials) {
   std::mt19937 generator(1);
-  MotionSettings fine;
-  fine.knot_spacing = 0.02;
-  MotionBuilder builder(*model.robot, fine);
+  constexpr double kFine = 0.02;  // s
   dynamics::TreeKinematics kinematics(*model.robot);
   for (const auto& gait : model.gaits) {
     for (int trial = 0; trial < trials; ++trial) {
       const StrideClass strides = kStrideClasses[trial % kStrideClasses.size()];
       const PlanarPose d = RandomStride(strides, gait->stance.gait->parameters, &generator);
-      for (const Phase& phase :
-           builder.Build(gait->motion->Phases({PlanarPose(), d}, 0, 1), gait->stance.q)) {
+      for (const Phase& phase : gait->motion->Motion({PlanarPose(), d}, kFine, {})) {
         for (const Knot& knot : phase.knots) {
           kinematics.SetPosition(knot.q);
-          ExpectInside(*model.robot, kinematics.X_WL(), GaitMotion::StrideFrame(PlanarPose(), d),
+          ExpectInside(*model.robot, kinematics.X_WL(), StrideFrame(PlanarPose(), d),
                        gait->volumes.sweep(strides), &generator);
         }
       }

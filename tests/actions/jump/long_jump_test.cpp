@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "actions/conditions/exploration_pose.h"
+#include "actions/conditions/searched_manoeuvre.h"
 #include "actions/jump/jump_reach.h"
 #include "graph/confirmation_queue.h"
 #include "models/world/ground_map.h"
@@ -66,13 +67,16 @@ class JumpScene {
     context.world = world_;
     context.gaits = gaits_;
     context.space = space_;
-    jump_ = std::make_unique<LongJump>(context, DrcHubo1().jumps.front());
+    jump_ = std::make_shared<LongJump>(context, DrcHubo1().jumps.front());
+    searched_ = std::make_unique<SearchedManoeuvre>(jump_);
   }
 
   static const LocomotionModel& Model() { return DrcHubo1Locomotion(); }
 
   const LongJump& jump() const { return *jump_; }
-  LongJump* mutable_jump() { return jump_.get(); }
+  /// The jump with its verdicts.
+  const SearchedManoeuvre& searched() const { return *searched_; }
+  SearchedManoeuvre* mutable_searched() { return searched_.get(); }
 
   static graph::Point At(int gait, double x, double y, double yaw, double z = 0) {
     return ToPoint(Model().gaits[gait]->stance.RootPose({x, y, yaw}, z));
@@ -87,7 +91,8 @@ class JumpScene {
   World world_;
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<const QuasiStaticAction>> gaits_;
-  std::unique_ptr<LongJump> jump_;
+  std::shared_ptr<LongJump> jump_;
+  std::unique_ptr<SearchedManoeuvre> searched_;
 };
 
 constexpr double kGap = 0.3;
@@ -163,25 +168,26 @@ TEST(LongJumpTest, TheJobRefutesAJumpIntoABeamWithAReason) {
   JumpScene scene(TwoFloors(kGap, {Beam()}));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
   ASSERT_TRUE(scene.jump().CN(edge));
-  const auto job = scene.jump().SpawnConfirmationJob(edge);
+  const auto job = scene.searched().SpawnConfirmationJob(edge);
   ASSERT_NE(job, nullptr);
   graph::JobControl control;
   EXPECT_EQ(job->Run(&control), graph::JobVerdict::kRefuted);
   EXPECT_NE(job->reason().find("hits"), std::string::npos) << job->reason();
-  EXPECT_FALSE(scene.jump().CS(edge));
-  EXPECT_FALSE(scene.jump().Explorable(edge));
-  ASSERT_EQ(scene.jump().Refusals().size(), 1u);
+  EXPECT_FALSE(scene.searched().CS(edge));
+  EXPECT_FALSE(scene.searched().Explorable(edge));
+  ASSERT_EQ(scene.searched().Refusals().size(), 1u);
+  EXPECT_EQ(scene.searched().Refusals().front().reason, job->reason());
 }
 
 TEST(LongJumpTest, ACancelledJobIsUndecided) {
   const JumpScene scene(TwoFloors(kGap));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.8);
-  const auto job = scene.jump().SpawnConfirmationJob(edge);
+  const auto job = scene.searched().SpawnConfirmationJob(edge);
   graph::JobControl control;
   control.Cancel();
   EXPECT_EQ(job->Run(&control), graph::JobVerdict::kUndecided);
-  EXPECT_TRUE(scene.jump().Refusals().empty());
-  EXPECT_TRUE(scene.jump().Explorable(edge));
+  EXPECT_TRUE(scene.searched().Refusals().empty());
+  EXPECT_TRUE(scene.searched().Explorable(edge));
 }
 
 /// Number of turns of 100 checkpoints in which the jump is solved and placed. `pause`: between
@@ -211,10 +217,14 @@ TEST(LongJumpTest, WithoutWorkersAJumpTakesTheSameNumberOfTurnsEveryTime) {
 TEST(LongJumpTest, AForbiddenJumpIsNeitherConfirmedNorExplored) {
   JumpScene scene(TwoFloors(kGap));
   const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
-  scene.mutable_jump()->Forbid(edge, "a reason", false);
-  EXPECT_FALSE(scene.jump().Explorable(edge));
-  EXPECT_FALSE(scene.jump().CS(edge));
-  EXPECT_TRUE(scene.jump().Explorable(JumpScene::Edge(-0.21, 0.75)));
+  const graph::PointPair same_elsewhere = JumpScene::Edge(-0.21, 0.75);
+  scene.mutable_searched()->Forbid(edge, "a reason", false);
+  EXPECT_FALSE(scene.searched().Explorable(edge));
+  EXPECT_FALSE(scene.searched().CS(edge));
+  EXPECT_TRUE(scene.searched().Explorable(same_elsewhere));
+  scene.mutable_searched()->Forbid(edge, "a reason", true);
+  EXPECT_FALSE(scene.searched().Explorable(same_elsewhere));
+  EXPECT_TRUE(scene.searched().Explorable(JumpScene::Edge(-0.2, 0.8)));
 }
 
 TEST(JumpReachTest, GuessesLieOnTheGrid) {

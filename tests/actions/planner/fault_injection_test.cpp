@@ -107,7 +107,7 @@ TEST(FaultInjectionTest, InvalidMotionsAreRefusedWithAReason) {
   leg.from.x = -Leap::kHalf;
   leg.to.x = Leap::kHalf;
   for (const auto& [reason, make_motion] : motions) {
-    Leap leap(*context, Confirms, make_motion);
+    SearchedManoeuvre leap(std::make_shared<Leap>(*context, Confirms, make_motion));
     leg.manoeuvre = &leap;
     try {
       GenerateLeg(DrcHubo1Locomotion(), leg);
@@ -116,7 +116,7 @@ TEST(FaultInjectionTest, InvalidMotionsAreRefusedWithAReason) {
       EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
     }
   }
-  Leap leap(*context, Confirms, Slides);
+  SearchedManoeuvre leap(std::make_shared<Leap>(*context, Confirms, Slides));
   leg.manoeuvre = &leap;
   EXPECT_NO_THROW(GenerateLeg(DrcHubo1Locomotion(), leg));
 }

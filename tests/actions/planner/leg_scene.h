@@ -24,7 +24,7 @@ class LegScene {
     const auto space =
         std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_.levels(), 0.137);
     for (size_t gait = 0; gait < model_.gaits.size(); ++gait) {
-      actions_.push_back(
+      gaits_.push_back(
           std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_, space, 0.25));
     }
   }
@@ -33,7 +33,7 @@ class LegScene {
 
   const models::Environment& environment() const { return environment_; }
   const World& world() const { return world_; }
-  const QuasiStaticAction& action(int gait) const { return *actions_[gait]; }
+  const QuasiStaticAction& action(int gait) const { return *gaits_[gait]; }
 
   /// The verifier's report on the leg as a whole plan.
   VerificationReport VerifyLeg(const RouteLeg& leg) const {
@@ -57,7 +57,7 @@ class LegScene {
   models::Environment environment_;
   models::GroundMap ground_;
   World world_;
-  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;
+  std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;
 };
 
 }  // namespace possibility::actions

@@ -70,16 +70,16 @@ TEST(PlanExplanationTest, TheClosestPlaceIsReachableFromTheStart) {
 
 TEST(PlanExplanationTest, ManoeuvresAreExplainedByTheirFirstFewRefusals) {
   const Context context(PitScene(true).environment);
-  const auto leap = std::make_shared<Leap>(
+  const auto leap = std::make_shared<SearchedManoeuvre>(std::make_shared<Leap>(
       *context, [](graph::JobControl*) { return graph::JobVerdict::kRefuted; },
-      [](const Leap& l) { return l.Slide(); });
+      [](const Leap& l) { return l.Slide(); }));
   EXPECT_EQ(ExplainManoeuvres({leap}, {}), "");
   const auto edge = [](double x) {
     return graph::PointPair{ToPoint(PlanarPose{x, 1, 0}.At(1)), ToPoint(PlanarPose{x, 2, 0}.At(1))};
   };
-  leap->Record(edge(0), false, "a wall");
+  leap->Forbid(edge(0), "a wall", false);
   EXPECT_EQ(ExplainManoeuvres({leap}, {}), " 1 of 'leap' refuted: from (0.00, 1.00): a wall.");
-  for (int i = 1; i < 5; ++i) leap->Record(edge(i), false, "r" + std::to_string(i));
+  for (int i = 1; i < 5; ++i) leap->Forbid(edge(i), "r" + std::to_string(i), false);
   EXPECT_EQ(ExplainManoeuvres({leap}, {{"leap", {{edge(9), "it threw"}}}, {"hop", {{}}}}),
             " 5 of 'leap' refuted: from (0.00, 1.00): a wall; from (1.00, 1.00): r1; from (2.00, "
             "1.00): r2; ... 1 jobs of 'leap' failed: from (9.00, 1.00): it threw.");

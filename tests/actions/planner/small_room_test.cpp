@@ -255,7 +255,7 @@ TEST(SmallRoom, WaysBetweenPostsAreFoundWhereverTheyBegin) {
   const auto space = std::make_shared<PelvisPoseSpace>(environment.bounds, ground.levels(), 0.137);
   const std::vector<std::shared_ptr<QuasiStaticAction>> gaits = {
       std::make_shared<QuasiStaticAction>(walking, 0, world, space, 0.25)};
-  const std::vector<std::shared_ptr<Manoeuvre>> nothing_else;
+  const std::vector<std::shared_ptr<SearchedManoeuvre>> nothing_else;
   for (double y = 0.55; y < 0.9; y += 0.05) {
     const GroundedStance start{0, {0.69, y, 0}, 0};
     const GroundedStance goal{0, {12.99, y, 0}, 0};

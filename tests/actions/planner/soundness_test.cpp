@@ -27,7 +27,7 @@ RouteLeg RandomTransition(std::mt19937* generator) {
   RouteLeg leg;
   leg.transition = 0;
   leg.from = RandomStance(generator, 2.5);
-  leg.to = leg.from * DrcHubo1Locomotion().transitions[0].motion->displacement();
+  leg.to = leg.from * DrcHubo1Locomotion().transitions[0].displacement;
   leg.backwards = (*generator)() % 2 == 0;
   if (leg.backwards) std::swap(leg.from, leg.to);
   return leg;

@@ -87,7 +87,10 @@ class Scene {
     context.gaits.assign(gaits_.begin(), gaits_.end());
     context.space = space_;
     context.library = DrcHubo1().file.parent_path() / "jumps";
-    manoeuvres_ = MakeManoeuvres(JumpFactories(DrcHubo1()), scenario_.actions, context, "test");
+    for (const auto& jump :
+         MakeManoeuvres(JumpFactories(DrcHubo1()), scenario_.actions, context, "test")) {
+      manoeuvres_.push_back(std::make_shared<SearchedManoeuvre>(jump));
+    }
   }
 
   models::Scenario scenario_;
@@ -95,7 +98,7 @@ class Scene {
   World world_;
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;
-  std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
+  std::vector<std::shared_ptr<SearchedManoeuvre>> manoeuvres_;
 };
 
 constexpr LatticeSettings kFast = {.step = 0.2, .headings = 8, .greed = 4};

@@ -24,9 +24,9 @@ class RouteTest : public testing::Test {
     world_ = {&environment_, ground_.get()};
     const auto space =
         std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_->levels(), 0.137);
-    actions_.clear();
+    gaits_.clear();
     for (int gait = 0; gait < 2; ++gait) {
-      actions_.push_back(std::make_shared<QuasiStaticAction>(model_, gait, world_, space, 0.25));
+      gaits_.push_back(std::make_shared<QuasiStaticAction>(model_, gait, world_, space, 0.25));
     }
   }
 
@@ -37,12 +37,12 @@ class RouteTest : public testing::Test {
     PlanarPose at;
     do {
       at = RandomStance(generator, 2.5);
-    } while (actions_[0]->Examine({0, at, 0}) != StanceFault::kNone);
+    } while (gaits_[0]->Examine({0, at, 0}) != StanceFault::kNone);
     for (int tries = 0; static_cast<int>(route.size()) < legs && tries < 1000; ++tries) {
       RouteLeg leg;
       leg.from = at;
       leg.to = at * PlanarPose{0.4 * unit(*generator), 0.3 * unit(*generator), unit(*generator)};
-      if (!actions_[0]->CS(LegEdge(model_, leg))) continue;
+      if (!gaits_[0]->CS(LegEdge(model_, leg))) continue;
       route.push_back(leg);
       at = leg.to;
     }
@@ -53,14 +53,14 @@ class RouteTest : public testing::Test {
   models::Environment environment_;
   std::unique_ptr<models::GroundMap> ground_;
   World world_;
-  std::vector<std::shared_ptr<QuasiStaticAction>> actions_;
+  std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;
 };
 
 /// The route after shortcuts until no more are found.
 Route Shortened(const LocomotionModel& model,
                 const std::vector<std::shared_ptr<QuasiStaticAction>>& actions,
                 const Route& route) {
-  const std::vector<std::shared_ptr<Manoeuvre>> none;
+  const std::vector<std::shared_ptr<SearchedManoeuvre>> none;
   std::vector<graph::PathEdge> edges;
   for (const RouteLeg& leg : route) edges.push_back({EndGait(model, leg), LegEdge(model, leg)});
   double duration = ExpectedDuration(model, route);
@@ -80,14 +80,14 @@ TEST_F(RouteTest, ShortenedRoutesAreConnectedSufficientAndNoSlower) {
     Load(RandomEnvironment(&generator, 8));
     const Route route = RandomRoute(&generator, 12);
     if (route.empty()) continue;
-    const Route refined = Shortened(model_, actions_, route);
+    const Route refined = Shortened(model_, gaits_, route);
     EXPECT_LE(ExpectedDuration(model_, refined), ExpectedDuration(model_, route) + 1e-9);
     EXPECT_LT((refined.front().from.position() - route.front().from.position()).norm(), 1e-9);
     EXPECT_LT((refined.back().to.position() - route.back().to.position()).norm(), 1e-9);
     EXPECT_NEAR(WrapAngle(refined.front().from.yaw - route.front().from.yaw), 0, 1e-9);
     EXPECT_NEAR(WrapAngle(refined.back().to.yaw - route.back().to.yaw), 0, 1e-9);
     for (size_t i = 0; i < refined.size(); ++i) {
-      EXPECT_TRUE(actions_[EndGait(model_, refined[i])]->CS(LegEdge(model_, refined[i])));
+      EXPECT_TRUE(gaits_[EndGait(model_, refined[i])]->CS(LegEdge(model_, refined[i])));
       if (i == 0) continue;
       EXPECT_EQ(EndGait(model_, refined[i - 1]), StartGait(model_, refined[i]));
       EXPECT_LT((refined[i - 1].to.position() - refined[i].from.position()).norm(), 1e-9);
@@ -114,7 +114,7 @@ TEST_F(RouteTest, AShortenedRouteHasNoDetours) {
                               legs.begin() + static_cast<std::ptrdiff_t>(j) + 1);
           const bool is_detour =
               ExpectedDuration(model_, {direct}) < ExpectedDuration(model_, between) - 1e-6 &&
-              actions_[direct.gait]->CS(LegEdge(model_, direct));
+              gaits_[direct.gait]->CS(LegEdge(model_, direct));
           if (expected) {
             EXPECT_FALSE(is_detour) << trial << ": " << i << ".." << j;
           } else {
@@ -124,7 +124,7 @@ TEST_F(RouteTest, AShortenedRouteHasNoDetours) {
       }
     };
     expect_none(route, false);
-    expect_none(Shortened(model_, actions_, route), true);
+    expect_none(Shortened(model_, gaits_, route), true);
   }
   EXPECT_GT(detours, 1000);
 }
@@ -133,7 +133,7 @@ TEST_F(RouteTest, AShortenedRouteHasNoDetours) {
 TEST_F(RouteTest, ATransitionThatIsUndoneIsLeftOut) {
   Load(ShippedScenario("three_routes_a").environment);
   const PlanarPose a{2, 2.9, 0};
-  const PlanarPose& down = model_.transitions[0].motion->displacement();
+  const PlanarPose& down = model_.transitions[0].displacement;
   const auto leg = [](int gait, const PlanarPose& from, const PlanarPose& to) {
     RouteLeg straight;
     straight.gait = gait;
@@ -151,7 +151,7 @@ TEST_F(RouteTest, ATransitionThatIsUndoneIsLeftOut) {
                                  stand, leg(0, a, a * PlanarPose{0.8, 0, 0})};
   for (const Route& route : {Route(after_a_landing.begin() + 1, after_a_landing.end()),
                              Route(after_a_landing.begin() + 2, after_a_landing.end())}) {
-    const Route shortened = Shortened(model_, actions_, route);
+    const Route shortened = Shortened(model_, gaits_, route);
     int transitions = 0;
     for (const RouteLeg& step : shortened) transitions += step.transition >= 0 ? 1 : 0;
     EXPECT_EQ(transitions, StartGait(model_, route.front()) == 0 ? 0 : 1);

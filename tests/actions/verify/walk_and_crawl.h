@@ -25,7 +25,7 @@ inline const VerifierSubject& WalkAndCrawl() {
       route_leg.z = start.z;
       return route_leg;
     };
-    const PlanarPose sit = model.transitions[0].motion->displacement();
+    const PlanarPose sit = model.transitions[0].displacement;
     Route route = {leg(-1, false, 0, {start.x, start.y, start.yaw}, {0.2, 0, 0})};
     route.push_back(leg(0, false, 0, route.back().to, sit));
     route.push_back(leg(-1, false, 1, route.back().to, {0.15, 0, 0}));

@@ -19,7 +19,7 @@ actions::PlanResult Found() {
 TEST(PlanSummary, JoinsSegmentsOfTheSameAction) {
   actions::PlanResult result = Found();
   result.plan.segments[1].action = "walk";
-  const std::vector<RouteLeg> legs = RouteByAction(result.plan);
+  const std::vector<ActionSpan> legs = RouteByAction(result.plan);
   ASSERT_EQ(legs.size(), 1u);
   EXPECT_EQ(legs[0].action, "walk");
   EXPECT_EQ(legs[0].begin, 0);

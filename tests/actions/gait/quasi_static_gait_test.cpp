@@ -1,4 +1,4 @@
-#include "actions/gait/gait_motion.h"
+#include "actions/gait/quasi_static_gait.h"
 
 #include <gtest/gtest.h>
 
@@ -20,15 +20,16 @@ PlanarPose RandomPose(std::mt19937* generator, double extent) {
   return {extent * unit(*generator), extent * unit(*generator), 3 * unit(*generator)};
 }
 
-class GaitMotionTest : public testing::TestWithParam<std::string> {
+class QuasiStaticGaitTest : public testing::TestWithParam<std::string> {
  protected:
   const LocomotionModel& model_ = DrcHubo1Locomotion();
   const LocomotionModel::GaitEntry& gait_ = *model_.gaits[model_.GaitIndex(GetParam())];
   const models::GaitParameters& parameters_ = gait_.stance.gait->parameters;
+  const QuasiStaticGait motion_{*model_.robot, gait_.stance};
   std::mt19937 generator_{7};
 };
 
-TEST_P(GaitMotionTest, StridesStayWithinTheGaitsBounds) {
+TEST_P(QuasiStaticGaitTest, StridesStayWithinTheGaitsBounds) {
   for (int trial = 0; trial < 200; ++trial) {
     const PlanarPose from = RandomPose(&generator_, 2), to = RandomPose(&generator_, 2);
     const std::vector<PlanarPose> strides = PlanStrides(parameters_, from, to);
@@ -42,15 +43,14 @@ TEST_P(GaitMotionTest, StridesStayWithinTheGaitsBounds) {
 
 /// At every knot, bearing contacts are where they stood, and v and a are the derivatives of q. The
 /// robot is at rest between phases.
-TEST_P(GaitMotionTest, DerivativesAreConsistentAndContactsStayInPlace) {
+TEST_P(QuasiStaticGaitTest, DerivativesAreConsistentAndContactsStayInPlace) {
   WholeBodySolver solver(*model_.robot);
   const PlanarPose from = RandomPose(&generator_, 2);
   const PlanarPose to = from * PlanarPose{0.3, 0.1, 0.2};
   VectorXd guess = gait_.stance.q;
   guess.segment<2>(4) = from.position();
   constexpr double kStep = 1e-4;
-  for (const MotionPhase& phase :
-       gait_.motion->Phases(PlanStrides(parameters_, from, to), 0.2, 1)) {
+  for (const MotionPhase& phase : motion_.Phases(PlanStrides(parameters_, from, to), 0.2, 1)) {
     std::vector<Vector3d> stood;
     for (double s : {0.0, 0.3, 0.5, 0.8, 1.0}) {
       const double t = std::clamp(s * phase.duration, 2 * kStep, phase.duration - 2 * kStep);
@@ -78,7 +78,7 @@ TEST_P(GaitMotionTest, DerivativesAreConsistentAndContactsStayInPlace) {
   }
 }
 
-TEST_P(GaitMotionTest, OneLimbSwingsAtATimeAndTheOthersSupportTheCentreOfMass) {
+TEST_P(QuasiStaticGaitTest, OneLimbSwingsAtATimeAndTheOthersSupportTheCentreOfMass) {
   WholeBodySolver solver(*model_.robot);
   const PlanarPose from = RandomPose(&generator_, 2);
   VectorXd guess = gait_.stance.q;
@@ -88,7 +88,7 @@ TEST_P(GaitMotionTest, OneLimbSwingsAtATimeAndTheOthersSupportTheCentreOfMass) {
        {PlanarPose{parameters_.forward, 0, 0}, PlanarPose{0, parameters_.lateral, 0},
         PlanarPose{0, 0, parameters_.turn}}) {
     size_t swings = 0;
-    for (const MotionPhase& phase : gait_.motion->Phases({from, from * d}, 0, 1)) {
+    for (const MotionPhase& phase : motion_.Phases({from, from * d}, 0, 1)) {
       ASSERT_GE(phase.contacts.size(), limbs - 1);
       swings += phase.contacts.size() == limbs - 1;
       guess = solver.Solve(phase.task(phase.duration / 2), guess).q;
@@ -106,18 +106,18 @@ TEST_P(GaitMotionTest, OneLimbSwingsAtATimeAndTheOthersSupportTheCentreOfMass) {
 }
 
 /// This holds however little the centre of mass has to move for the first swing.
-TEST_P(GaitMotionTest, BeginsAndEndsOnAllLimbs) {
+TEST_P(QuasiStaticGaitTest, BeginsAndEndsOnAllLimbs) {
   const size_t limbs = gait_.stance.gait->limbs.size();
   for (const PlanarPose& d :
        {PlanarPose{0, 0, 1e-3}, PlanarPose{0, 0, -1e-3}, PlanarPose{1e-3, 0, 0},
         PlanarPose{0, 1e-3, 0}, PlanarPose{0, 0, parameters_.turn}}) {
-    const std::vector<MotionPhase> phases = gait_.motion->Phases({{}, d}, 0, 1);
+    const std::vector<MotionPhase> phases = motion_.Phases({{}, d}, 0, 1);
     EXPECT_EQ(phases.front().contacts.size(), limbs);
     EXPECT_EQ(phases.back().contacts.size(), limbs);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Gaits, GaitMotionTest, testing::Values("walk", "crawl"),
+INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticGaitTest, testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "actions/gait/gait_motion.h"
+#include "actions/gait/quasi_static_gait.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,9 @@ constexpr double kSameClearance = 1e-6;
 
 constexpr double kNegligibleShift = 1e-4;
 
+/// Factors that stretch durations, tried in turn until the motion keeps all limits.
+constexpr double kTimeScales[] = {1, 1.4, 2};
+
 Vector3d At(const PlanarPose& pose, const Vector3d& p, double z) {
   Vector3d result;
   result << pose * Vector2d(p.head<2>()), p.z() + z;
@@ -28,7 +31,7 @@ Vector3d At(const PlanarPose& pose, const Vector3d& p, double z) {
 }  // namespace
 
 /// State of the robot, at rest, while the phases are laid out.
-struct GaitMotion::Progress {
+struct QuasiStaticGait::Progress {
   std::vector<PlanarPose> limbs;  ///< stance of each limb
   Vector2d centre_of_mass;
   double root_yaw = 0;
@@ -36,14 +39,14 @@ struct GaitMotion::Progress {
   double time_scale = 1;
 };
 
-GaitMotion::GaitMotion(const models::RobotModel& robot, const NominalStance& stance)
+QuasiStaticGait::QuasiStaticGait(const models::RobotModel& robot, const NominalStance& stance)
     : robot_(&robot), stance_(&stance) {
   constexpr int kSome = 4;
   stride_time_ = DurationOfStridesAhead(kSome + 1) - DurationOfStridesAhead(kSome);
   stop_time_ = DurationOfStridesAhead(kSome) - kSome * stride_time_;
 }
 
-GaitMotion::Progress GaitMotion::AtRest(const PlanarPose& stance, double z) const {
+QuasiStaticGait::Progress QuasiStaticGait::AtRest(const PlanarPose& stance, double z) const {
   Progress progress;
   progress.limbs.assign(stance_->gait->limbs.size(), stance);
   progress.centre_of_mass = stance * stance_->centre_of_mass;
@@ -52,7 +55,25 @@ GaitMotion::Progress GaitMotion::AtRest(const PlanarPose& stance, double z) cons
   return progress;
 }
 
-MotionPhase GaitMotion::Standing(const PlanarPose& stance, double z, double duration) const {
+std::vector<Phase> QuasiStaticGait::Motion(const std::vector<PlanarPose>& strides,
+                                           double knot_spacing,
+                                           const std::function<bool()>& keep_going) const {
+  MotionSettings settings;
+  settings.knot_spacing = knot_spacing;
+  MotionBuilder builder(*robot_, settings);
+  Eigen::VectorXd guess = stance_->q;
+  guess.segment<2>(4) = strides.front().position();
+  for (const double scale : kTimeScales) {
+    try {
+      return builder.Build(Phases(strides, 0, scale), guess, keep_going);
+    } catch (const MotionError&) {
+      if (scale == std::end(kTimeScales)[-1]) throw;
+    }
+  }
+  return {};
+}
+
+MotionPhase QuasiStaticGait::Standing(const PlanarPose& stance, double z, double duration) const {
   MotionPhase phase;
   phase.duration = duration;
   for (const models::GaitLimb& limb : stance_->gait->limbs) phase.contacts.push_back(limb.contact);
@@ -60,8 +81,8 @@ MotionPhase GaitMotion::Standing(const PlanarPose& stance, double z, double dura
   return phase;
 }
 
-std::vector<MotionPhase> GaitMotion::Phases(const std::vector<PlanarPose>& strides, double z,
-                                            double time_scale) const {
+std::vector<MotionPhase> QuasiStaticGait::Phases(const std::vector<PlanarPose>& strides, double z,
+                                                 double time_scale) const {
   const int limb_count = static_cast<int>(stance_->gait->limbs.size());
   Progress progress = AtRest(strides.front(), z);
   progress.time_scale = time_scale;
@@ -82,7 +103,7 @@ std::vector<MotionPhase> GaitMotion::Phases(const std::vector<PlanarPose>& strid
   return phases;
 }
 
-std::vector<int> GaitMotion::SwingOrder(const PlanarPose& a, const PlanarPose& b) const {
+std::vector<int> QuasiStaticGait::SwingOrder(const PlanarPose& a, const PlanarPose& b) const {
   std::vector<int> order(stance_->gait->limbs.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> other = order;
@@ -95,7 +116,8 @@ std::vector<int> GaitMotion::SwingOrder(const PlanarPose& a, const PlanarPose& b
              : other;
 }
 
-double GaitMotion::ClearanceAfterSwing(int limb, const PlanarPose& a, const PlanarPose& b) const {
+double QuasiStaticGait::ClearanceAfterSwing(int limb, const PlanarPose& a,
+                                            const PlanarPose& b) const {
   const SupportPolygon swung(Placed(limb, b));
   double clearance = std::numeric_limits<double>::infinity();
   for (size_t other = 0; other < stance_->gait->limbs.size(); ++other) {
@@ -108,14 +130,14 @@ double GaitMotion::ClearanceAfterSwing(int limb, const PlanarPose& a, const Plan
   return clearance;
 }
 
-std::vector<Vector2d> GaitMotion::Placed(int limb, const PlanarPose& at) const {
+std::vector<Vector2d> QuasiStaticGait::Placed(int limb, const PlanarPose& at) const {
   std::vector<Vector2d> points;
   for (const Vector2d& p : stance_->bearing_points[limb]) points.push_back(at * p);
   return points;
 }
 
-Vector2d GaitMotion::SupportedCentreOfMass(const Progress& progress, int swinging,
-                                           const PlanarPose& reference) const {
+Vector2d QuasiStaticGait::SupportedCentreOfMass(const Progress& progress, int swinging,
+                                                const PlanarPose& reference) const {
   std::vector<Vector2d> points;
   for (size_t limb = 0; limb < progress.limbs.size(); ++limb) {
     if (static_cast<int>(limb) == swinging) continue;
@@ -126,7 +148,7 @@ Vector2d GaitMotion::SupportedCentreOfMass(const Progress& progress, int swingin
                                         stance_->gait->parameters.com_margin);
 }
 
-LimbTask GaitMotion::StandingLimb(int limb, const PlanarPose& at, double z) const {
+LimbTask QuasiStaticGait::StandingLimb(int limb, const PlanarPose& at, double z) const {
   LimbTask task;
   task.limb = &stance_->gait->limbs[limb];
   task.position = ConstantVector<Vector3d>(At(at, stance_->patch_centres[limb], z));
@@ -135,7 +157,7 @@ LimbTask GaitMotion::StandingLimb(int limb, const PlanarPose& at, double z) cons
   return task;
 }
 
-WholeBodyTask GaitMotion::StandingTask(const Progress& progress) const {
+WholeBodyTask QuasiStaticGait::StandingTask(const Progress& progress) const {
   WholeBodyTask task;
   task.root_yaw = Constant(progress.root_yaw);
   task.root_pitch = Constant(stance_->gait->posture.root_pitch);
@@ -148,8 +170,8 @@ WholeBodyTask GaitMotion::StandingTask(const Progress& progress) const {
   return task;
 }
 
-void GaitMotion::AppendShift(const Vector2d& target, bool is_end, Progress* progress,
-                             std::vector<MotionPhase>* phases) const {
+void QuasiStaticGait::AppendShift(const Vector2d& target, bool is_end, Progress* progress,
+                                  std::vector<MotionPhase>* phases) const {
   const Vector2d from = progress->centre_of_mass;
   const double distance = (target - from).norm();
   // The robot stands on all its limbs where the motion begins and ends.
@@ -169,8 +191,8 @@ void GaitMotion::AppendShift(const Vector2d& target, bool is_end, Progress* prog
   progress->centre_of_mass = target;
 }
 
-void GaitMotion::AppendSwing(int limb, const PlanarPose& to, double root_yaw, Progress* progress,
-                             std::vector<MotionPhase>* phases) const {
+void QuasiStaticGait::AppendSwing(int limb, const PlanarPose& to, double root_yaw,
+                                  Progress* progress, std::vector<MotionPhase>* phases) const {
   const models::GaitParameters& parameters = stance_->gait->parameters;
   MotionPhase phase;
   phase.duration = progress->time_scale * parameters.swing_time;
@@ -199,11 +221,11 @@ void GaitMotion::AppendSwing(int limb, const PlanarPose& to, double root_yaw, Pr
   progress->root_yaw = root_yaw;
 }
 
-double GaitMotion::ExpectedDuration(int strides) const {
+double QuasiStaticGait::ExpectedDuration(int strides) const {
   return strides == 0 ? 0 : strides * stride_time_ + stop_time_;
 }
 
-double GaitMotion::DurationOfStridesAhead(int count) const {
+double QuasiStaticGait::DurationOfStridesAhead(int count) const {
   std::vector<PlanarPose> strides;
   for (int i = 0; i <= count; ++i) strides.push_back({i * stance_->gait->parameters.forward, 0, 0});
   double duration = 0;

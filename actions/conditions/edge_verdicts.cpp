@@ -1,0 +1,46 @@
+#include "actions/conditions/edge_verdicts.h"
+
+namespace possibility::actions {
+namespace {
+
+/// Points of E closer than this are equal, m.
+constexpr double kSamePlace = 1e-6;
+
+bool SamePoint(const graph::Point& a, const graph::Point& b) {
+  return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
+}
+
+bool SameEdge(const graph::PointPair& a, const graph::PointPair& b) {
+  return SamePoint(a.from, b.from) && SamePoint(a.to, b.to);
+}
+
+}  // namespace
+
+void EdgeVerdicts::Record(const graph::PointPair& edge, bool possible, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  for (Verdict& verdict : verdicts_) {
+    if (!SameEdge(verdict.edge, edge)) continue;
+    verdict = {edge, possible, reason};
+    return;
+  }
+  verdicts_.push_back({edge, possible, reason});
+}
+
+std::optional<bool> EdgeVerdicts::On(const graph::PointPair& edge) const {
+  const std::lock_guard lock(mutex_);
+  for (const Verdict& verdict : verdicts_) {
+    if (SameEdge(verdict.edge, edge)) return verdict.possible;
+  }
+  return std::nullopt;
+}
+
+std::vector<Refusal> EdgeVerdicts::Refusals() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Refusal> refusals;
+  for (const Verdict& verdict : verdicts_) {
+    if (!verdict.possible) refusals.push_back({verdict.edge, verdict.reason});
+  }
+  return refusals;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graph/action.h"
+
+namespace possibility::actions {
+
+/// An edge known to be impossible, and the reason.
+struct Refusal {
+  graph::PointPair edge;
+  std::string reason;
+};
+
+/// What confirmation jobs and the planner found out about the edges of one action. Thread-safe.
+class EdgeVerdicts {
+ public:
+  /// The last verdict on an edge counts. Edges are the same if their points agree to 1e-6.
+  void Record(const graph::PointPair& edge, bool possible, const std::string& reason);
+
+  /// Whether the edge is possible; none if nobody has decided.
+  std::optional<bool> On(const graph::PointPair& edge) const;
+
+  /// Edges found impossible, in the order of recording.
+  std::vector<Refusal> Refusals() const;
+
+ private:
+  struct Verdict {
+    graph::PointPair edge;
+    bool possible = false;
+    std::string reason;
+  };
+
+  mutable std::mutex mutex_;
+  std::vector<Verdict> verdicts_;  ///< under mutex_
+};
+
+}  // namespace possibility::actions

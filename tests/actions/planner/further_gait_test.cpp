@@ -1,0 +1,154 @@
+// Gaits from outside the robot's file (PlanRequest::gaits).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "actions/gait/quasi_static_gait.h"
+#include "actions/planner/planner.h"
+#include "models/input/input_error.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+namespace {
+
+models::Scenario Hall() {
+  models::Scenario scenario;
+  scenario.name = "hall";
+  scenario.file = "hall.yaml";
+  scenario.robot_file = DrcHubo1().file;
+  scenario.actions = {"walk", "brisk"};
+  scenario.start = {"walk", -2, 0, 0, 0};
+  scenario.goals = {{"walk", 2, 0, 0, 0}};
+  scenario.environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(-3, -2), Eigen::Vector2d(3, 2));
+  models::Obstacle floor;
+  floor.name = "floor";
+  floor.shape = models::Shape::Box({6, 4, 0.2});
+  floor.X_WO.translation().z() = -0.1;
+  floor.is_ground = true;
+  scenario.environment.obstacles.push_back(floor);
+  return scenario;
+}
+
+std::unique_ptr<GaitMotion> QuasiStatic(const models::RobotModel& robot,
+                                        const NominalStance& stance) {
+  return std::make_unique<QuasiStaticGait>(robot, stance);
+}
+
+/// Walking with quicker swings.
+GaitFactory Brisk() {
+  GaitFactory brisk{"brisk", "walk", DrcHubo1().GaitNamed("walk").parameters, QuasiStatic};
+  brisk.parameters.swing_time *= 0.8;
+  return brisk;
+}
+
+PlanResult Plan(const models::Scenario& scenario, const GaitFactory& gait) {
+  PlanRequest request;
+  request.gaits = {gait};
+  request.threads = 1;
+  return PlanTraversal(DrcHubo1(), scenario, request);
+}
+
+bool Uses(const PlanResult& result, const std::string& action) {
+  return std::any_of(result.plan.segments.begin(), result.plan.segments.end(),
+                     [&](const Segment& segment) { return segment.action == action; });
+}
+
+double DurationOf(const PlanResult& result) {
+  return result.plan.segments.back().phases.back().knots.back().t;
+}
+
+TEST(FurtherGaitTest, AQuickerGaitOfTheSameStanceTakesTheRoute) {
+  const PlanResult quick = Plan(Hall(), Brisk());
+  ASSERT_EQ(quick.status, PlanStatus::kFound) << quick.explanation;
+  EXPECT_TRUE(quick.verification.accepted());
+  EXPECT_TRUE(Uses(quick, "brisk"));
+  models::Scenario walking = Hall();
+  walking.actions = {"walk"};
+  const PlanResult slow = PlanTraversal(DrcHubo1(), walking, PlanRequest());
+  ASSERT_EQ(slow.status, PlanStatus::kFound) << slow.explanation;
+  EXPECT_LT(DurationOf(quick), DurationOf(slow));
+}
+
+TEST(FurtherGaitTest, ASlowerGaitOfTheSameStanceIsNotUsed) {
+  GaitFactory slow = Brisk();
+  slow.parameters.swing_time *= 2;
+  const PlanResult result = Plan(Hall(), slow);
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_FALSE(Uses(result, "brisk"));
+}
+
+/// Sweeps its volumes as walking does; routes get no motion from it.
+class ThrowingGait : public GaitMotion {
+ public:
+  ThrowingGait(const models::RobotModel& robot, const NominalStance& stance)
+      : walking_(robot, stance) {}
+  std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
+                            const std::function<bool()>& keep_going) const override {
+    if (strides.size() > 2) throw std::runtime_error("out of ideas");
+    return walking_.Motion(strides, knot_spacing, keep_going);
+  }
+  double ExpectedDuration(int strides) const override { return walking_.ExpectedDuration(strides); }
+
+ private:
+  QuasiStaticGait walking_;
+};
+
+TEST(FurtherGaitTest, AGaitThatThrowsLeavesThePlanToOthers) {
+  GaitFactory gait = Brisk();
+  gait.make = [](const models::RobotModel& robot, const NominalStance& stance) {
+    return std::make_unique<ThrowingGait>(robot, stance);
+  };
+  models::Scenario near = Hall();
+  near.goals.front().x = near.start.x + 0.5;
+  const PlanResult result = Plan(near, gait);
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_TRUE(Uses(result, "walk"));
+  EXPECT_GT(result.plan.statistics.at("routes refuted by motion generation"), 0);
+}
+
+/// A wall across the hall: both gaits explored, neither can pass.
+TEST(FurtherGaitTest, ABlockedHallIsAnsweredNoForBothGaits) {
+  models::Scenario scenario = Hall();
+  models::Obstacle wall;
+  wall.name = "wall";
+  wall.shape = models::Shape::Box({0.2, 8, 4});
+  scenario.environment.obstacles.push_back(wall);
+  EXPECT_EQ(Plan(scenario, Brisk()).status, PlanStatus::kProvenInfeasible);
+}
+
+std::string MessageOf(const GaitFactory& gait) {
+  try {
+    Plan(Hall(), gait);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(FurtherGaitTest, FaultyFactoriesAreRefusedInOneLine) {
+  const auto expect = [](const GaitFactory& gait, const std::string& part) {
+    const std::string message = MessageOf(gait);
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  };
+  GaitFactory gait = Brisk();
+  gait.stance_of = "hover";
+  expect(gait, "gait 'brisk' has the stance of 'hover'");
+  gait = Brisk();
+  gait.make = {};
+  expect(gait, "the factory of gait 'brisk' is empty");
+  gait.make = [](const models::RobotModel&, const NominalStance&) {
+    return std::unique_ptr<GaitMotion>();
+  };
+  expect(gait, "'brisk' made nothing");
+  gait = Brisk();
+  gait.name = "crawl";
+  expect(gait, "called 'crawl'");
+  gait = Brisk();
+  gait.parameters.forward = 3;
+  expect(gait, "gaits.brisk.parameters: the stride (");
+}
+
+}  // namespace
+}  // namespace possibility::actions
