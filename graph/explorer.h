@@ -56,7 +56,7 @@ struct Discovery {
 /// What a search currently looks for.
 enum class SearchStage {
   kFirstRoute,
-  kImprovement,  ///< a route is confirmed; quicker ones are welcome
+  kImprovement,  ///< a route is confirmed: look for quicker ones
 };
 
 /// Proposes vertices and edges: the inner loop of Algorithm 1. A search may have several explorers

@@ -52,8 +52,8 @@ struct FindPathSettings {
   /// has nothing left to explore while no job is open.
   std::int64_t ask_oracle_after = 200;
   RouteOracle oracle = {};  ///< may be empty
-  /// First asks every action whether C_S lets it go straight from the start to a goal. If so, that
-  /// edge is the first path.
+  /// First tests C_S of the straight edge from the start to each goal with every action. If it
+  /// holds, that edge is the first path.
   bool straight_first = false;
   /// Share of the time limit that may be spent on a quicker path once a path is confirmed, with the
   /// explorers that take part in this stage. The search ends earlier if no quicker path is left to

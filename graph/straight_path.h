@@ -12,9 +12,10 @@ namespace possibility::graph {
 /// Name of this explorer in reports.
 inline constexpr const char* kStraightExplorer = "straight";
 
-/// Asks every action in turn whether C_S lets it go straight from `start` to a goal. If so, writes
-/// the quickest of these one-edge paths, as a complete answer, into `result` (which must be empty)
-/// and returns true. False if no action can, time is up, or a goal equals the start.
+/// Tests C_S of the straight edge from `start` to each goal with every action in turn. If it holds
+/// for some, writes the quickest of these one-edge paths as the complete answer into `result`
+/// (which must be empty) and returns true. Returns false if it holds for none, time is up, or a
+/// goal equals the start.
 bool GoStraight(const Point& start, const std::vector<Point>& goals,
                 const std::vector<std::shared_ptr<const Action>>& actions, const Deadline& deadline,
                 PathResult* result);

@@ -26,7 +26,8 @@ enum class StanceFault { kNone, kOutOfBounds, kOffGround, kCollision };
 
 /// Walking and crawling (paper, section "Walk and Crawl"): a holonomic action. C_S requires flat
 /// ground, the nominal orientation, and free space for the nominal posture at a vertex and for the
-/// strides along an edge. C_N concerns the pelvis alone. One exploring thread per instance.
+/// strides along an edge. C_N concerns the pelvis alone. Const functions may run in several
+/// threads, but not beside Forbid.
 class QuasiStaticAction : public graph::HolonomicAction {
  public:
   /// Largest motion of any point of a swept volume between samples of an edge, m.

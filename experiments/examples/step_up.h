@@ -11,8 +11,8 @@
 
 namespace possibility::actions {
 
-/// Steps up onto ground that lies higher, square to its edge, and down again backwards, from
-/// walking stance to walking stance: the example of docs/tutorial_new_action.md.
+/// A step up onto higher ground, square to its edge, or backwards down from it; from walking stance
+/// to walking stance. The example of docs/tutorial_new_action.md.
 class StepUp : public Manoeuvre {
  public:
   /// Rises that DRC-HUBO1 manages, m.
@@ -35,19 +35,19 @@ class StepUp : public Manoeuvre {
   ManoeuvreBounds Bounds() const override;
 
  private:
-  /// An edge, understood.
+  /// An edge interpreted as a step.
   struct Step {
     GroundedStance low;
     GroundedStance high;
     bool up = true;
   };
   std::optional<Step> AsStep(const graph::PointPair& edge) const;
-  /// The stance at the other end of a step from `stance` (or to it): up ahead if that is where
-  /// `towards` points, otherwise down behind. Nothing if the ground there or here does not hold.
+  /// The other end of a step that has `stance` at one end: ahead on higher ground if `towards`
+  /// points ahead, otherwise behind on lower ground. None if the ground does not hold at both ends.
   std::optional<GroundedStance> OtherEnd(const GroundedStance& stance,
                                          const Eigen::Vector2d& towards) const;
-  /// The first stance on the way from v to v1, square to an edge, that a step joins with the
-  /// ground beyond; v itself if that is one.
+  /// The first stance on the way from v to v1 that is square to an edge and from which a step is
+  /// possible; v itself if it is such a stance. None if there is no such stance.
   std::optional<graph::Point> StanceAtAnEdge(const graph::Point& v, const graph::Point& v1) const;
 
   StepUpMotion motion_;
@@ -56,7 +56,7 @@ class StepUp : public Manoeuvre {
   PelvisClearance pelvis_;
 };
 
-/// How PlanRequest::manoeuvres asks for it.
+/// For PlanRequest::manoeuvres.
 ManoeuvreFactory StepUpFactory();
 
 }  // namespace possibility::actions

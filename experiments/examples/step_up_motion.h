@@ -9,15 +9,16 @@
 
 namespace possibility::actions {
 
-/// How the robot holds itself at one point of the step.
+/// Posture of the robot at one point of the step.
 struct StepPosture {
-  double lift = 0;   ///< m, of the root above where the nominal stance on that foot's ground has it
-  double lean = 0;   ///< rad, pitch of the root beside the nominal one, forward positive
-  double ahead = 0;  ///< m, of the centre of mass beside its nominal place over the bearing foot
+  /// Height of the root minus that of the nominal stance on the ground of the bearing foot, m.
+  double lift = 0;
+  double lean = 0;   ///< rad, pitch of the root minus the nominal one, forward positive
+  double ahead = 0;  ///< m, forward shift of the centre of mass from its nominal place
 };
 
-/// Lengths and postures that DRC-HUBO1 needs, found by trying 800 at random: these work with 0.85
-/// of its torques and 0.95 of its friction for every rise up to 0.15 m that was tried.
+/// Lengths and postures for DRC-HUBO1, found in 800 random trials. They work within 0.85 of
+/// its torque limits and 0.95 of its friction for all tested rises up to 0.15 m.
 struct StepUpSettings {
   double approach = 0.24;   ///< m, walked before the step: the stance keeps farther from the edge
   double step = 0.26;       ///< m, ahead, of each foot
@@ -25,27 +26,28 @@ struct StepUpSettings {
   double shift_time = 1.2;  ///< s
   double lift_time = 0.8;   ///< s, from ground to above the edge; lowering takes half of it
   double carry_time = 0.8;  ///< s, over the edge
-  double time_scale = 1.4;  ///< of all times, those of the strides included
+  double time_scale = 1.4;  ///< factor of all times, including those of the strides
   StepPosture first_foot_up{0.114, -0.138, 0.054};  ///< bearing on the lower foot
   /// Bearing on the upper foot, the other one still on the lower ground.
   StepPosture second_foot_leaves{-0.041, 0.236, 0.014};
   StepPosture second_foot_up{0.004, 0.177, -0.003};  ///< bearing on the upper foot
 };
 
-/// Two strides up to an edge, then up onto it with one foot after the other: quasi-static, from
-/// rest in a nominal stance of a gait to rest in one that stands higher.
+/// Two strides to an edge, then a step up with one foot after the other. Quasi-static, from rest in
+/// a nominal stance of a gait to rest in a higher one.
 class StepUpMotion {
  public:
-  /// `gait` must be of the robot and outlive it.
+  /// `gait` must belong to `robot`. Both must outlive this.
   StepUpMotion(const models::RobotModel& robot, const LocomotionModel::GaitEntry& gait,
                const StepUpSettings& settings = {});
 
-  /// Of the higher stance, ahead of the lower one.
+  /// Horizontal distance from the lower to the higher stance, m.
   double distance() const { return settings_.approach + settings_.step; }
-  /// Of a step from `from`, s.
+  /// Duration of a step from `from`, s.
   double ExpectedDuration(const PlanarPose& from) const;
 
-  /// From `from` on ground of height `z` to distance() ahead on ground `rise` (m, > 0) higher.
+  /// Motion from `from` on ground of height `z` to distance() ahead on ground that is `rise` (m,
+  /// > 0) higher. `keep_going`: returns false to abandon the call.
   /// @throws MotionError naming the limit that the robot would break; Abandoned.
   std::vector<Phase> Generate(const PlanarPose& from, double z, double rise,
                               const std::function<bool()>& keep_going) const;
