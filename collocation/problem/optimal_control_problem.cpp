@@ -123,12 +123,12 @@ const Phase::Quantity& Phase::Find(Variable variable) const {
   Fail("a variable is no coordinate or control of this phase");
 }
 
-Phase::Quantity& Phase::Find(Variable variable) {
+Phase::Quantity& Phase::FindMutable(Variable variable) {
   return const_cast<Quantity&>(std::as_const(*this).Find(variable));
 }
 
 void Phase::SetScale(Variable variable, double scale) {
-  Quantity& quantity = Find(variable);
+  Quantity& quantity = FindMutable(variable);
   if (!(scale > 0 && std::isfinite(scale))) {
     Fail(fmt::format("'{}': expected a scale above 0, got {}", quantity.name, scale));
   }
@@ -143,7 +143,7 @@ void Phase::SetDuration(Bounds bounds) {
 }
 
 void Phase::Bound(Variable variable, Bounds bounds, At at) {
-  Quantity& quantity = Find(variable);
+  Quantity& quantity = FindMutable(variable);
   if (Contradict(bounds)) {
     Fail(fmt::format("'{}': contradictory bounds {}", quantity.name, Describe(bounds)));
   }
@@ -238,7 +238,7 @@ void Phase::Guess(Variable variable, std::function<double(double)> value) {
   if (variable == duration()) {
     duration_guess_ = std::move(value);
   } else {
-    Find(variable).guess = std::move(value);
+    FindMutable(variable).guess = std::move(value);
   }
 }
 

@@ -64,6 +64,31 @@ class OptimalControlProblem;
 /// constraint.
 class Phase {
  public:
+  /// A coordinate, one of its derivatives, or a control.
+  struct Quantity {
+    std::string name;
+    double scale = 1;
+    std::vector<std::pair<At, Bounds>> bounds;
+    std::function<double(double)> guess;  ///< of the share of the duration; may be empty
+  };
+
+  struct PathConstraint {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<Variable> arguments;
+    std::vector<Bounds> bounds;
+    At at;
+    Eigen::VectorXd scales;  ///< by output
+    bool only_at_knots = false;
+  };
+
+  struct IntegralCost {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<Variable> arguments;
+    double weight;
+  };
+
   const std::string& name() const { return name_; }
   int order() const { return order_; }
   PhaseNames Names() const;
@@ -108,36 +133,25 @@ class Phase {
   void Guess(Variable variable, std::function<double(double)> value);
   void Guess(Variable variable, double value);
 
+  // What was added, for those who read the problem.
+  /// By coordinate, by order.
+  const std::vector<std::vector<Quantity>>& coordinates() const { return coordinates_; }
+  const std::vector<Quantity>& controls() const { return controls_; }
+  const std::vector<PathConstraint>& constraints() const { return constraints_; }
+  const std::vector<IntegralCost>& costs() const { return costs_; }
+  const Bounds& duration_bounds() const { return duration_; }
+  /// Of no argument that matters; may be empty.
+  const std::function<double(double)>& duration_guess() const { return duration_guess_; }
+  /// The coordinate, its derivative or the control.
+  const Quantity& Find(Variable variable) const;
+
+  /// @throws std::invalid_argument that names problem and phase.
+  [[noreturn]] void Fail(const std::string& what) const;
+
  private:
   friend class OptimalControlProblem;
-  friend class Transcription;
-  friend class MeshErrorEstimate;
-  struct Quantity {
-    std::string name;
-    double scale = 1;
-    std::vector<std::pair<At, Bounds>> bounds;
-    std::function<double(double)> guess;
-  };
-  struct PathConstraint {
-    std::string name;
-    std::shared_ptr<Function> function;
-    std::vector<Variable> arguments;
-    std::vector<Bounds> bounds;
-    At at;
-    Eigen::VectorXd scales;
-    bool only_at_knots = false;
-  };
-  struct IntegralCost {
-    std::string name;
-    std::shared_ptr<Function> function;
-    std::vector<Variable> arguments;
-    double weight;
-  };
-
   Phase(OptimalControlProblem* problem, int index, std::string name, int order);
-  Quantity& Find(Variable variable);
-  const Quantity& Find(Variable variable) const;
-  [[noreturn]] void Fail(const std::string& what) const;
+  Quantity& FindMutable(Variable variable);
   void CheckArguments(const std::string& name, const Function* f,
                       const std::vector<Variable>& arguments) const;
 
@@ -147,7 +161,7 @@ class Phase {
   int order_;
   Bounds duration_;
   std::function<double(double)> duration_guess_;
-  std::vector<std::vector<Quantity>> coordinates_;  // by coordinate, by order
+  std::vector<std::vector<Quantity>> coordinates_;
   std::vector<Quantity> controls_;
   std::vector<PathConstraint> constraints_;
   std::vector<IntegralCost> costs_;
@@ -158,6 +172,27 @@ class Phase {
 /// @throws std::invalid_argument that names phase and quantity for anything contradictory.
 class OptimalControlProblem {
  public:
+  struct Parameter {
+    std::string name;
+    Bounds bounds;
+    double scale;
+    double guess;
+  };
+
+  struct LinkConstraint {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<EndVariable> arguments;
+    std::vector<Bounds> bounds;
+  };
+
+  struct EndCost {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<EndVariable> arguments;
+    double weight;
+  };
+
   explicit OptimalControlProblem(std::string name) : name_(std::move(name)) {}
   OptimalControlProblem(const OptimalControlProblem&) = delete;
   OptimalControlProblem& operator=(const OptimalControlProblem&) = delete;
@@ -187,28 +222,18 @@ class OptimalControlProblem {
 
   std::string NameOf(Variable variable) const;
 
+  // What was added, for those who read the problem.
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+  /// Pairs that are one variable: the end of a phase, the start of a later one.
+  const std::vector<std::pair<EndVariable, EndVariable>>& continued() const { return continued_; }
+  const std::vector<LinkConstraint>& links() const { return links_; }
+  const std::vector<EndCost>& costs() const { return costs_; }
+
+  /// @throws std::invalid_argument that names the problem.
+  [[noreturn]] void Fail(const std::string& what) const;
+
  private:
   friend class Phase;
-  friend class Transcription;
-  struct Parameter {
-    std::string name;
-    Bounds bounds;
-    double scale;
-    double guess;
-  };
-  struct LinkConstraint {
-    std::string name;
-    std::shared_ptr<Function> function;
-    std::vector<EndVariable> arguments;
-    std::vector<Bounds> bounds;
-  };
-  struct EndCost {
-    std::string name;
-    std::shared_ptr<Function> function;
-    std::vector<EndVariable> arguments;
-    double weight;
-  };
-  [[noreturn]] void Fail(const std::string& what) const;
   void CheckEnds(const std::string& name, const Function* f,
                  const std::vector<EndVariable>& arguments) const;
 

@@ -7,6 +7,8 @@
 
 namespace possibility::collocation {
 
+namespace {
+
 /// Evaluates the equality constraints of one phase anywhere along a trajectory.
 class MeshErrorEstimate {
  public:
@@ -22,7 +24,7 @@ class MeshErrorEstimate {
     const double begin = motion_.mesh[interval];
     const double share = motion_.mesh[interval + 1] - begin;
     double greatest = 0;
-    for (const Phase::PathConstraint& constraint : phase_.constraints_) {
+    for (const Phase::PathConstraint& constraint : phase_.constraints()) {
       if (constraint.at != At::kEverywhere && constraint.at != At::kAfterStart) continue;
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(constraint.function->num_outputs());
       for (int i = 0; i < kSamples; ++i) {
@@ -77,6 +79,8 @@ class MeshErrorEstimate {
   const PhaseTrajectory& motion_;
   const Eigen::VectorXd& parameters_;
 };
+
+}  // namespace
 
 std::vector<std::vector<double>> MeshErrors(const OptimalControlProblem& problem,
                                             const Trajectory& trajectory) {

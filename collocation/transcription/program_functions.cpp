@@ -1,0 +1,124 @@
+#include "collocation/transcription/program_functions.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::collocation {
+
+ProgramFunctions::ProgramFunctions(const VariableLayout& layout)
+    : layout_(layout), ones_(Eigen::VectorXd::Ones(layout.num_variables())) {}
+
+void ProgramFunctions::AddFormRow(PolynomialForm form, double scale, Bounds bounds,
+                                  PlacedName name) {
+  const int row = static_cast<int>(row_lowers_.size());
+  FormRow form_row{std::move(form), 1 / scale, {}, {}};
+  form_row.form.Gradient(ones_, [&](int variable, double) {
+    form_row.jacobian_slots.push_back(jacobian_.At(row, variable));
+  });
+  form_row.form.Hessian(ones_, [&](int i, int j, double) {
+    form_row.hessian_slots.push_back(hessian_.AtLower(i, j));
+  });
+  form_rows_.push_back(std::move(form_row));
+  row_scales_.push_back(scale);
+  row_lowers_.push_back(bounds.lower / scale);
+  row_uppers_.push_back(bounds.upper / scale);
+  row_names_.push_back(std::move(name));
+}
+
+void ProgramFunctions::AddBlock(ConstraintBlock block, const std::vector<Bounds>& bounds,
+                                const Eigen::VectorXd& scales, PlacedName name) {
+  block.FindSlots(static_cast<int>(row_lowers_.size()), &jacobian_, &hessian_);
+  for (std::size_t o = 0; o < bounds.size(); ++o) {
+    const double scale = scales.size() == 0 ? 1 : scales[static_cast<Eigen::Index>(o)];
+    row_scales_.push_back(scale);
+    row_lowers_.push_back(bounds[o].lower / scale);
+    row_uppers_.push_back(bounds[o].upper / scale);
+    name.output = bounds.size() == 1 ? -1 : static_cast<int>(o);
+    row_names_.push_back(name);
+  }
+  blocks_.push_back(std::move(block));
+}
+
+void ProgramFunctions::AddCost(CostTerm cost, PlacedName name) {
+  cost.FindSlots(&hessian_);
+  costs_.push_back(std::move(cost));
+  cost_names_.push_back(std::move(name));
+}
+
+double ProgramFunctions::Objective(const Eigen::VectorXd& x) {
+  double sum = 0;
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    const double cost = costs_[i].Evaluate(x);
+    if (!std::isfinite(cost)) {
+      throw std::runtime_error(
+          fmt::format("cost '{}' is {}", layout_.FullName(cost_names_[i]), cost));
+    }
+    sum += cost;
+  }
+  return sum;
+}
+
+void ProgramFunctions::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
+  gradient->setZero(layout_.num_variables());
+  for (CostTerm& cost : costs_) cost.AddGradient(x, gradient);
+  gradient->array() *= layout_.scale_vector().array();
+  if (!gradient->allFinite()) FailForGradient(x);
+}
+
+void ProgramFunctions::FailForGradient(const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout_.num_variables());
+    costs_[i].AddGradient(x, &gradient);
+    for (int k = 0; k < layout_.num_variables(); ++k) {
+      if (std::isfinite(gradient[k])) continue;
+      throw std::runtime_error(fmt::format("the derivative of cost '{}' with respect to '{}' is {}",
+                                           layout_.FullName(cost_names_[i]),
+                                           layout_.FullName(layout_.names()[k]), gradient[k]));
+    }
+  }
+  throw std::runtime_error("the derivative of the sum of all costs is not finite");
+}
+
+void ProgramFunctions::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g) {
+  g->resize(num_rows());
+  for (std::size_t row = 0; row < form_rows_.size(); ++row) {
+    (*g)[static_cast<Eigen::Index>(row)] = form_rows_[row].form.Value(x) * form_rows_[row].factor;
+  }
+  for (ConstraintBlock& block : blocks_) block.AddRows(x, g);
+}
+
+void ProgramFunctions::Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) {
+  values->setZero(jacobian_.pattern().size());
+  for (const FormRow& row : form_rows_) {
+    const int* slot = row.jacobian_slots.data();
+    row.form.Gradient(
+        x, [&](int, double derivative) { (*values)[*slot++] += row.factor * derivative; });
+  }
+  for (ConstraintBlock& block : blocks_) block.AddJacobian(x, values);
+  const std::vector<int>& columns = jacobian_.pattern().columns;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    (*values)[static_cast<Eigen::Index>(i)] *= layout_.scale_vector()[columns[i]];
+  }
+}
+
+void ProgramFunctions::Hessian(const Eigen::VectorXd& x, double objective_factor,
+                               const Eigen::VectorXd& multipliers, Eigen::VectorXd* values) {
+  values->setZero(hessian_.pattern().size());
+  for (std::size_t r = 0; r < form_rows_.size(); ++r) {
+    const FormRow& row = form_rows_[r];
+    const double factor = multipliers[static_cast<Eigen::Index>(r)] * row.factor;
+    const int* slot = row.hessian_slots.data();
+    row.form.Hessian(x, [&](int, int, double second) { (*values)[*slot++] += factor * second; });
+  }
+  for (ConstraintBlock& block : blocks_) block.AddHessian(x, multipliers, values);
+  for (CostTerm& cost : costs_) cost.AddHessian(x, objective_factor, values);
+  const SparsityPattern& pattern = hessian_.pattern();
+  for (int i = 0; i < pattern.size(); ++i) {
+    (*values)[i] *=
+        layout_.scale_vector()[pattern.rows[i]] * layout_.scale_vector()[pattern.columns[i]];
+  }
+}
+
+}  // namespace possibility::collocation

@@ -1,0 +1,261 @@
+#include "collocation/transcription/variable_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace possibility::collocation {
+
+namespace {
+
+double Factorial(int n) { return n <= 1 ? 1 : n * Factorial(n - 1); }
+
+void CheckMesh(const OptimalControlProblem& problem, int phase, const Mesh& mesh) {
+  bool ascends = mesh.size() >= 2 && mesh.front() == 0 && mesh.back() == 1;
+  for (std::size_t i = 1; i < mesh.size(); ++i) ascends = ascends && mesh[i] > mesh[i - 1];
+  if (!ascends) {
+    throw std::invalid_argument(fmt::format("{}: phase '{}': the mesh must ascend from 0 to 1",
+                                            problem.name(), problem.phase(phase).name()));
+  }
+}
+
+}  // namespace
+
+VariableLayout::VariableLayout(const OptimalControlProblem& problem,
+                               const TranscriptionScheme& scheme, std::vector<Mesh> meshes)
+    : problem_(problem), scheme_(scheme) {
+  if (problem.num_phases() == 0) problem.Fail("the problem has no phase");
+  if (static_cast<int>(meshes.size()) != problem.num_phases()) {
+    problem.Fail(fmt::format("{} meshes for {} phases", meshes.size(), problem.num_phases()));
+  }
+  phases_.resize(meshes.size());
+  for (const auto& parameter : problem_.parameters()) {
+    parameters_.push_back(
+        AddVariable(parameter.scale, parameter.bounds, {-1, -1, parameter.name, -1}));
+  }
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    CheckMesh(problem, p, meshes[p]);
+    phases_[p].mesh = std::move(meshes[p]);
+    LayOut(p);
+  }
+  const auto copy = [](const std::vector<double>& from) {
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));
+  };
+  scale_vector_ = copy(scales_);
+  lower_ = copy(lowers_).cwiseQuotient(scale_vector_);
+  upper_ = copy(uppers_).cwiseQuotient(scale_vector_);
+}
+
+int VariableLayout::AddVariable(double scale, Bounds bounds, PlacedName name) {
+  scales_.push_back(scale);
+  lowers_.push_back(bounds.lower);
+  uppers_.push_back(bounds.upper);
+  names_.push_back(std::move(name));
+  return static_cast<int>(scales_.size()) - 1;
+}
+
+void VariableLayout::LayOut(int phase_index) {
+  const Phase& phase = problem_.phase(phase_index);
+  PhaseLayout& layout = phases_[phase_index];
+  if (phase.coordinates().empty()) phase.Fail("the phase has no coordinates");
+  const Bounds& duration = phase.duration_bounds();
+  if (!(duration.lower > 0 && duration.upper < kInfinity)) phase.Fail("no duration was set");
+  layout.fixed_duration = duration.lower;
+  if (duration.lower < duration.upper) {
+    layout.duration =
+        AddVariable(duration.upper, duration, {-1, -1, phase.name() + ": duration", -1});
+  }
+  const int intervals = static_cast<int>(layout.mesh.size()) - 1;
+  const int inside = scheme_.num_nodes() - 1;
+  for (int i = 0; i < intervals; ++i) {
+    for (int node = 0; node < inside; ++node) {
+      const double share =
+          layout.mesh[i] + scheme_.nodes[node] * (layout.mesh[i + 1] - layout.mesh[i]);
+      layout.points.push_back({i, node, share, node == 0});
+    }
+  }
+  layout.points.push_back({intervals - 1, inside, 1, true});
+  for (int k = 0; k < static_cast<int>(layout.points.size()); ++k) LayOutPoint(phase_index, k);
+}
+
+void VariableLayout::LayOutPoint(int phase_index, int point) {
+  const Phase& phase = problem_.phase(phase_index);
+  PhaseLayout& layout = phases_[phase_index];
+  auto& coordinates = layout.coordinates.emplace_back();
+  for (std::size_t c = 0; c < phase.coordinates().size(); ++c) {
+    std::vector<int>& orders = coordinates.emplace_back(phase.order() + 1, -1);
+    for (int order = 0; order <= phase.order(); ++order) {
+      const bool derived =
+          !scheme_.separated && !layout.points[point].is_knot && order < phase.order();
+      if (derived) continue;
+      const Phase::Quantity& quantity = phase.coordinates()[c][order];
+      const Bounds bounds = BoundsAt(quantity, phase_index, point);
+      // A state that continues an earlier phase is that phase's variable.
+      for (const auto& [from, to] : problem_.continued()) {
+        const Variable here{VariableKind::kCoordinate, phase_index, static_cast<int>(c), order};
+        if (point != 0 || !(to.variable == here)) continue;
+        const PhaseLayout& earlier = phases_[from.variable.phase];
+        orders[order] = earlier.coordinates.back()[from.variable.index][from.variable.order];
+      }
+      if (orders[order] < 0) {
+        orders[order] =
+            AddVariable(quantity.scale, bounds, {phase_index, point, quantity.name, -1});
+        continue;
+      }
+      double& lower = lowers_[orders[order]];
+      double& upper = uppers_[orders[order]];
+      lower = std::max(lower, bounds.lower);
+      upper = std::min(upper, bounds.upper);
+      if (lower > upper) {
+        problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet",
+                                  PointName(phase_index, point), quantity.name, lower, upper));
+      }
+    }
+  }
+  auto& controls = layout.controls.emplace_back();
+  for (const Phase::Quantity& quantity : phase.controls()) {
+    controls.push_back(AddVariable(quantity.scale, BoundsAt(quantity, phase_index, point),
+                                   {phase_index, point, quantity.name, -1}));
+  }
+}
+
+bool HoldsAt(At at, int point, int num_points) {
+  const bool first = point == 0;
+  const bool last = point == num_points - 1;
+  switch (at) {
+    case At::kEverywhere:
+      return true;
+    case At::kStart:
+      return first;
+    case At::kEnd:
+      return last;
+    case At::kAfterStart:
+      return !first;
+    case At::kBeforeEnd:
+      return !last;
+    case At::kInside:
+      return !first && !last;
+  }
+  return false;
+}
+
+Bounds VariableLayout::BoundsAt(const Phase::Quantity& quantity, int phase, int point) const {
+  Bounds bounds;
+  const int n = static_cast<int>(phases_[phase].points.size());
+  for (const auto& [at, b] : quantity.bounds) {
+    if (!HoldsAt(at, point, n)) continue;
+    bounds.lower = std::max(bounds.lower, b.lower);
+    bounds.upper = std::min(bounds.upper, b.upper);
+  }
+  if (bounds.lower > bounds.upper) {
+    problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}]", PointName(phase, point),
+                              quantity.name, bounds.lower, bounds.upper));
+  }
+  return bounds;
+}
+
+std::string VariableLayout::PointName(int phase, int point) const {
+  const LayoutPoint& p = phases_[phase].points[point];
+  const int interval = p.node == scheme_.num_nodes() - 1 ? p.interval + 1 : p.interval;
+  const std::string where = p.is_knot ? fmt::format("knot {}", interval)
+                                      : fmt::format("interval {}, node {}", interval, p.node);
+  return fmt::format("{}, {} (t = {:.4g} of the duration): ", problem_.phase(phase).name(), where,
+                     p.share);
+}
+
+PolynomialForm VariableLayout::IntegralForm(int phase, int interval, int node, int coordinate,
+                                            int order) const {
+  const PhaseLayout& layout = phases_[phase];
+  const int highest = problem_.phase(phase).order();
+  const int first = interval * (scheme_.num_nodes() - 1);
+  const double share = layout.mesh[interval + 1] - layout.mesh[interval];
+  const double c = scheme_.nodes[node];
+  PolynomialForm form;
+  form.duration = layout.duration;
+  const auto add = [&](int variable, double coefficient, int power) {
+    // coefficient * h^power, h = share * duration.
+    double factor = coefficient * std::pow(share, power);
+    if (layout.duration < 0) {
+      factor *= std::pow(layout.fixed_duration, power);
+      power = 0;
+    }
+    if (factor != 0) form.monomials.push_back({variable, factor, power});
+  };
+  for (int r = order; r < highest; ++r) {
+    add(layout.coordinates[first][coordinate][r], std::pow(c, r - order) / Factorial(r - order),
+        r - order);
+  }
+  const int k = highest - order;
+  for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    add(layout.coordinates[first + j][coordinate][highest], scheme_.integral[k](node, j), k);
+  }
+  return form;
+}
+
+PolynomialForm VariableLayout::TimeForm(int phase, double share) const {
+  PolynomialForm form;
+  double constant = 0;
+  for (int earlier = 0; earlier < phase; ++earlier) {
+    if (phases_[earlier].duration < 0) {
+      constant += phases_[earlier].fixed_duration;
+    } else {
+      form.monomials.push_back({phases_[earlier].duration, 1, 0});
+    }
+  }
+  if (phases_[phase].duration < 0) {
+    constant += share * phases_[phase].fixed_duration;
+  } else {
+    form.monomials.push_back({phases_[phase].duration, share, 0});
+  }
+  form.monomials.push_back({-1, constant, 0});
+  return form;
+}
+
+PolynomialForm VariableLayout::FormOf(Variable variable, int phase, int point) const {
+  const PhaseLayout& layout = phases_[phase];
+  const auto single = [](int index) { return PolynomialForm{-1, {{index, 1, 0}}}; };
+  switch (variable.kind) {
+    case VariableKind::kCoordinate: {
+      const int index = layout.coordinates[point][variable.index][variable.order];
+      if (index >= 0) return single(index);
+      const LayoutPoint& p = layout.points[point];
+      return IntegralForm(phase, p.interval, p.node, variable.index, variable.order);
+    }
+    case VariableKind::kControl:
+      return single(layout.controls[point][variable.index]);
+    case VariableKind::kParameter:
+      return single(parameters_[variable.index]);
+    case VariableKind::kDuration:
+      if (layout.duration >= 0) return single(layout.duration);
+      return {-1, {{-1, layout.fixed_duration, 0}}};
+    case VariableKind::kTime:
+      return TimeForm(phase, layout.points[point].share);
+  }
+  throw std::logic_error("FormOf: a kind of variable that is none");
+}
+
+PolynomialForm VariableLayout::EndForm(const EndVariable& end) const {
+  const int phase = end.variable.phase;
+  if (phase < 0) return FormOf(end.variable, 0, 0);
+  const int last = static_cast<int>(phases_[phase].points.size()) - 1;
+  if (end.at != At::kStart && end.at != At::kEnd) {
+    problem_.Fail(problem_.NameOf(end.variable) + ": expected the start or the end of a phase");
+  }
+  return FormOf(end.variable, phase, end.at == At::kStart ? 0 : last);
+}
+
+std::string VariableLayout::FullName(const PlacedName& name) const {
+  const std::string where = name.phase < 0 ? "" : PointName(name.phase, name.point);
+  const std::string output = name.output < 0 ? "" : fmt::format("[{}]", name.output);
+  return where + name.name + output;
+}
+
+double VariableLayout::DurationOf(int phase, const Eigen::VectorXd& x) const {
+  const PhaseLayout& layout = phases_[phase];
+  return layout.duration < 0 ? layout.fixed_duration : x[layout.duration];
+}
+
+}  // namespace possibility::collocation
