@@ -33,12 +33,6 @@ namespace possibility::dynamics {
           A(0, 2) * x[0] + A(1, 2) * x[1] + A(2, 2) * x[2]};
 }
 
-inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 /// A spatial vector (Featherstone 2008, chapter 2). For a motion, `linear` is the velocity of the
 /// point at the origin. For a force, `angular` is the moment about the origin.
 struct SpatialVector {

@@ -4,18 +4,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "models/robot/cross_matrix.h"
+
 namespace possibility::dynamics {
 
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d CrossMatrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
+using models::CrossMatrix;
 
 void CheckSize(const char* what, Eigen::Index actual, int expected) {
   if (actual == expected) return;

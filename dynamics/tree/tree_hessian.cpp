@@ -1,16 +1,25 @@
-// Second derivatives of lambda' ID and of points (docs/dynamics.md, "Second derivatives").
-#include "dynamics/tree/tree_derivatives.h"
+#include "dynamics/tree/tree_hessian.h"
 
 namespace possibility::dynamics {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-const HessianProduct& TreeDerivatives::Hessian(const Eigen::Ref<const Eigen::VectorXd>& lambda,
-                                               const std::vector<PointTerm>& terms) {
-  CheckSize("lambda", lambda.size());
+TreeHessian::TreeHessian(const models::RobotModel& model)
+    : w_(model.num_links()), virtual_rates_(model.nv()), virtual_bodies_(model.num_links()) {
+  const int nv = model.nv();
+  for (Eigen::MatrixXd* m : {&hessian_.qq, &hessian_.qv, &hessian_.vv, &hessian_.qa}) {
+    m->setZero(nv, nv);
+  }
+}
+
+const HessianProduct& TreeHessian::Compute(const TreeMotion& motion,
+                                           const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                                           const std::vector<PointTerm>& terms) {
+  motion.CheckSize("lambda", lambda.size());
+  motion_ = &motion;
   FindVirtualMotion(lambda);
-  for (int i = num_links_ - 1; i > 0; --i) AddJointHessian(i);
+  for (int i = motion_->num_links() - 1; i > 0; --i) AddJointHessian(i);
   AddRootHessian();
   for (const PointTerm& term : terms) AddPointHessian(term);
   // The root's rotations do not commute: the second derivative along a curve is the mean.
@@ -19,34 +28,36 @@ const HessianProduct& TreeDerivatives::Hessian(const Eigen::Ref<const Eigen::Vec
   return hessian_;
 }
 
-void TreeDerivatives::FindVirtualMotion(const Eigen::Ref<const Eigen::VectorXd>& lambda) {
+void TreeHessian::FindVirtualMotion(const Eigen::Ref<const Eigen::VectorXd>& lambda) {
   w_[0] = {lambda.head<3>(), lambda.segment<3>(3)};
-  for (int k = 0; k < 6; ++k) axes_[k].virtual_rate = CrossMotion(w_[0], axes_[k].S);
-  for (int i = 1; i < num_links_; ++i) {
-    Axis& axis = axes_[Coordinate(i)];
-    const SpatialVector& parent = w_[constants_[i].parent];
-    axis.virtual_rate = CrossMotion(parent, axis.S);
-    w_[i] = parent + lambda[Coordinate(i)] * axis.S;
+  for (int k = 0; k < 6; ++k) virtual_rates_[k] = CrossMotion(w_[0], motion_->axis(k).S);
+  for (int i = 1; i < motion_->num_links(); ++i) {
+    const int c = TreeMotion::Coordinate(i);
+    const SpatialVector& S = motion_->axis(c).S;
+    const SpatialVector& parent = w_[motion_->parent(i)];
+    virtual_rates_[c] = CrossMotion(parent, S);
+    w_[i] = parent + lambda[c] * S;
   }
-  for (int i = 0; i < num_links_; ++i) {
-    const Body& body = bodies_[i];
+  for (int i = 0; i < motion_->num_links(); ++i) {
+    const SpatialBody& body = motion_->body(i);
     VirtualBody& result = virtual_bodies_[i];
     result.momentum = body.Inertia(w_[i]);
     result.coriolis = CoriolisMatrix(w_[i], body.moment, body.inertia);
     result.turning = body.CoriolisTransposed(w_[i]);
   }
-  for (int i = num_links_ - 1; i > 0; --i) {
-    VirtualBody& parent = virtual_bodies_[constants_[i].parent];
+  for (int i = motion_->num_links() - 1; i > 0; --i) {
+    VirtualBody& parent = virtual_bodies_[motion_->parent(i)];
     parent.momentum += virtual_bodies_[i].momentum;
     parent.coriolis += virtual_bodies_[i].coriolis;
     parent.turning += virtual_bodies_[i].turning;
   }
 }
 
-void TreeDerivatives::AddJointHessian(int link) {
-  const int c = Coordinate(link);
-  const Axis& axis = axes_[c];
-  const Body& subtree = subtrees_[link];
+void TreeHessian::AddJointHessian(int link) {
+  const int c = TreeMotion::Coordinate(link);
+  const TreeAxis& axis = motion_->axis(c);
+  const SpatialVector& virtual_rate = virtual_rates_[c];
+  const SpatialBody& subtree = motion_->subtree(link);
   const VirtualBody& dual = virtual_bodies_[link];
   const Vector3d rate_angular = axis.rate.angular;
   const Vector3d axis_angular = axis.S.angular;
@@ -59,9 +70,9 @@ void TreeDerivatives::AddJointHessian(int link) {
                            CrossForce(axis.S, subtree.force);
   // ... and the factors of an outer coordinate's rates in the derivative of the gradient.
   const SpatialVector on_rate_rate =
-      subtree.Inertia(axis.virtual_rate) + CrossForce(axis.S, dual.momentum);
+      subtree.Inertia(virtual_rate) + CrossForce(axis.S, dual.momentum);
   const SpatialVector on_rate =
-      2 * (SpatialVector{subtree.CoriolisTransposed(axis.virtual_rate), Vector3d::Zero()} +
+      2 * (SpatialVector{subtree.CoriolisTransposed(virtual_rate), Vector3d::Zero()} +
            CrossForce(axis.rate, dual.momentum) + dual.Turning(rate_angular) +
            CrossForce(axis.S, turning));
   const SpatialVector on_velocity =
@@ -69,38 +80,41 @@ void TreeDerivatives::AddJointHessian(int link) {
 
   auto& H = hessian_;
   const auto pair = [&](int d) {
-    const Axis& outer = axes_[d];
+    const TreeAxis& outer = motion_->axis(d);
+    const SpatialVector& outer_virtual_rate = virtual_rates_[d];
     H.qq(d, c) = H.qq(c, d) =
-        Dot(dq, outer.virtual_rate) + Dot(on_rate, outer.rate) + Dot(on_rate_rate, outer.rate_rate);
+        Dot(dq, outer_virtual_rate) + Dot(on_rate, outer.rate) + Dot(on_rate_rate, outer.rate_rate);
     H.vv(d, c) = H.vv(c, d) = Dot(on_velocity, outer.S);
     H.qv(c, d) = Dot(on_rate_rate, outer.twice) + Dot(on_rate, outer.S);
-    H.qv(d, c) = Dot(dv, outer.virtual_rate) + Dot(on_velocity, outer.rate);
+    H.qv(d, c) = Dot(dv, outer_virtual_rate) + Dot(on_velocity, outer.rate);
     H.qa(c, d) = Dot(on_rate_rate, outer.S);
-    H.qa(d, c) = Dot(da, outer.virtual_rate);
+    H.qa(d, c) = Dot(da, outer_virtual_rate);
   };
   for (int d = 0; d < 3; ++d) pair(d);
   StoreRow(on_rate_rate, c, &H.qa);
-  for (int j = constants_[link].parent; j > 0; j = constants_[j].parent) pair(Coordinate(j));
+  for (int j = motion_->parent(link); j > 0; j = motion_->parent(j)) {
+    pair(TreeMotion::Coordinate(j));
+  }
   pair(c);
 }
 
-void TreeDerivatives::AddRootHessian() {
-  const Body& all = subtrees_[0];
+void TreeHessian::AddRootHessian() {
+  const SpatialBody& all = motion_->subtree(0);
   const VirtualBody& dual = virtual_bodies_[0];
   auto& H = hessian_;
   for (int d = 0; d < 3; ++d) {
-    const Axis& axis = axes_[d];
+    const TreeAxis& axis = motion_->axis(d);
     // Change of force, virtual momentum and turning under a rotation of the whole robot.
     const SpatialVector force =
         2 * all.Coriolis(axis.rate) + all.Inertia(axis.rate_rate) + CrossForce(axis.S, all.force);
     const SpatialVector momentum =
-        CrossForce(axis.S, dual.momentum) + all.Inertia(axis.virtual_rate);
+        CrossForce(axis.S, dual.momentum) + all.Inertia(virtual_rates_[d]);
     const Vector3d turning = axis.S.angular.cross(dual.turning) -
                              TransposedTimes(dual.coriolis, axis.rate.angular) +
-                             all.CoriolisTransposed(axis.virtual_rate);
+                             all.CoriolisTransposed(virtual_rates_[d]);
     for (int c = 0; c < 3; ++c) {
-      const Axis& other = axes_[c];
-      H.qq(d, c) = Dot(other.virtual_rate, force) + Dot(other.rate_rate, momentum) +
+      const TreeAxis& other = motion_->axis(c);
+      H.qq(d, c) = Dot(virtual_rates_[c], force) + Dot(other.rate_rate, momentum) +
                    2 * Dot(other.rate.angular, turning);
       H.qv(d, c) = 2 * turning[c] + Dot(momentum, other.rate);
       H.vv(d, c) = 2 * dual.Turning(Vector3d::Unit(c)).angular[d] +
@@ -110,24 +124,26 @@ void TreeDerivatives::AddRootHessian() {
   }
 }
 
-void TreeDerivatives::AddPointHessian(const PointTerm& term) {
-  const PointMotion point = MotionOf(term.link, term.p_L);
+void TreeHessian::AddPointHessian(const PointTerm& term) {
+  const PointMotion point = MotionOf(*motion_, term.link, term.p_L);
   const Vector3d virtual_velocity = VelocityAt(w_[term.link], point.p);
-  for (int i = term.link; i > 0; i = constants_[i].parent) {
-    for (int j = i; j > 0; j = constants_[j].parent) {
-      AddPointPair(term, point, virtual_velocity, Coordinate(j), Coordinate(i));
+  for (int i = term.link; i > 0; i = motion_->parent(i)) {
+    for (int j = i; j > 0; j = motion_->parent(j)) {
+      AddPointPair(term, point, virtual_velocity, TreeMotion::Coordinate(j),
+                   TreeMotion::Coordinate(i));
     }
-    for (int d = 0; d < 3; ++d) AddPointPair(term, point, virtual_velocity, d, Coordinate(i));
+    const int c = TreeMotion::Coordinate(i);
+    for (int d = 0; d < 3; ++d) AddPointPair(term, point, virtual_velocity, d, c);
   }
   for (int d = 0; d < 3; ++d) {
     for (int c = 0; c < 3; ++c) AddRootPointPair(term, point, virtual_velocity, d, c);
   }
 }
 
-void TreeDerivatives::AddPointPair(const PointTerm& term, const PointMotion& point,
-                                   const Vector3d& virtual_velocity, int outer, int inner) {
-  const Axis& j = axes_[outer];
-  const Axis& k = axes_[inner];
+void TreeHessian::AddPointPair(const PointTerm& term, const PointMotion& point,
+                               const Vector3d& virtual_velocity, int outer, int inner) {
+  const TreeAxis& j = motion_->axis(outer);
+  const TreeAxis& k = motion_->axis(inner);
   const Vector3d s_j = j.S.angular;
   const Vector3d s_k = k.S.angular;
   const Vector3d moved = s_j.cross(VelocityAt(k.S, point.p));
@@ -135,14 +151,14 @@ void TreeDerivatives::AddPointPair(const PointTerm& term, const PointMotion& poi
   const SpatialVector turned_rate = CrossMotion(j.rate, k.S);
 
   // Of the velocity, with the rates v and with the multipliers.
-  const Vector3d velocity = s_j.cross(VelocityDerivative(point, inner)) +
+  const Vector3d velocity = s_j.cross(VelocityDerivative(*motion_, point, inner)) +
                             VelocityAt(turned_rate, point.p) + s_k.cross(rate_j);
-  const Vector3d virtual_rate_j = VelocityAt(j.virtual_rate, point.p);
+  const Vector3d virtual_rate_j = VelocityAt(virtual_rates_[outer], point.p);
   const Vector3d virtual_second =
-      s_j.cross(VelocityAt(k.virtual_rate, point.p) + s_k.cross(virtual_velocity)) +
-      VelocityAt(CrossMotion(j.virtual_rate, k.S), point.p) + s_k.cross(virtual_rate_j);
+      s_j.cross(VelocityAt(virtual_rates_[inner], point.p) + s_k.cross(virtual_velocity)) +
+      VelocityAt(CrossMotion(virtual_rates_[outer], k.S), point.p) + s_k.cross(virtual_rate_j);
   const Vector3d acceleration =
-      s_j.cross(AccelerationDerivative(point, inner)) +
+      s_j.cross(AccelerationDerivative(*motion_, point, inner)) +
       s_k.cross(VelocityAt(j.rate_rate, point.p) + 2 * j.rate.angular.cross(point.velocity)) +
       VelocityAt(CrossMotion(j.rate_rate, k.S) + 2 * CrossMotion(j.rate, k.rate), point.p) +
       2 * turned_rate.angular.cross(point.velocity) + 2 * k.rate.angular.cross(rate_j);
@@ -173,22 +189,22 @@ void TreeDerivatives::AddPointPair(const PointTerm& term, const PointMotion& poi
   H.qa(outer, inner) += qa;
 }
 
-void TreeDerivatives::AddRootPointPair(const PointTerm& term, const PointMotion& point,
-                                       const Vector3d& virtual_velocity, int j, int k) {
+void TreeHessian::AddRootPointPair(const PointTerm& term, const PointMotion& point,
+                                   const Vector3d& virtual_velocity, int j, int k) {
   // Rotating the robot does not change the root's own axes, velocity and acceleration.
   const Vector3d e_j = Vector3d::Unit(j);
   const Vector3d e_k = Vector3d::Unit(k);
-  const Axis& axis = axes_[k];
+  const TreeAxis& axis = motion_->axis(k);
   const Vector3d moved = e_j.cross(point.p);
-  const Vector3d velocity_j = VelocityDerivative(point, j);
+  const Vector3d velocity_j = VelocityDerivative(*motion_, point, j);
   const Vector3d virtual_velocity_j =
-      VelocityAt(axes_[j].virtual_rate, point.p) + e_j.cross(virtual_velocity);
+      VelocityAt(virtual_rates_[j], point.p) + e_j.cross(virtual_velocity);
   const Vector3d rate = axis.rate.angular;
   const Vector3d& on_a = term.on_acceleration;
 
-  const Vector3d acceleration = e_k.cross(AccelerationDerivative(point, j)) +
+  const Vector3d acceleration = e_k.cross(AccelerationDerivative(*motion_, point, j)) +
                                 axis.rate_rate.angular.cross(moved) + 2 * rate.cross(velocity_j);
-  const Vector3d virtual_angular = axis.virtual_rate.angular;
+  const Vector3d virtual_angular = virtual_rates_[k].angular;
   auto& H = hessian_;
   H.qq(j, k) += term.on_position.dot(e_k.cross(moved)) +
                 term.on_velocity.dot(rate.cross(moved) + e_k.cross(velocity_j)) +
