@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "models/robot/rotation_vector.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -17,11 +19,6 @@ constexpr double kLargestStep = 0.3;
 
 Matrix3d TurnedBy(double yaw, const Matrix3d& R) {
   return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() * R;
-}
-
-Vector3d RotationVector(const Matrix3d& R) {
-  const Eigen::AngleAxisd angle_axis(R);
-  return angle_axis.angle() * angle_axis.axis();
 }
 
 int RowCount(const WholeBodyTask& task) {
@@ -111,7 +108,7 @@ void WholeBodySolver::Residual(const WholeBodyTask& task) {
     if (limb.limb->hold_orientation) {
       const Matrix3d target = TurnedBy(limb.yaw.value, limb.orientation);
       residual_.segment<3>(row) =
-          RotationVector(target * kinematics_.X_WL()[patch.link].linear().transpose());
+          models::RotationVector(target * kinematics_.X_WL()[patch.link].linear().transpose());
       row += 3;
     }
     residual_.segment<3>(row) =

@@ -1,8 +1,8 @@
 #include "actions/plan/interpolation.h"
 
-#include <array>
-#include <cmath>
 #include <stdexcept>
+
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
 namespace {
@@ -12,67 +12,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-Matrix3d Skew(const Vector3d& x) {
-  Matrix3d X;
-  X << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
-  return X;
-}
-
-/// The scalars of the left Jacobian I + a [phi] + b [phi]^2 and of its derivative, as functions of
-/// the angle: a = (1 - cos) / angle^2, b = (angle - sin) / angle^3, and a' / angle, b' / angle.
-struct JacobianScalars {
-  double a = 0;
-  double b = 0;
-  double da = 0;
-  double db = 0;
-};
-
-/// Power series in angle^2: exact to rounding below one radian, where the closed forms cancel.
-JacobianScalars SeriesScalars(double angle_squared) {
-  JacobianScalars s;
-  double factorial = 2;  // (2k + 2)!
-  double power = 1;      // (-1)^k angle^(2k)
-  double previous = 0;   // (-1)^k angle^(2k - 2)
-  for (int k = 0; k < 10; ++k) {
-    s.a += power / factorial;
-    s.b += power / (factorial * (2 * k + 3));
-    s.da += 2 * k * previous / factorial;
-    s.db += 2 * k * previous / (factorial * (2 * k + 3));
-    previous = -power;
-    power *= -angle_squared;
-    factorial *= (2 * k + 3) * (2 * k + 4);
-  }
-  return s;
-}
-
-JacobianScalars ScalarsOf(double angle_squared) {
-  if (angle_squared < 1) return SeriesScalars(angle_squared);
-  const double angle = std::sqrt(angle_squared);
-  JacobianScalars s;
-  s.a = (1 - std::cos(angle)) / angle_squared;
-  s.b = (angle - std::sin(angle)) / (angle_squared * angle);
-  s.da = (std::sin(angle) / angle - 2 * s.a) / angle_squared;
-  s.db = (s.a - 3 * s.b) / angle_squared;
-  return s;
-}
-
 Quaterniond RootOrientation(const VectorXd& q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-}
-
-Vector3d RotationVector(Quaterniond rotation) {
-  if (rotation.w() < 0) rotation.coeffs() = -rotation.coeffs();
-  const double sine = rotation.vec().norm();
-  if (sine < 1e-12) return 2 * rotation.vec();
-  return 2 * std::atan2(sine, rotation.w()) / sine * rotation.vec();
-}
-
-Quaterniond Exponential(const Vector3d& phi) {
-  const double half = phi.norm() / 2;
-  Quaterniond rotation;
-  rotation.w() = std::cos(half);
-  rotation.vec() = (half < 1e-8 ? 0.5 : std::sin(half) / (2 * half)) * phi;
-  return rotation;
 }
 
 void CheckAgreement(const Knot& k0, const Knot& k1) {
@@ -98,29 +39,15 @@ void SetQuintic(const VectorXd& change, const VectorXd& v0, const VectorXd& v1, 
 
 }  // namespace
 
-Matrix3d LeftJacobian(const Vector3d& phi) {
-  const JacobianScalars s = ScalarsOf(phi.squaredNorm());
-  const Matrix3d X = Skew(phi);
-  return Matrix3d::Identity() + s.a * X + s.b * X * X;
-}
-
-Matrix3d LeftJacobianRate(const Vector3d& phi, const Vector3d& phi_rate) {
-  const JacobianScalars s = ScalarsOf(phi.squaredNorm());
-  const Matrix3d X = Skew(phi);
-  const Matrix3d dX = Skew(phi_rate);
-  const double angle_times_rate = phi.dot(phi_rate);
-  return angle_times_rate * (s.da * X + s.db * X * X) + s.a * dX + s.b * (dX * X + X * dX);
-}
-
 KnotInterpolant::KnotInterpolant(const Knot& k0, const Knot& k1)
     : k0_(&k0), k1_(&k1), h_(k1.t - k0.t) {
   CheckAgreement(k0, k1);
   R0_ = RootOrientation(k0.q);
-  const Vector3d phi1 = RotationVector(RootOrientation(k1.q) * R0_.conjugate());
-  const Matrix3d inverse = LeftJacobian(phi1).inverse();
+  const Vector3d phi1 = models::RotationVector(RootOrientation(k1.q) * R0_.conjugate());
+  const Matrix3d inverse = models::LeftJacobian(phi1).inverse();
   const Vector3d phi1_rate = inverse * k1.v.head<3>();
   const Vector3d phi1_acceleration =
-      inverse * (k1.a.head<3>() - LeftJacobianRate(phi1, phi1_rate) * phi1_rate);
+      inverse * (k1.a.head<3>() - models::LeftJacobianRate(phi1, phi1_rate) * phi1_rate);
 
   const Eigen::Index n = k0.v.size();
   c_.resize(n, 6);
@@ -151,12 +78,12 @@ Knot KnotInterpolant::At(double t) const {
   knot.t = t;
   knot.v = c_ * (rate / h_);
   knot.a = c_ * (acceleration / (h_ * h_));
-  const Matrix3d jacobian = LeftJacobian(phi);
+  const Matrix3d jacobian = models::LeftJacobian(phi);
   const Vector3d phi_rate = knot.v.head<3>();
   knot.v.head<3>() = jacobian * phi_rate;
   knot.a.head<3>() =
-      (jacobian * knot.a.head<3>() + LeftJacobianRate(phi, phi_rate) * phi_rate).eval();
-  const Quaterniond R = Exponential(phi) * R0_;
+      (jacobian * knot.a.head<3>() + models::LeftJacobianRate(phi, phi_rate) * phi_rate).eval();
+  const Quaterniond R = models::Exponential(phi) * R0_;
   knot.q.resize(n + 1);
   knot.q << R.w(), R.vec(), x.tail(n - 3);
   knot.tau = (1 - s) * k0_->tau + s * k1_->tau;

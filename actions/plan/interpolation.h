@@ -7,13 +7,6 @@
 
 namespace possibility::actions {
 
-/// Left Jacobian of SO(3): the angular velocity (world axes) of R(t) = exp([phi(t)]) R0 is
-/// LeftJacobian(phi) * phi-dot (Chirikjian 2012, Stochastic Models, eq. 10.86).
-Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& phi);
-
-/// Time derivative of LeftJacobian along phi-dot.
-Eigen::Matrix3d LeftJacobianRate(const Eigen::Vector3d& phi, const Eigen::Vector3d& phi_rate);
-
 /// The motion between two knots of a phase as Interpolate defines it, coefficients computed once.
 /// The knots must outlive it and agree in their sizes.
 class KnotInterpolant {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "actions/plan/interpolation.h"
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
 namespace {
@@ -35,28 +35,17 @@ Signal<VectorXd> Planar(const PhaseTrajectory& plan, double t) {
   return {plan.Coordinates(s, 0), plan.Coordinates(s, 1), plan.Coordinates(s, 2)};
 }
 
-Vector3d RotationVector(const Eigen::Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
-}
-
-Eigen::Matrix3d Exponential(const Vector3d& phi) {
-  const double angle = phi.norm();
-  if (angle == 0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, phi / angle).toRotationMatrix();
-}
-
 /// `turn` followed by exp(phi(t)).
 RootTurn TurnedOnBy(const Signal<Vector3d>& phi, const RootTurn& turn) {
-  const Eigen::Matrix3d R = Exponential(phi.value);
-  const Eigen::Matrix3d J = LeftJacobian(phi.value);
+  const Eigen::Matrix3d R = models::Exponential(phi.value).toRotationMatrix();
+  const Eigen::Matrix3d J = models::LeftJacobian(phi.value);
   const Vector3d own = J * phi.rate;
   const Vector3d carried = R * turn.angular_velocity;
   RootTurn result;
   result.orientation = R * turn.orientation;
   result.angular_velocity = own + carried;
   result.angular_acceleration = J * phi.acceleration +
-                                LeftJacobianRate(phi.value, phi.rate) * phi.rate +
+                                models::LeftJacobianRate(phi.value, phi.rate) * phi.rate +
                                 own.cross(carried) + R * turn.angular_acceleration;
   return result;
 }
@@ -213,11 +202,12 @@ Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const 
   const Signal<VectorXd> planned = Planar(plan, 0);
   const Signal<VectorXd> planned_joints = Joints(plan, 0);
   const RootTurn planned_turn = YawAndPitch(Constant(0), Entry(planned, 0));
-  const Vector3d turned_off =
-      RotationVector(Orientation(from.q).toRotationMatrix() * planned_turn.orientation.transpose());
+  const Vector3d turned_off = models::RotationVector(Orientation(from.q).toRotationMatrix() *
+                                                     planned_turn.orientation.transpose());
   const Vector3d turning_off =
-      LeftJacobian(turned_off).inverse() *
-      (from.v.head<3>() - Exponential(turned_off) * planned_turn.angular_velocity);
+      models::LeftJacobian(turned_off).inverse() *
+      (from.v.head<3>() -
+       models::Exponential(turned_off).toRotationMatrix() * planned_turn.angular_velocity);
   const Vector3d place_off = from.q.segment<3>(4) - Vector3d(planned.value[1], 0, planned.value[2]);
   const Vector3d velocity_off =
       from.v.segment<3>(3) - Vector3d(planned.rate[1], 0, planned.rate[2]);

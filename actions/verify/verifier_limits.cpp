@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "actions/verify/bounded_maximum.h"
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
 namespace {
@@ -62,13 +63,13 @@ struct AngularSpeed {
   ControlPolygon<3, 6> phi;
   ControlPolygon<3, 5> rate;
 
-  double Front() const { return (LeftJacobian(phi.front()) * rate.front()).norm(); }
-  double Back() const { return (LeftJacobian(phi.back()) * rate.back()).norm(); }
+  double Front() const { return (models::LeftJacobian(phi.front()) * rate.front()).norm(); }
+  double Back() const { return (models::LeftJacobian(phi.back()) * rate.back()).norm(); }
   double Bound() const {
     const double longest = rate.points.colwise().norm().maxCoeff();
     const Eigen::Vector3d middle = (phi.front() + phi.back()) / 2;
     const double strays = (phi.points.colwise() - middle).colwise().norm().maxCoeff();
-    const double turned = (LeftJacobian(middle) * rate.points).colwise().norm().maxCoeff();
+    const double turned = (models::LeftJacobian(middle) * rate.points).colwise().norm().maxCoeff();
     return std::min(longest, turned + strays * longest / 2);
   }
   void Halve(AngularSpeed* first, AngularSpeed* second) const {

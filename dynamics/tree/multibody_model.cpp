@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "models/robot/rotation_vector.h"
+
 namespace possibility::dynamics {
 
 namespace {
@@ -156,10 +158,8 @@ VectorXd MultibodyModel::Displaced(const Eigen::Ref<const VectorXd>& q,
     displaced += tangent;
     return displaced;
   }
-  const Eigen::Vector3d turn = tangent.head<3>();
-  const double angle = turn.norm();
-  Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-  if (angle > 0) orientation = Eigen::AngleAxisd(angle, turn / angle) * orientation;
+  Eigen::Quaterniond orientation =
+      models::Exponential(tangent.head<3>()) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   orientation.normalize();
   displaced.head<4>() << orientation.w(), orientation.x(), orientation.y(), orientation.z();
   displaced.tail(nq() - 4) += tangent.tail(nv() - 3);

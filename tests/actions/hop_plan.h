@@ -9,9 +9,9 @@
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/phase_sequence.h"
-#include "actions/plan/interpolation.h"
 #include "dynamics/contact/contact_feasibility.h"
 #include "dynamics/forward/forward_dynamics.h"
+#include "models/robot/rotation_vector.h"
 #include "tests/actions/standing_plan.h"
 
 namespace possibility::actions::testing {
@@ -169,16 +169,16 @@ class Hop {
 
   /// exp(phi(t)) with phi the quintic that dies out, begun at `phi` with angular velocity `omega`.
   static RootTurn Turned(const Eigen::Vector3d& phi, const Eigen::Vector3d& omega, double t) {
-    const Eigen::Vector3d rate = LeftJacobian(phi).inverse() * omega;
+    const Eigen::Vector3d rate = models::LeftJacobian(phi).inverse() * omega;
     const Signal<Eigen::Vector3d> left = DyingOut<Eigen::Vector3d>(phi, rate, t, kAbsorb);
     const double angle = left.value.norm();
     RootTurn turn;
     if (angle > 0) {
       turn.orientation = Eigen::AngleAxisd(angle, left.value / angle).toRotationMatrix();
     }
-    turn.angular_velocity = LeftJacobian(left.value) * left.rate;
-    turn.angular_acceleration = LeftJacobian(left.value) * left.acceleration +
-                                LeftJacobianRate(left.value, left.rate) * left.rate;
+    turn.angular_velocity = models::LeftJacobian(left.value) * left.rate;
+    turn.angular_acceleration = models::LeftJacobian(left.value) * left.acceleration +
+                                models::LeftJacobianRate(left.value, left.rate) * left.rate;
     return turn;
   }
 

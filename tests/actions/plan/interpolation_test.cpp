@@ -11,7 +11,6 @@ namespace possibility::actions {
 namespace {
 
 using Eigen::AngleAxisd;
-using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -48,24 +47,6 @@ std::pair<Knot, Knot> RandomPair(double angle, std::mt19937* generator) {
   const Quaterniond R1 = Quaterniond(AngleAxisd(angle, axis)) * Root(k0);
   k1.q.head<4>() << R1.w(), R1.vec();
   return {k0, k1};
-}
-
-TEST(LeftJacobian, IsTheDerivativeOfTheExponentialMap) {
-  std::mt19937 generator(1);
-  std::normal_distribution<double> normal;
-  for (const double angle : {1e-9, 1e-3, 0.3, 0.999, 1.001, 2.0, 3.1}) {
-    for (int trial = 0; trial < 20; ++trial) {
-      const Vector3d phi =
-          angle * Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
-      const Vector3d rate(normal(generator), normal(generator), normal(generator));
-      const double e = 1e-5;
-      const Vector3d omega = Log(Exp(phi + e * rate) * Exp(phi - e * rate).conjugate()) / (2 * e);
-      EXPECT_LT((LeftJacobian(phi) * rate - omega).norm(), 1e-8) << angle;
-      const Matrix3d difference =
-          (LeftJacobian(phi + e * rate) - LeftJacobian(phi - e * rate)) / (2 * e);
-      EXPECT_LT((LeftJacobianRate(phi, rate) - difference).norm(), 1e-8) << angle;
-    }
-  }
 }
 
 TEST(Interpolate, ReturnsTheKnotsAtBothEnds) {
