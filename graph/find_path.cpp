@@ -59,7 +59,7 @@ class PathFinder {
     FindConfirmedPath();
   }
 
-  [[gnu::noinline]] void FindPath() {
+  void FindPath() {
     q_confirmation_.LaunchThreads(settings_.confirmation_threads);
     while (!deadline_.Passed() && !Answered() && !ImprovementIsOver()) {
       CollectResults();
@@ -288,11 +288,11 @@ class PathFinder {
 
 }  // namespace
 
-// [[gnu::hot]] keeps the code of a straight answer together and apart from the search: cold code
+// keeps the code of a straight answer together and apart from the search: cold code
 // would take longer than the answer itself (docs/performance.md).
-[[gnu::hot]] PathResult FindPath(const Point& start, const std::vector<Point>& goals,
-                                 const std::vector<std::shared_ptr<const Action>>& actions,
-                                 const ExplorationSpace& space, const FindPathSettings& settings) {
+PathResult FindPath(const Point& start, const std::vector<Point>& goals,
+                    const std::vector<std::shared_ptr<const Action>>& actions,
+                    const ExplorationSpace& space, const FindPathSettings& settings) {
   const Deadline deadline(settings.time_limit);
   CheckFindPathArguments(start, goals, actions, settings);
   PathResult straight;

@@ -8,42 +8,20 @@
 namespace possibility::graph {
 namespace {
 
-bool IsPoint(const Point& point, Eigen::Index size) {
-  return point.size() == size && size > 0 && point.allFinite();
-}
-
-// Error messages are built out of line: the checks are on the path of answers that take a
-// microsecond.
-
-[[noreturn, gnu::cold]] void Throw(const std::string& complaint) {
+[[noreturn]] void Throw(const std::string& complaint) {
   throw std::invalid_argument("FindPath: " + complaint);
 }
 
-[[noreturn, gnu::cold]] void ThrowMissing(const char* what) {
-  Throw(std::string("there is no ") + what + ", expected at least one");
-}
-
 template <typename Number>
-[[noreturn, gnu::cold]] void ThrowOutOfRange(const char* setting, Number value,
-                                             const char* expected) {
-  Throw(std::string(setting) + " is " + std::to_string(value) + ", expected " + expected);
+[[noreturn]] void ThrowOutOfRange(const std::string& setting, Number value, const char* expected) {
+  Throw(setting + " is " + std::to_string(value) + ", expected " + expected);
 }
 
-[[noreturn, gnu::cold]] void ThrowNullAction(std::size_t action) {
-  Throw("action " + std::to_string(action) + " is null, expected an action");
-}
-
-[[noreturn, gnu::cold]] void ThrowEmptyExplorer() {
-  Throw("an explorer is empty, expected a function that makes one");
-}
-
-constexpr int kStart = -1;
-
-/// `which`: kStart or the index of a goal.
-[[noreturn, gnu::cold]] void ThrowNoPoint(int which, const Point& point, Eigen::Index size) {
-  Throw((which == kStart ? "the start" : "goal " + std::to_string(which)) + " has " +
-        std::to_string(point.size()) + " numbers, expected " + std::to_string(size) +
-        " finite ones, at least one, as many as the start");
+/// `name`: "the start" or "goal 3".
+void CheckPoint(const std::string& name, const Point& point, Eigen::Index size) {
+  if (point.size() == size && size > 0 && point.allFinite()) return;
+  Throw(name + " has " + std::to_string(point.size()) + " numbers, expected " +
+        std::to_string(size) + " finite ones, at least one, as many as the start");
 }
 
 void CheckSettings(const FindPathSettings& settings) {
@@ -64,36 +42,34 @@ void CheckSettings(const FindPathSettings& settings) {
     ThrowOutOfRange("improvement_share", settings.improvement_share, "a number from 0 to 1");
   }
   for (const ExplorerFactory& explorer : settings.explorers) {
-    if (!explorer) ThrowEmptyExplorer();
+    if (!explorer) Throw("an explorer is empty, expected a function that makes one");
   }
 }
 
-[[gnu::noinline]] void CheckSkipGrowth(const std::string& name, double probability,
-                                       const std::vector<std::shared_ptr<const Action>>& actions) {
+void CheckSkipGrowth(const std::string& name, double probability,
+                     const std::vector<std::shared_ptr<const Action>>& actions) {
   if (std::none_of(actions.begin(), actions.end(),
                    [&](const auto& action) { return action->name() == name; })) {
     Throw("skip_growth names '" + name + "', expected the name of an action");
   }
   if (!(probability >= 0 && probability <= 1)) {
-    ThrowOutOfRange(("skip_growth of " + name).c_str(), probability, "a probability");
+    ThrowOutOfRange("skip_growth of " + name, probability, "a probability");
   }
 }
 
 }  // namespace
 
-[[gnu::hot]] void CheckFindPathArguments(const Point& start, const std::vector<Point>& goals,
-                                         const std::vector<std::shared_ptr<const Action>>& actions,
-                                         const FindPathSettings& settings) {
-  if (actions.empty()) ThrowMissing("action");
-  if (goals.empty()) ThrowMissing("goal");
+void CheckFindPathArguments(const Point& start, const std::vector<Point>& goals,
+                            const std::vector<std::shared_ptr<const Action>>& actions,
+                            const FindPathSettings& settings) {
+  if (actions.empty()) Throw("there is no action, expected at least one");
+  if (goals.empty()) Throw("there is no goal, expected at least one");
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    if (!actions[i]) ThrowNullAction(i);
+    if (!actions[i]) Throw("action " + std::to_string(i) + " is null, expected an action");
   }
-  if (!IsPoint(start, start.size())) ThrowNoPoint(kStart, start, start.size());
+  CheckPoint("the start", start, start.size());
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    if (!IsPoint(goals[i], start.size())) {
-      ThrowNoPoint(static_cast<int>(i), goals[i], start.size());
-    }
+    CheckPoint("goal " + std::to_string(i), goals[i], start.size());
   }
   CheckSettings(settings);
   for (const auto& [name, probability] : settings.skip_growth) {

@@ -72,8 +72,7 @@ std::optional<VertexId> NearestVertices::Closest(const Point& p, const Filter& a
   return best.vertex;
 }
 
-[[gnu::hot]] void NearestVertices::LookThrough(std::size_t block, const Filter& admits,
-                                               Best* best) const {
+void NearestVertices::LookThrough(std::size_t block, const Filter& admits, Best* best) const {
   Eigen::Array<float, kBlock, 1> bound = Eigen::Array<float, kBlock, 1>::Zero();
   for (std::size_t j = 0; j < pivots_.size(); ++j) {
     bound = bound.max((blocks_[block].col(j) - best->from_pivot[j]).abs());

@@ -34,9 +34,9 @@ void SetFound(const Deadline& deadline, PathResult* result) {
 
 }  // namespace
 
-[[gnu::hot]] bool GoStraight(const Point& start, const std::vector<Point>& goals,
-                             const std::vector<std::shared_ptr<const Action>>& actions,
-                             const Deadline& deadline, PathResult* result) {
+bool GoStraight(const Point& start, const std::vector<Point>& goals,
+                const std::vector<std::shared_ptr<const Action>>& actions, const Deadline& deadline,
+                PathResult* result) {
   result->goal = -1;
   for (std::size_t g = 0; g < goals.size(); ++g) {
     if (start == goals[g]) return false;

@@ -1,10 +1,9 @@
-#include "actions/conditions/exploration_pose.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "actions/conditions/exploration_pose.h"
 #include "actions/motion/planar_pose.h"
 
 namespace possibility::actions {
@@ -34,7 +33,7 @@ graph::Point ToPoint(const Isometry3d& X_WR) {
   return point;
 }
 
-[[gnu::hot]] Isometry3d ToPose(const graph::Point& point) {
+Isometry3d ToPose(const graph::Point& point) {
   Isometry3d X_WR = Isometry3d::Identity();
   X_WR.translation() = point.head<3>();
   X_WR.linear() = Orientation(point).normalized().toRotationMatrix();

@@ -158,8 +158,8 @@ double BearingReach(const models::RobotModel& robot, const models::Gait& gait) {
   return reach;
 }
 
-[[gnu::hot]] std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,
-                                                    const Eigen::Isometry3d& X_WR) {
+std::optional<GroundedStance> AsStance(const LocomotionModel& model, int gait,
+                                       const Eigen::Isometry3d& X_WR) {
   constexpr double kTiltTolerance = 1e-6;
   const Eigen::Isometry3d& X_SR = model.gaits[gait]->stance.X_SR;
   const Eigen::Matrix3d R_WS = X_WR.linear() * X_SR.linear().transpose();

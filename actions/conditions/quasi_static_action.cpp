@@ -1,5 +1,3 @@
-#include "actions/conditions/quasi_static_action.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "actions/conditions/blockers.h"
 #include "actions/conditions/exploration_pose.h"
+#include "actions/conditions/quasi_static_action.h"
 
 namespace possibility::actions {
 namespace {
@@ -350,8 +349,7 @@ bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int 
 
 /// Sufficient: true only if samples `first` to `last` - 1 and the ends of their part of the way are
 /// clear. Tests larger boxes around the middle that hold the space covered between the ends.
-[[gnu::hot]] bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first,
-                                                          int last) const {
+bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, int last) const {
   const double turn = std::abs(WrapAngle(way.to.yaw - way.from.pose.yaw));
   const double half_turn = way.HalfShare(first, last) * turn;
   if (!(half_turn <= std::numbers::pi / 2)) return false;
@@ -420,7 +418,7 @@ bool QuasiStaticAction::IsClear(const GroundedStance& from, const GroundedStance
   return PartIsCertainlyClear(way, 0, way.samples) || SamplesAreClear(way);
 }
 
-[[gnu::hot]] bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
+bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
   if (IsForbidden(edge)) return false;
   const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
@@ -441,8 +439,8 @@ bool QuasiStaticAction::CS(const GroundedStance& from, const GroundedStance& to)
   return IsWithinBounds(from) && IsWithinBounds(to) && StraightWayHolds(from, to);
 }
 
-[[gnu::hot]] bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
-                                                      const GroundedStance& to) const {
+bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
+                                         const GroundedStance& to) const {
   if (std::abs(from.z - to.z) > kSamePlace) return false;
   const StraightWay way = WayBetween(from, to);
   const bool is_level = std::abs(from.z - to.z) <= kSamePlace / 4;

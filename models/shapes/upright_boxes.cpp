@@ -36,7 +36,7 @@ UprightBoxes::UprightBoxes(std::vector<AlignedBox3d> boxes) : boxes_(std::move(b
   }
 }
 
-[[gnu::hot]] Prism::Prism(const AlignedBox3d& box, const Isometry3d& X_WS)
+Prism::Prism(const AlignedBox3d& box, const Isometry3d& X_WS)
     : centre((X_WS * box.center()).head<2>()),
       x_axis(X_WS.linear().col(0).head<2>()),
       half_extents(box.sizes().head<2>() / 2),
@@ -56,7 +56,7 @@ Prism::Prism(const PreparedShape& shape, const Isometry3d& X_WC, const AlignedBo
   }
 }
 
-[[gnu::hot]] AlignedBox3d Prism::Bounds() const {
+AlignedBox3d Prism::Bounds() const {
   const Vector2d axis = x_axis.cwiseAbs();
   const Vector2d reach(axis.x() * half_extents.x() + axis.y() * half_extents.y(),
                        axis.y() * half_extents.x() + axis.x() * half_extents.y());
@@ -64,7 +64,7 @@ Prism::Prism(const PreparedShape& shape, const Isometry3d& X_WC, const AlignedBo
           Vector3d(centre.x() + reach.x(), centre.y() + reach.y(), high)};
 }
 
-[[gnu::hot]] bool AreApart(const Prism& a, const Prism& b, double gap) {
+bool AreApart(const Prism& a, const Prism& b, double gap) {
   if (a.low - b.high >= gap || b.low - a.high >= gap) return true;
   const double cosine = std::abs(a.x_axis.dot(b.x_axis));
   const double sine = std::abs(a.x_axis.x() * b.x_axis.y() - a.x_axis.y() * b.x_axis.x());

@@ -251,7 +251,7 @@ bool CollisionChecker::AreFree(const UprightBoxes& boxes, const Isometry3d& X_WS
   return is_free;
 }
 
-[[gnu::hot]] bool CollisionChecker::AreCertainlyFree(const std::vector<Prism>& boxes) const {
+bool CollisionChecker::AreCertainlyFree(const std::vector<Prism>& boxes) const {
   const std::optional<AlignedBox3d> bounds = BoundsOf(boxes);
   if (!bounds) return false;
   bool is_free = true;

@@ -269,8 +269,8 @@ double GroundMap::Clearance(int level, const Vector2d& p) const {
   return impl_->levels.at(level).Clearance(p);
 }
 
-[[gnu::hot]] bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
-                                          double radius) const {
+bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
+                             double radius) const {
   return impl_->levels.at(level).OneFaceHolds(from, to, radius);
 }
 
