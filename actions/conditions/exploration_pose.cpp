@@ -1,9 +1,10 @@
+#include "actions/conditions/exploration_pose.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "actions/conditions/exploration_pose.h"
 #include "actions/motion/planar_pose.h"
 
 namespace possibility::actions {
@@ -38,6 +39,10 @@ Isometry3d ToPose(const graph::Point& point) {
   X_WR.translation() = point.head<3>();
   X_WR.linear() = Orientation(point).normalized().toRotationMatrix();
   return X_WR;
+}
+
+bool IsSamePose(const graph::Point& a, const graph::Point& b) {
+  return (a - b).lpNorm<Eigen::Infinity>() < kSamePose;
 }
 
 double Heading(const Matrix3d& R_WR) { return std::atan2(R_WR(1, 0), R_WR(0, 0)); }

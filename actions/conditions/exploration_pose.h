@@ -11,6 +11,10 @@ namespace possibility::actions {
 graph::Point ToPoint(const Eigen::Isometry3d& X_WR);
 Eigen::Isometry3d ToPose(const graph::Point& point);
 
+/// Poses of which all numbers agree to this are the same, m (and elements of the quaternion).
+inline constexpr double kSamePose = 1e-6;
+bool IsSamePose(const graph::Point& a, const graph::Point& b);
+
 /// Heading of the pelvis: yaw of the decomposition Rz(yaw) Ry(pitch) Rx(roll).
 double Heading(const Eigen::Matrix3d& R_WR);
 

@@ -1,3 +1,5 @@
+#include "actions/conditions/quasi_static_action.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include "actions/conditions/blockers.h"
 #include "actions/conditions/exploration_pose.h"
-#include "actions/conditions/quasi_static_action.h"
 
 namespace possibility::actions {
 namespace {
@@ -15,9 +16,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-/// Heights and positions of points in E agree when closer than this, m.
-constexpr double kSamePlace = 1e-6;
 
 /// Headings agree when closer than this, rad.
 constexpr double kSameHeading = 1e-7;
@@ -84,16 +82,12 @@ double HeadingOnTheWay(const Vector2d& way, double heading) {
 std::optional<Isometry3d> EndOfFirstPart(const Isometry3d& from, const Isometry3d& to,
                                          double offset) {
   const Vector2d way = (to.translation() - from.translation()).head<2>();
-  if (way.norm() < kSamePlace) return std::nullopt;
+  if (way.norm() < kSamePose) return std::nullopt;
   const double heading = offset + HeadingOnTheWay(way, Heading(to.linear()) - offset);
   if (std::abs(WrapAngle(heading - Heading(from.linear()))) > kSameHeading) {
     return WithHeading(from, heading);
   }
   return WithHeading(to, heading);
-}
-
-bool SamePoint(const graph::Point& a, const graph::Point& b) {
-  return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
 }
 
 }  // namespace
@@ -198,9 +192,9 @@ std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {
   const std::vector<double>& levels = world_.ground->levels();
   std::optional<int> only;
   for (size_t level = 0; level < levels.size(); ++level) {
-    if (!(std::abs(levels[level] - z) <= 2 * kSamePlace)) continue;
+    if (!(std::abs(levels[level] - z) <= 2 * kSamePose)) continue;
     if (only) return std::nullopt;
-    if (std::abs(levels[level] - z) <= kSamePlace / 2) only = static_cast<int>(level);
+    if (std::abs(levels[level] - z) <= kSamePose / 2) only = static_cast<int>(level);
   }
   return only;
 }
@@ -214,7 +208,7 @@ std::optional<bool> QuasiStaticAction::FacesHold(int level, const GroundedStance
     for (const Vector2d& p_S : points) {
       const Vector2d p = X_WS * p_S;
       if (world_.ground->OneFaceHolds(level, p, p, clearance + kGroundError)) continue;
-      if (!world_.ground->LevelAt(p, stance.z, kSamePlace)) return false;
+      if (!world_.ground->LevelAt(p, stance.z, kSamePose)) return false;
       all_hold = false;
     }
   }
@@ -223,13 +217,13 @@ std::optional<bool> QuasiStaticAction::FacesHold(int level, const GroundedStance
 
 bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearance) const {
   const Vector2d centre = stance.pose.position();
-  const double all_round = bearing_radii_[stance.gait] + clearance + kSamePlace;
+  const double all_round = bearing_radii_[stance.gait] + clearance + kSamePose;
   std::optional<int> level = OnlyLevelAt(stance.z);
   if (level) {
     if (world_.ground->OneFaceHolds(*level, centre, centre, all_round + kGroundError)) return true;
     if (const std::optional<bool> hold = FacesHold(*level, stance, clearance)) return *hold;
   } else {
-    level = world_.ground->LevelAt(centre, stance.z, kSamePlace);
+    level = world_.ground->LevelAt(centre, stance.z, kSamePose);
   }
   if (level && world_.ground->Clearance(*level, centre) >= all_round) return true;
   const NominalStance& nominal = model_->gaits[stance.gait]->stance;
@@ -237,7 +231,7 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
   for (const std::vector<Vector2d>& points : nominal.bearing_points) {
     for (const Vector2d& p_S : points) {
       const Vector2d p = X_WS * p_S;
-      const std::optional<int> below = world_.ground->LevelAt(p, stance.z, kSamePlace);
+      const std::optional<int> below = world_.ground->LevelAt(p, stance.z, kSamePose);
       if (!below || world_.ground->Clearance(*below, p) < clearance) return false;
     }
   }
@@ -246,7 +240,7 @@ bool QuasiStaticAction::GroundHolds(const GroundedStance& stance, double clearan
 
 bool QuasiStaticAction::IsWithinBounds(const Vector2d& root) const {
   const Eigen::AlignedBox2d& bounds = world_.environment->bounds;
-  return bounds.isEmpty() || bounds.squaredExteriorDistance(root) <= kSamePlace * kSamePlace;
+  return bounds.isEmpty() || bounds.squaredExteriorDistance(root) <= kSamePose * kSamePose;
 }
 
 bool QuasiStaticAction::IsWithinBounds(const GroundedStance& stance) const {
@@ -324,7 +318,7 @@ bool QuasiStaticAction::PartIsOverGround(const StraightWay& way, int level, int 
                                          int last) const {
   const PlanarPose middle = way.At((first + last) / 2.0).pose;
   const double spare = world_.ground->Clearance(level, middle.position()) - bearing_radii_[gait_] -
-                       way.TravelOfSample() - kSamePlace - kGroundError;
+                       way.TravelOfSample() - kSamePose - kGroundError;
   if (spare >= way.HalfWay(first, last).norm()) return true;
   const int split = (first + last) / 2;
   return spare > 0 && split > first && PartIsOverGround(way, level, first, split) &&
@@ -338,7 +332,7 @@ bool QuasiStaticAction::OneFaceHoldsPart(const StraightWay& way, int level, int 
   const Eigen::Isometry2d from = way.At(first).pose.Transform();
   const Eigen::Isometry2d to = way.At(last).pose.Transform();
   const double bend = bearing_radii_[gait_] * (1 - std::cos(half_turn));
-  const double radius = way.TravelOfSample() + bend + kSamePlace + kGroundError;
+  const double radius = way.TravelOfSample() + bend + kSamePose + kGroundError;
   for (const std::vector<Vector2d>& points : model_->gaits[gait_]->stance.bearing_points) {
     for (const Vector2d& p_S : points) {
       if (!world_.ground->OneFaceHolds(level, from * p_S, to * p_S, radius)) return false;
@@ -355,7 +349,7 @@ bool QuasiStaticAction::PartIsCertainlyClear(const StraightWay& way, int first, 
   if (!(half_turn <= std::numbers::pi / 2)) return false;
   const std::optional<int> level = OnlyLevelAt(way.from.z);
   if (!level) return false;
-  const double all_round = bearing_radii_[gait_] + way.TravelOfSample() + kSamePlace + kGroundError;
+  const double all_round = bearing_radii_[gait_] + way.TravelOfSample() + kSamePose + kGroundError;
   const bool one_face_holds = world_.ground->OneFaceHolds(*level, way.At(first).pose.position(),
                                                           way.At(last).pose.position(), all_round);
   if (!one_face_holds && !OneFaceHoldsPart(way, *level, first, last, half_turn) &&
@@ -441,9 +435,9 @@ bool QuasiStaticAction::CS(const GroundedStance& from, const GroundedStance& to)
 
 bool QuasiStaticAction::StraightWayHolds(const GroundedStance& from,
                                          const GroundedStance& to) const {
-  if (std::abs(from.z - to.z) > kSamePlace) return false;
+  if (std::abs(from.z - to.z) > kSamePose) return false;
   const StraightWay way = WayBetween(from, to);
-  const bool is_level = std::abs(from.z - to.z) <= kSamePlace / 4;
+  const bool is_level = std::abs(from.z - to.z) <= kSamePose / 4;
   // The whole way includes its ends.
   if (is_level && PartIsCertainlyClear(way, 0, way.samples)) return true;
   return Examine(to) == StanceFault::kNone && Examine(from) == StanceFault::kNone &&
@@ -459,7 +453,7 @@ const LocomotionModel::TransitionEntry* QuasiStaticAction::FindTransition(
       if (!a) continue;
       const Isometry3d target =
           model_->gaits[transition.to]->stance.RootPose(a->pose * transition.displacement, a->z);
-      if (target.isApprox(ends[1 - first], kSamePlace)) {
+      if (target.isApprox(ends[1 - first], kSamePose)) {
         *start = *a;
         return &transition;
       }
@@ -520,8 +514,8 @@ void QuasiStaticAction::Forbid(const graph::PointPair& edge) { forbidden_.push_b
 
 bool QuasiStaticAction::IsForbidden(const graph::PointPair& edge) const {
   return std::any_of(forbidden_.begin(), forbidden_.end(), [&](const graph::PointPair& other) {
-    return (SamePoint(edge.from, other.from) && SamePoint(edge.to, other.to)) ||
-           (SamePoint(edge.from, other.to) && SamePoint(edge.to, other.from));
+    return (IsSamePose(edge.from, other.from) && IsSamePose(edge.to, other.to)) ||
+           (IsSamePose(edge.from, other.to) && IsSamePose(edge.to, other.from));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "actions/conditions/blockers.h"
+#include "actions/conditions/exploration_pose.h"
 #include "models/shapes/upright_boxes.h"
 #include "models/world/collision.h"
 
@@ -16,7 +17,6 @@ using Boxes = std::vector<Eigen::AlignedBox3d>;
 
 /// The collision checker may err by 0.1 mm towards "not free"; a dead end must not, m.
 constexpr double kCheckerError = 0.0002;
-constexpr double kSamePlace = 1e-6;
 
 /// Largest distance of the first stride's frame from the stance, along the axes of both. C_S of a
 /// straight way tests the swept volume in that frame.
@@ -96,9 +96,9 @@ class DeadEnds {
 };
 
 bool IsSame(const GroundedStance& a, const GroundedStance& b) {
-  return a.gait == b.gait && (a.pose.position() - b.pose.position()).norm() < kSamePlace &&
-         std::abs(WrapAngle(a.pose.yaw - b.pose.yaw)) < kSamePlace &&
-         std::abs(a.z - b.z) < kSamePlace;
+  return a.gait == b.gait && (a.pose.position() - b.pose.position()).norm() < kSamePose &&
+         std::abs(WrapAngle(a.pose.yaw - b.pose.yaw)) < kSamePose &&
+         std::abs(a.z - b.z) < kSamePose;
 }
 
 }  // namespace

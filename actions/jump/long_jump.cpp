@@ -1,10 +1,9 @@
-#include "actions/jump/long_jump.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/jump/jump_reach.h"
+#include "actions/jump/long_jump.h"
 #include "actions/jump/shared_jump_solve.h"
 #include "actions/motion/phase_sequence.h"
 
@@ -14,8 +13,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector2d;
 
-/// Heights and positions of points in E agree when closer than this, m.
-constexpr double kSamePlace = 1e-6;
 /// Headings agree when closer than this, rad.
 constexpr double kSameHeading = 1e-6;
 
@@ -28,8 +25,7 @@ constexpr double kArcSpacing = 0.05;
 constexpr double kWideGround = 0.4;
 
 bool SameTask(const JumpTask& a, const JumpTask& b) {
-  return std::abs(a.distance - b.distance) < kSamePlace &&
-         std::abs(a.height - b.height) < kSamePlace;
+  return std::abs(a.distance - b.distance) < kSamePose && std::abs(a.height - b.height) < kSamePose;
 }
 
 /// Rises from any level to any other, on the library's grid, ascending.
@@ -115,13 +111,13 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
 
 bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double end) const {
   const Vector2d middle = launch.pose * Vector2d((begin + end) / 2, 0);
-  const std::optional<int> level = world().ground->LevelAt(middle, launch.z, kSamePlace);
+  const std::optional<int> level = world().ground->LevelAt(middle, launch.z, kSamePose);
   if (!level) return false;
   const double half = (end - begin) / 2;
   const double clearance = world().ground->Clearance(*level, middle);
   if (clearance >= half + kWideGround) return true;
   // Halving would never end along a boundary exactly at the limit.
-  if (clearance < kWideGround || half < kSamePlace) return false;
+  if (clearance < kWideGround || half < kSamePose) return false;
   return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
 }
 
@@ -129,7 +125,7 @@ bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
   const double begin = -kWideGround;
   const double end = distance + kWideGround;
   const std::optional<int> level =
-      world().ground->LevelAt(launch.pose.position(), launch.z, kSamePlace);
+      world().ground->LevelAt(launch.pose.position(), launch.z, kSamePose);
   if (!level) return false;
   const bool one_face_holds = world().ground->OneFaceHolds(
       *level, launch.pose * Vector2d(begin, 0), launch.pose * Vector2d(end, 0), kWideGround);
@@ -143,7 +139,7 @@ bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
 }
 
 bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const {
-  if (transition_ == nullptr || std::abs(launch.z - landing.z) > kSamePlace) return false;
+  if (transition_ == nullptr || std::abs(launch.z - landing.z) > kSamePose) return false;
   const double distance = (landing.pose.position() - launch.pose.position()).norm();
   if (WayIsOpen(launch, distance)) return true;
   const PlanarPose& displacement = transition_->displacement;
@@ -169,10 +165,10 @@ std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, d
     const double height = forward ? level - stance.z : stance.z - level;
     const auto reach = reach_.Distances(JumpLibrary::OnGrid({0, height}).height);
     if (!reach) continue;
-    const double limit = std::min(distance, reach->second) + kSamePlace;
+    const double limit = std::min(distance, reach->second) + kSamePose;
     for (int i = static_cast<int>(limit / JumpLibrary::kDistanceStep);; --i) {
       const double d = i * JumpLibrary::kDistanceStep;
-      if (d < reach->first - kSamePlace || d <= longest) break;
+      if (d < reach->first - kSamePose || d <= longest) break;
       const GroundedStance end{forward ? to() : from(),
                                stance.pose * PlanarPose{forward ? d : -d, 0, 0}, level};
       if (!(forward ? landing_gait() : launch_gait()).GroundHolds(end, 0) ||
@@ -234,7 +230,7 @@ std::optional<LongJump::Leap> LongJump::AsLeap(const graph::PointPair& edge) con
   const PlanarPose ahead = launch->pose.Inverse() * landing->pose;
   const JumpTask exact{ahead.x, landing->z - launch->z};
   const JumpTask task = JumpLibrary::OnGrid(exact);
-  if (!SameTask(task, exact) || std::abs(ahead.y) > kSamePlace ||
+  if (!SameTask(task, exact) || std::abs(ahead.y) > kSamePose ||
       std::abs(WrapAngle(ahead.yaw)) > kSameHeading) {
     return std::nullopt;
   }

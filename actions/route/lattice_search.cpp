@@ -9,6 +9,7 @@
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/gait/gait_motion.h"
+#include "graph/vertex_index.h"
 
 namespace possibility::actions {
 namespace {
@@ -21,8 +22,6 @@ constexpr double kAheadStep = 0.05;
 
 /// Largest number of halvings of a blocked stride ahead.
 constexpr int kMostHalvings = 3;
-
-constexpr double kSamePoint = 1e-9;
 
 }  // namespace
 
@@ -251,7 +250,7 @@ void LatticeSearch::Manoeuvres(int node) {
     const std::optional<graph::Point> launch =
         manoeuvre.FindLaunchPoint(v, PointAhead(node, kMostAhead));
     if (!launch) continue;
-    if ((*launch - v).norm() > kSamePoint) {
+    if ((*launch - v).norm() > graph::kSamePointDistance) {
       WalkTo(*launch, node);
       continue;
     }
@@ -291,7 +290,7 @@ graph::Point LatticeSearch::PointAhead(int node, double distance) const {
 bool LatticeSearch::Launches(const SearchedManoeuvre& manoeuvre, const graph::Point& v,
                              const graph::Point& end) const {
   const std::optional<graph::Point> launch = manoeuvre.FindLaunchPoint(v, end);
-  return launch && (*launch - v).norm() < kSamePoint;
+  return launch && (*launch - v).norm() < graph::kSamePointDistance;
 }
 
 /// Possible landings of a manoeuvre straight ahead from a node, far ones first.
@@ -299,11 +298,12 @@ std::vector<graph::Point> LatticeSearch::Landings(int node,
                                                   const SearchedManoeuvre& manoeuvre) const {
   std::vector<graph::Point> landings;
   const graph::Point v = PointOf(nodes_[node].stance);
-  for (double distance = kMostAhead; distance > kLeastAhead - kSamePoint;) {
+  for (double distance = kMostAhead; distance > kLeastAhead - graph::kSamePointDistance;) {
     graph::Point end = manoeuvre.ExtendTowards(v, PointAhead(node, distance));
     const double length = (end - v).head<2>().norm();
-    if (length < kSamePoint) break;
-    if (landings.empty() || (landings.back() - end).norm() > kSamePoint) landings.push_back(end);
+    if (length < graph::kSamePointDistance) break;
+    if (landings.empty() || (landings.back() - end).norm() > graph::kSamePointDistance)
+      landings.push_back(end);
     distance = std::min(distance, length) - kAheadStep;
   }
   return landings;
@@ -332,14 +332,14 @@ std::size_t LatticeSearch::EndOfStraight(const std::vector<int>& way, std::size_
   const auto stance = [&](std::size_t i) { return nodes_[way[i]].stance; };
   const auto is_stride = [&](std::size_t i) {
     return nodes_[way[i]].action == stance(i).gait && stance(i).gait == stance(i - 1).gait &&
-           std::abs(stance(i).pose.yaw - stance(i - 1).pose.yaw) < kSamePoint;
+           std::abs(stance(i).pose.yaw - stance(i - 1).pose.yaw) < graph::kSamePointDistance;
   };
   const auto direction = [&](std::size_t i) {
     return (stance(i).pose.position() - stance(i - 1).pose.position()).normalized();
   };
   std::size_t last = first;
   while (last + 1 < way.size() && is_stride(last) && is_stride(last + 1) &&
-         (direction(last + 1) - direction(first)).norm() < kSamePoint) {
+         (direction(last + 1) - direction(first)).norm() < graph::kSamePointDistance) {
     ++last;
   }
   return last;

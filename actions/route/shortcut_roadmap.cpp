@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
+#include "graph/vertex_index.h"
 
 namespace possibility::actions {
 namespace {
@@ -16,9 +17,7 @@ constexpr std::size_t kMostPlaces = 32;
 /// Spacing of places within legs of the route, m.
 constexpr double kPlaceSpacing = 0.4;
 
-constexpr double kSamePlace = 1e-9;
-
-bool SameHeight(double a, double b) { return std::abs(a - b) < kSamePlace; }
+bool SameHeight(double a, double b) { return std::abs(a - b) < graph::kSamePointDistance; }
 
 }  // namespace
 
@@ -106,7 +105,7 @@ void ShortcutRoadmap::AddHopsBetween(int i, int j) {
     return;
   }
   const Eigen::Vector2d way = places_[j].p - places_[i].p;
-  if (way.norm() < kSamePlace) return;
+  if (way.norm() < graph::kSamePointDistance) return;
   const double heading = std::atan2(way.y(), way.x());
   for (const double yaw : {heading, heading + std::numbers::pi}) {
     AddStraightHop(i, j, yaw);
@@ -177,7 +176,7 @@ void ShortcutRoadmap::AddHop(Hop hop, const std::vector<GroundedStance>& stances
 
 Hop ShortcutRoadmap::Turn(int place, double from_yaw, double to_yaw) const {
   Hop turn{.from = place, .to = place, .start_yaw = from_yaw, .end_yaw = to_yaw};
-  if (std::abs(WrapAngle(to_yaw - from_yaw)) < kSamePlace) return turn;
+  if (std::abs(WrapAngle(to_yaw - from_yaw)) < graph::kSamePointDistance) return turn;
   const auto edge = Edge(StanceAt(place, from_yaw), StanceAt(place, to_yaw));
   turn.duration = (*space_.gaits)[edge->action]->ExpectedDuration(edge->points);
   turn.edges = {*edge};
@@ -195,9 +194,10 @@ std::optional<PlanarPose> ShortcutRoadmap::Displacement(int from_gait, int to_ga
 
 std::optional<graph::PathEdge> ShortcutRoadmap::Edge(const GroundedStance& from,
                                                      const GroundedStance& to) const {
-  const bool same = from.gait == to.gait &&
-                    (from.pose.position() - to.pose.position()).norm() < kSamePlace &&
-                    std::abs(WrapAngle(from.pose.yaw - to.pose.yaw)) < kSamePlace;
+  const bool same =
+      from.gait == to.gait &&
+      (from.pose.position() - to.pose.position()).norm() < graph::kSamePointDistance &&
+      std::abs(WrapAngle(from.pose.yaw - to.pose.yaw)) < graph::kSamePointDistance;
   if (same) return std::nullopt;
   const auto point = [&](const GroundedStance& stance) {
     return ToPoint(space_.model->gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
