@@ -1,11 +1,13 @@
+#include "actions/jump/long_jump.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/jump/jump_reach.h"
-#include "actions/jump/long_jump.h"
 #include "actions/jump/shared_jump_solve.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/sagittal/bare_ground.h"
 
 namespace possibility::actions {
 namespace {
@@ -345,7 +347,8 @@ LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) cons
     }
   }
   const auto poses = std::make_shared<const MotionPoses>(*model().robot, jump->phases);
-  const std::string hit = FirstHitOnBareGround(*model().robot, solver_->model(), *jump, *poses);
+  const std::string hit = FirstHitOnBareGround(*model().robot, solver_->model(),
+                                               jump->task.distance, jump->task.height, *poses);
   const std::lock_guard lock(mutex_);
   return solved_.emplace_back(Solved{std::move(jump), poses, hit});
 }

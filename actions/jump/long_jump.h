@@ -9,7 +9,8 @@
 #include "actions/conditions/manoeuvre.h"
 #include "actions/conditions/pelvis_clearance.h"
 #include "actions/jump/jump_library.h"
-#include "actions/jump/placed_jump.h"
+#include "actions/jump/jump_solver.h"
+#include "actions/motion/motion_collision.h"
 #include "models/world/collision.h"
 
 namespace possibility::actions {

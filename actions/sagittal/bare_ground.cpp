@@ -6,6 +6,7 @@
 
 #include "actions/sagittal/sagittal_problem.h"
 #include "actions/verify/verifier.h"
+#include "models/world/collision.h"
 #include "models/world/scenario.h"
 
 namespace possibility::actions {
@@ -23,15 +24,11 @@ models::Obstacle Floor(const std::string& name, double x, double height) {
   return floor;
 }
 
-/// Floors end at the contacts of the stances. If they overlapped, one would lie on top of the
-/// other.
-models::Scenario BareGround(const SagittalModel& model, const NominalStance& launch,
-                            const NominalStance& landing, double distance, double height) {
-  const collocation::Bounds gap = GapBetween(model, distance);
-  const double landing_begin = std::max(gap.lower, gap.upper);
+models::Scenario ScenarioOnBareGround(const SagittalModel& model, const NominalStance& launch,
+                                      const NominalStance& landing, double distance,
+                                      double height) {
   models::Scenario scenario;
-  scenario.environment.obstacles = {Floor("launch ground", gap.lower - kVast / 2, 0),
-                                    Floor("landing ground", landing_begin + kVast / 2, height)};
+  scenario.environment = BareGround(model, distance, height);
   scenario.environment.bounds = {Eigen::Vector2d(-kVast, -kVast), Eigen::Vector2d(kVast, kVast)};
   scenario.start.action = launch.gait->name;
   models::Stance goal;
@@ -45,11 +42,28 @@ models::Scenario BareGround(const SagittalModel& model, const NominalStance& lau
 
 }  // namespace
 
+models::Environment BareGround(const SagittalModel& model, double distance, double height) {
+  const collocation::Bounds gap = GapBetween(model, distance);
+  // If the floors overlapped, one would lie on top of the other.
+  const double landing_begin = std::max(gap.lower, gap.upper);
+  models::Environment environment;
+  environment.obstacles = {Floor("launch ground", gap.lower - kVast / 2, 0),
+                           Floor("landing ground", landing_begin + kVast / 2, height)};
+  return environment;
+}
+
+std::string FirstHitOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
+                                 double distance, double height, const MotionPoses& poses) {
+  const models::Environment environment = BareGround(model, distance, height);
+  const models::CollisionChecker checker(robot, environment);
+  return FirstHit(robot, environment, checker, poses, Eigen::Isometry3d::Identity());
+}
+
 std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
                               const NominalStance& launch, const NominalStance& landing,
                               double distance, double height, const std::vector<Phase>& phases,
                               bool simulates) {
-  const models::Scenario scenario = BareGround(model, launch, landing, distance, height);
+  const models::Scenario scenario = ScenarioOnBareGround(model, launch, landing, distance, height);
   Plan plan;
   plan.robot_hash = robot.content_hash;
   plan.scenario_hash = scenario.content_hash;

@@ -3,15 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "actions/motion/motion_collision.h"
 #include "actions/plan/plan.h"
 #include "actions/sagittal/sagittal_model.h"
+#include "models/world/environment.h"
 
 namespace possibility::actions {
 
-/// Verifies a motion from stance to stance in a world of two floors, at the heights of launch and
-/// landing. `distance` and `height`: of the landing stance's frame in the launch stance's, m.
-/// `phases`: in the launch stance's frame. Simulates them only on request. A fault found here does
-/// not depend on the scene. Returns the worst one; empty if there is none.
+/// The ground that a motion from stance to stance needs at least: two floors, at the heights of
+/// launch and landing, that end 1 mm beyond the contacts of the stances. `distance` and `height`:
+/// of the landing stance's frame in the launch stance's, m.
+models::Environment BareGround(const SagittalModel& model, double distance, double height);
+
+/// What a motion hits on its bare ground, and therefore in any world: "hits 'landing ground' with
+/// Body_RAR at 1.30 s"; empty if nothing. `poses`: in the launch stance's frame.
+std::string FirstHitOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
+                                 double distance, double height, const MotionPoses& poses);
+
+/// Verifies a motion from stance to stance on its bare ground. `phases`: in the launch stance's
+/// frame. Simulates them only on request. A fault found here does not depend on the scene. Returns
+/// the worst one; empty if there is none.
 std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
                               const NominalStance& launch, const NominalStance& landing,
                               double distance, double height, const std::vector<Phase>& phases,
