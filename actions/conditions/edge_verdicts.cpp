@@ -1,17 +1,12 @@
 #include "actions/conditions/edge_verdicts.h"
 
+#include "actions/conditions/exploration_pose.h"
+
 namespace possibility::actions {
 namespace {
 
-/// Points of E closer than this are equal, m.
-constexpr double kSamePlace = 1e-6;
-
-bool SamePoint(const graph::Point& a, const graph::Point& b) {
-  return (a - b).lpNorm<Eigen::Infinity>() < kSamePlace;
-}
-
 bool SameEdge(const graph::PointPair& a, const graph::PointPair& b) {
-  return SamePoint(a.from, b.from) && SamePoint(a.to, b.to);
+  return IsSamePose(a.from, b.from) && IsSamePose(a.to, b.to);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Refusal {
 /// What confirmation jobs and the planner found out about the edges of one action. Thread-safe.
 class EdgeVerdicts {
  public:
-  /// The last verdict on an edge counts. Edges are the same if their points agree to 1e-6.
+  /// The last verdict on an edge counts. Edges are the same if their ends are (IsSamePose).
   void Record(const graph::PointPair& edge, bool possible, const std::string& reason);
 
   /// Whether the edge is possible; none if nobody has decided.
