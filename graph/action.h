@@ -11,7 +11,7 @@
 namespace possibility::graph {
 
 /// A directed edge of E, from one point to another.
-struct PointPair {
+struct Edge {
   Point from;
   Point to;
 };
@@ -30,18 +30,18 @@ class Action {
 
   /// Necessary conditions: false only if the action is impossible there.
   virtual bool CN(const Point& vertex) const = 0;
-  virtual bool CN(const PointPair& edge) const = 0;
+  virtual bool CN(const Edge& edge) const = 0;
 
   /// Sufficient conditions: true only if the action certainly succeeds there. An edge may be an
   /// extension of this action or a transition into it.
   virtual bool CS(const Point& vertex) const = 0;
-  virtual bool CS(const PointPair& edge) const = 0;
+  virtual bool CS(const Edge& edge) const = 0;
 
   /// Whether exploration may append the vertex or edge. By default C_N, as in the paper. Actions
   /// whose confirmation jobs decide nothing return C_S, as the paper's experiments do (see its
   /// Limitations).
   virtual bool Explorable(const Point& vertex) const { return CN(vertex); }
-  virtual bool Explorable(const PointPair& edge) const { return CN(edge); }
+  virtual bool Explorable(const Edge& edge) const { return CN(edge); }
 
   /// The points after `v` on a path from `v` into this action's condition manifold; empty if there
   /// is none.
@@ -51,12 +51,12 @@ class Action {
   virtual bool IsReversible() const = 0;
 
   /// Expected execution time of an edge, s: the weight of ShortestPath.
-  virtual double ExpectedDuration(const PointPair& edge) const = 0;
+  virtual double ExpectedDuration(const Edge& edge) const = 0;
 
   /// A job that decides whether an edge that meets only C_N is feasible. Null if this action has no
   /// such job; the edge is then refuted. The job may outlive the call but not the action, and runs
   /// concurrently with further calls to the action.
-  virtual std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const = 0;
+  virtual std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const Edge& edge) const = 0;
 
   /// Mean time budget, s, of all condition checks of this action in one exploration cycle. On a
   /// single thread, jobs and exploration divide their time by it. If exploration takes more than

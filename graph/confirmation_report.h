@@ -16,7 +16,7 @@ enum class JobOutcome {
 /// The outcome of one confirmation job.
 struct ConfirmationReport {
   int action = 0;  ///< the action that spawned the job
-  PointPair points;
+  Edge points;
   JobOutcome outcome = JobOutcome::kFailed;
   std::string reason;  ///< the job's own if refuted or undecided; the exception's text if it threw
   double seconds = 0;  ///< running time, without pauses

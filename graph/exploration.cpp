@@ -96,7 +96,7 @@ bool Exploration::AppendEdge(int a, VertexId from, VertexId to) {
       known && master.possibility(*known) == Possibility::kPossible) {
     return true;
   }
-  const PointPair points = {master.point(from), master.point(to)};
+  const Edge points = {master.point(from), master.point(to)};
   const bool is_sure = action.CS(points);
   if (!is_sure && !(action.Explorable(points.to) && action.Explorable(points))) {
     return false;

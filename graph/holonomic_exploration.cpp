@@ -94,7 +94,7 @@ bool HolonomicExploration::AppendEdge(const Point& v_p, Execution execution,
     return false;
   }
   const Point& last = master.point(v_last);
-  if (!action_.Explorable(forward ? PointPair{last, v_p} : PointPair{v_p, last})) {
+  if (!action_.Explorable(forward ? Edge{last, v_p} : Edge{v_p, last})) {
     ++*edges_rejected_;
     return false;
   }

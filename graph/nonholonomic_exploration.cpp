@@ -78,11 +78,11 @@ bool NonholonomicExploration::LaunchFrom(VertexId v, const Point& p_target, NewE
   if (!launch) {
     return false;
   }
-  const PointPair edge = {*launch, action_.ExtendTowards(*launch, p_target)};
+  const Edge edge = {*launch, action_.ExtendTowards(*launch, p_target)};
   if (SamePoint(point, *launch)) {
     return IsExplorable(edge) && AppendEdges(edge, std::nullopt, found);
   }
-  return IsExplorable(edge) && AppendEdges(edge, PointPair{point, *launch}, found);
+  return IsExplorable(edge) && AppendEdges(edge, Edge{point, *launch}, found);
 }
 
 bool NonholonomicExploration::LandAt(VertexId v, const Point& p_target, NewElements* found) {
@@ -91,21 +91,21 @@ bool NonholonomicExploration::LandAt(VertexId v, const Point& p_target, NewEleme
   if (!landing) {
     return false;
   }
-  const PointPair edge = {action_.ReverseExtend(*landing, p_target), *landing};
+  const Edge edge = {action_.ReverseExtend(*landing, p_target), *landing};
   if (SamePoint(*landing, point)) {
     return IsExplorable(edge) && AppendEdges(edge, std::nullopt, found);
   }
-  return IsExplorable(edge) && AppendEdges(edge, PointPair{*landing, point}, found);
+  return IsExplorable(edge) && AppendEdges(edge, Edge{*landing, point}, found);
 }
 
-bool NonholonomicExploration::IsExplorable(const PointPair& edge) {
+bool NonholonomicExploration::IsExplorable(const Edge& edge) {
   const bool explorable = !SamePoint(edge.from, edge.to) && action_.Explorable(edge.from) &&
                           action_.Explorable(edge.to) && action_.Explorable(edge);
   *rejected_ += !explorable;
   return explorable;
 }
 
-std::optional<int> NonholonomicExploration::WhoLinesUp(const PointPair& line_up) const {
+std::optional<int> NonholonomicExploration::WhoLinesUp(const Edge& line_up) const {
   const PossibilityGraph& master = *context().master;
   const std::optional<VertexId> from = master.FindVertexAt(line_up.from);
   const std::optional<VertexId> to = master.FindVertexAt(line_up.to);
@@ -120,8 +120,7 @@ std::optional<int> NonholonomicExploration::WhoLinesUp(const PointPair& line_up)
   return std::nullopt;
 }
 
-bool NonholonomicExploration::AppendEdges(const PointPair& edge,
-                                          const std::optional<PointPair>& line_up,
+bool NonholonomicExploration::AppendEdges(const Edge& edge, const std::optional<Edge>& line_up,
                                           NewElements* found) {
   PossibilityGraph& master = *context().master;
   const std::optional<VertexId> from = master.FindVertexAt(edge.from);

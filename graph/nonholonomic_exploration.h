@@ -26,11 +26,10 @@ class NonholonomicExploration : public ActionExploration {
   bool LandAt(VertexId v, const Point& p_target, NewElements* found);
 
   /// Whether the edge and its ends are possibilities of this action.
-  bool IsExplorable(const PointPair& edge);
+  bool IsExplorable(const Edge& edge);
   /// The first other action that can take the robot along a line-up edge; nothing if none can.
-  std::optional<int> WhoLinesUp(const PointPair& line_up) const;
-  bool AppendEdges(const PointPair& edge, const std::optional<PointPair>& line_up,
-                   NewElements* found);
+  std::optional<int> WhoLinesUp(const Edge& line_up) const;
+  bool AppendEdges(const Edge& edge, const std::optional<Edge>& line_up, NewElements* found);
   VertexId AppendVertex(const Point& point, NewElements* found);
 
   void RecursivelySetUpstreamVerticesToFalse(VertexId v, Useful* useful) const;

@@ -88,7 +88,7 @@ void PathConfirmation::SpawnConfirmationJob(int examination) {
   Examination& examined = examinations_[examination];
   while (examined.next < static_cast<int>(actions_.size())) {
     const int a = ActionAt(examined.edge, examined.next++);
-    const PointPair points = PointsFor(examined.edge, a);
+    const Edge points = PointsFor(examined.edge, a);
     if (!actions_[a]->CN(points)) {
       continue;
     }
@@ -222,7 +222,7 @@ int PathConfirmation::ActionAt(EdgeId edge, int position) const {
   return position <= own ? position - 1 : position;
 }
 
-PointPair PathConfirmation::PointsFor(EdgeId edge, int action) const {
+Edge PathConfirmation::PointsFor(EdgeId edge, int action) const {
   const auto opposite = master_->opposite(edge);
   const bool as_found = action == master_->action(edge) && opposite;
   return master_->points(as_found ? std::min(edge, *opposite) : edge);

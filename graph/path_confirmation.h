@@ -73,7 +73,7 @@ class PathConfirmation {
   /// The order in which actions are asked: first the action that found the edge, then the others.
   int ActionAt(EdgeId edge, int position) const;
   /// The points of the edge as `action` is asked for them.
-  PointPair PointsFor(EdgeId edge, int action) const;
+  Edge PointsFor(EdgeId edge, int action) const;
   /// The edge, and its opposite unless that is already confirmed.
   std::vector<EdgeId> OpenPair(EdgeId edge) const;
 

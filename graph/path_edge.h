@@ -8,7 +8,7 @@ namespace possibility::graph {
 /// One edge of a path: its action and its points.
 struct PathEdge {
   int action = 0;
-  PointPair points;
+  Edge points;
   VertexId from = -1;  ///< of GraphSnapshot; -1 if the edge was only proposed
   VertexId to = -1;    ///< likewise
 };

@@ -195,7 +195,7 @@ bool PossibilityGraph::LeadsWithin(VertexId from, VertexId to, double limit,
   return false;
 }
 
-PointPair PossibilityGraph::points(EdgeId edge) const {
+Edge PossibilityGraph::points(EdgeId edge) const {
   return {points_[topology_.from(edge)], points_[topology_.to(edge)]};
 }
 

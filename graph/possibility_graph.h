@@ -105,7 +105,7 @@ class PossibilityGraph {
   const ExplorationSpace& space() const { return *space_; }
   const DirectedGraph& topology() const { return topology_; }
   const Point& point(VertexId vertex) const { return points_[vertex]; }
-  PointPair points(EdgeId edge) const;
+  Edge points(EdgeId edge) const;
   int action(EdgeId edge) const { return edges_[edge].action; }
   /// Expected duration, s.
   double duration(EdgeId edge) const { return edges_[edge].duration; }
@@ -122,7 +122,7 @@ class PossibilityGraph {
   int num_changes(int action) const { return num_changes_[action]; }
 
  private:
-  struct Edge {
+  struct EdgeRecord {
     int action = 0;
     double duration = 0;
     std::optional<EdgeId> opposite;
@@ -136,7 +136,7 @@ class PossibilityGraph {
   const ExplorationSpace* space_;
   DirectedGraph topology_;
   std::vector<Point> points_;
-  std::vector<Edge> edges_;
+  std::vector<EdgeRecord> edges_;
   VertexIndex index_;
   Reachability downstream_from_start_{&topology_, Reachability::Direction::kDownstream};
   Reachability upstream_from_goal_{&topology_, Reachability::Direction::kUpstream};

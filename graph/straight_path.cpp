@@ -7,7 +7,7 @@ namespace possibility::graph {
 namespace {
 
 /// The first action that C_S lets move along `edge`; nothing if there is none or time is up.
-std::optional<int> FirstSure(const PointPair& edge,
+std::optional<int> FirstSure(const Edge& edge,
                              const std::vector<std::shared_ptr<const Action>>& actions,
                              const Deadline& deadline) {
   for (std::size_t action = 0; action < actions.size() && !deadline.Passed(); ++action) {
@@ -40,7 +40,7 @@ bool GoStraight(const Point& start, const std::vector<Point>& goals,
   result->goal = -1;
   for (std::size_t g = 0; g < goals.size(); ++g) {
     if (start == goals[g]) return false;
-    PointPair edge{start, goals[g]};
+    Edge edge{start, goals[g]};
     const std::optional<int> action = FirstSure(edge, actions, deadline);
     if (!action) continue;
     const double duration = actions[*action]->ExpectedDuration(edge);

@@ -5,13 +5,13 @@
 namespace possibility::actions {
 namespace {
 
-bool SameEdge(const graph::PointPair& a, const graph::PointPair& b) {
+bool SameEdge(const graph::Edge& a, const graph::Edge& b) {
   return IsSamePose(a.from, b.from) && IsSamePose(a.to, b.to);
 }
 
 }  // namespace
 
-void EdgeVerdicts::Record(const graph::PointPair& edge, bool possible, const std::string& reason) {
+void EdgeVerdicts::Record(const graph::Edge& edge, bool possible, const std::string& reason) {
   const std::lock_guard lock(mutex_);
   for (Verdict& verdict : verdicts_) {
     if (!SameEdge(verdict.edge, edge)) continue;
@@ -21,7 +21,7 @@ void EdgeVerdicts::Record(const graph::PointPair& edge, bool possible, const std
   verdicts_.push_back({edge, possible, reason});
 }
 
-std::optional<bool> EdgeVerdicts::On(const graph::PointPair& edge) const {
+std::optional<bool> EdgeVerdicts::On(const graph::Edge& edge) const {
   const std::lock_guard lock(mutex_);
   for (const Verdict& verdict : verdicts_) {
     if (SameEdge(verdict.edge, edge)) return verdict.possible;

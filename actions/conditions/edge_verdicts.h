@@ -11,7 +11,7 @@ namespace possibility::actions {
 
 /// An edge known to be impossible, and the reason.
 struct Refusal {
-  graph::PointPair edge;
+  graph::Edge edge;
   std::string reason;
 };
 
@@ -19,17 +19,17 @@ struct Refusal {
 class EdgeVerdicts {
  public:
   /// The last verdict on an edge counts. Edges are the same if their ends are (IsSamePose).
-  void Record(const graph::PointPair& edge, bool possible, const std::string& reason);
+  void Record(const graph::Edge& edge, bool possible, const std::string& reason);
 
   /// Whether the edge is possible; none if nobody has decided.
-  std::optional<bool> On(const graph::PointPair& edge) const;
+  std::optional<bool> On(const graph::Edge& edge) const;
 
   /// Edges found impossible, in the order of recording.
   std::vector<Refusal> Refusals() const;
 
  private:
   struct Verdict {
-    graph::PointPair edge;
+    graph::Edge edge;
     bool possible = false;
     std::string reason;
   };

@@ -38,12 +38,12 @@ bool Manoeuvre::CN(const graph::Point& vertex) const {
   return launch_->CS(vertex) || landing_->CS(vertex);
 }
 
-bool Manoeuvre::Explorable(const graph::PointPair& edge) const {
+bool Manoeuvre::Explorable(const graph::Edge& edge) const {
   return LaunchStance(edge.from) && LandingStance(edge.to) && CN(edge);
 }
 
 std::unique_ptr<graph::ConfirmationJob> Manoeuvre::SpawnConfirmationJob(
-    const graph::PointPair& edge) const {
+    const graph::Edge& edge) const {
   if (!CN(edge)) return nullptr;
   return std::make_unique<MotionJob>(*this, checker_, edge);
 }

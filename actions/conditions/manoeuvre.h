@@ -54,22 +54,22 @@ class Manoeuvre : public graph::NonholonomicAction {
   bool Explorable(const graph::Point& vertex) const override { return CN(vertex); }
 
   /// Necessary conditions of an edge: optimistic and cheap.
-  bool CN(const graph::PointPair& edge) const override = 0;
+  bool CN(const graph::Edge& edge) const override = 0;
   /// False unless overridden: every edge needs its job.
-  bool CS(const graph::PointPair&) const override { return false; }
+  bool CS(const graph::Edge&) const override { return false; }
   /// C_N of an edge that joins nominal stances of the two gaits.
-  bool Explorable(const graph::PointPair& edge) const override;
+  bool Explorable(const graph::Edge& edge) const override;
 
   /// A MotionJob if C_N holds (motion_job.h): it generates the motion and checks it for collisions.
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair& edge) const override;
+      const graph::Edge& edge) const override;
 
   /// Motion of an edge in the world frame, from rest in the launch stance to rest in the landing
   /// stance, times from 0. Deterministic: the same edge has the same motion. Called from any
   /// thread, by jobs for edges that meet C_N and by the planner for confirmed edges. `keep_going`:
   /// to be called every few milliseconds, may be empty.
   /// @throws MotionError if there is no motion; Abandoned if `keep_going` returns false.
-  virtual std::vector<Phase> Motion(const graph::PointPair& edge,
+  virtual std::vector<Phase> Motion(const graph::Edge& edge,
                                     const std::function<bool()>& keep_going) const = 0;
 
   /// Bounds that the floods may rely on; none unless overridden.
@@ -82,7 +82,7 @@ class Manoeuvre : public graph::NonholonomicAction {
   /// Reports that the motion of a confirmed edge has a fault that does not depend on the place. A
   /// manoeuvre that has the same motion elsewhere should exclude it there. Does nothing unless
   /// overridden.
-  virtual void RefuteEverywhere(const graph::PointPair&) {}
+  virtual void RefuteEverywhere(const graph::Edge&) {}
 
   const LocomotionModel& model() const { return *model_; }
   const World& world() const { return world_; }

@@ -7,7 +7,7 @@
 namespace possibility::actions {
 
 MotionJob::MotionJob(const Manoeuvre& manoeuvre,
-                     std::shared_ptr<const models::CollisionChecker> checker, graph::PointPair edge)
+                     std::shared_ptr<const models::CollisionChecker> checker, graph::Edge edge)
     : manoeuvre_(manoeuvre), checker_(std::move(checker)), edge_(std::move(edge)) {}
 
 graph::JobVerdict MotionJob::Run(graph::JobControl* control) {

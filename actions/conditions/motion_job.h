@@ -16,7 +16,7 @@ class MotionJob : public graph::ConfirmationJob {
  public:
   /// `manoeuvre` must outlive the job. `checker`: for the manoeuvre's robot and environment.
   MotionJob(const Manoeuvre& manoeuvre, std::shared_ptr<const models::CollisionChecker> checker,
-            graph::PointPair edge);
+            graph::Edge edge);
 
   graph::JobVerdict Run(graph::JobControl* control) override;
   std::string reason() const override { return reason_; }
@@ -26,7 +26,7 @@ class MotionJob : public graph::ConfirmationJob {
 
   const Manoeuvre& manoeuvre_;
   std::shared_ptr<const models::CollisionChecker> checker_;
-  graph::PointPair edge_;
+  graph::Edge edge_;
   std::string reason_;
 };
 

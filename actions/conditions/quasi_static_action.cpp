@@ -163,7 +163,7 @@ bool QuasiStaticAction::CN(const graph::Point& vertex) const {
   return pelvis_.IsFree(X_WR) && SomeLimbReachesGround(X_WR);
 }
 
-bool QuasiStaticAction::CN(const graph::PointPair& edge) const {
+bool QuasiStaticAction::CN(const graph::Edge& edge) const {
   const Isometry3d from = ToPose(edge.from);
   const Isometry3d to = ToPose(edge.to);
   const double length = (to.translation() - from.translation()).norm();
@@ -412,7 +412,7 @@ bool QuasiStaticAction::IsClear(const GroundedStance& from, const GroundedStance
   return PartIsCertainlyClear(way, 0, way.samples) || SamplesAreClear(way);
 }
 
-bool QuasiStaticAction::CS(const graph::PointPair& edge) const {
+bool QuasiStaticAction::CS(const graph::Edge& edge) const {
   if (IsForbidden(edge)) return false;
   const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
@@ -482,7 +482,7 @@ std::vector<graph::Point> QuasiStaticAction::TransitionFrom(const graph::Point& 
         forward ? transition.displacement : transition.displacement.Inverse();
     const graph::Point target =
         ToPoint(model_->gaits[gait_]->stance.RootPose(stance->pose * displacement, stance->z));
-    if (CS(graph::PointPair{v, target}) && CS(target)) return {target};
+    if (CS(graph::Edge{v, target}) && CS(target)) return {target};
   }
   return {};
 }
@@ -493,7 +493,7 @@ double QuasiStaticAction::ExpectedDuration(const PlanarPose& from, const PlanarP
   return gait.motion->ExpectedDuration(static_cast<int>(strides.size()) - 1);
 }
 
-double QuasiStaticAction::ExpectedDuration(const graph::PointPair& edge) const {
+double QuasiStaticAction::ExpectedDuration(const graph::Edge& edge) const {
   const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;
   if (const LocomotionModel::TransitionEntry* transition = FindTransition(ends, &start)) {
@@ -506,14 +506,14 @@ double QuasiStaticAction::ExpectedDuration(const graph::PointPair& edge) const {
 }
 
 std::unique_ptr<graph::ConfirmationJob> QuasiStaticAction::SpawnConfirmationJob(
-    const graph::PointPair&) const {
+    const graph::Edge&) const {
   return nullptr;
 }
 
-void QuasiStaticAction::Forbid(const graph::PointPair& edge) { forbidden_.push_back(edge); }
+void QuasiStaticAction::Forbid(const graph::Edge& edge) { forbidden_.push_back(edge); }
 
-bool QuasiStaticAction::IsForbidden(const graph::PointPair& edge) const {
-  return std::any_of(forbidden_.begin(), forbidden_.end(), [&](const graph::PointPair& other) {
+bool QuasiStaticAction::IsForbidden(const graph::Edge& edge) const {
+  return std::any_of(forbidden_.begin(), forbidden_.end(), [&](const graph::Edge& other) {
     return (IsSamePose(edge.from, other.from) && IsSamePose(edge.to, other.to)) ||
            (IsSamePose(edge.from, other.to) && IsSamePose(edge.to, other.from));
   });

@@ -41,20 +41,20 @@ class QuasiStaticAction : public graph::HolonomicAction {
   std::string name() const override;
   graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
   bool CN(const graph::Point& vertex) const override;
-  bool CN(const graph::PointPair& edge) const override;
+  bool CN(const graph::Edge& edge) const override;
   bool CS(const graph::Point& vertex) const override;
-  bool CS(const graph::PointPair& edge) const override;
+  bool CS(const graph::Edge& edge) const override;
 
   /// No job of this action could decide more than C_S does, so it explores C_S only, as the paper's
   /// experiments do.
   bool Explorable(const graph::Point& vertex) const override { return CS(vertex); }
-  bool Explorable(const graph::PointPair& edge) const override { return CS(edge); }
+  bool Explorable(const graph::Edge& edge) const override { return CS(edge); }
 
   std::vector<graph::Point> TransitionFrom(const graph::Point& v) const override;
   bool IsReversible() const override { return true; }
-  double ExpectedDuration(const graph::PointPair& edge) const override;
+  double ExpectedDuration(const graph::Edge& edge) const override;
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair& edge) const override;
+      const graph::Edge& edge) const override;
   graph::Point Project(const graph::Point& v) const override;
 
   /// First sufficient condition that fails at a stance of this gait; kNone if all hold.
@@ -73,8 +73,8 @@ class QuasiStaticAction : public graph::HolonomicAction {
   double ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const;
 
   /// Makes C_S false for an edge that met C_S but failed as motion.
-  void Forbid(const graph::PointPair& edge);
-  bool IsForbidden(const graph::PointPair& edge) const;
+  void Forbid(const graph::Edge& edge);
+  bool IsForbidden(const graph::Edge& edge) const;
 
   const LocomotionModel& model() const { return *model_; }
   int gait() const { return gait_; }
@@ -131,7 +131,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
   std::vector<double>
       bearing_radii_;         ///< by gait: distance of the farthest bearing point from the axis, m
   double bearing_reach_ = 0;  ///< upper bound of a bearing point's distance from the root, m
-  std::vector<graph::PointPair> forbidden_;
+  std::vector<graph::Edge> forbidden_;
 };
 
 }  // namespace possibility::actions

@@ -13,15 +13,15 @@
 namespace possibility::actions {
 namespace {
 
+using graph::Edge;
 using graph::Point;
-using graph::PointPair;
 
 std::string Describe(const Point& v) {
   return fmt::format("the pelvis at ({:.3f}, {:.3f}, {:.3f}) heading {:.1f} deg", v.x(), v.y(),
                      v.z(), Heading(ToPose(v).linear()) * 180 / std::numbers::pi);
 }
 
-std::string Describe(const PointPair& edge) {
+std::string Describe(const Edge& edge) {
   return fmt::format("the edge from {} to {}", Describe(edge.from), Describe(edge.to));
 }
 
@@ -33,7 +33,7 @@ std::string OneLine(std::string text) {
 /// Runs a job and records its verdict.
 class RecordedJob : public graph::ConfirmationJob {
  public:
-  RecordedJob(std::unique_ptr<graph::ConfirmationJob> job, PointPair edge, EdgeVerdicts* verdicts)
+  RecordedJob(std::unique_ptr<graph::ConfirmationJob> job, Edge edge, EdgeVerdicts* verdicts)
       : job_(std::move(job)), edge_(std::move(edge)), verdicts_(verdicts) {}
 
   graph::JobVerdict Run(graph::JobControl* control) override {
@@ -47,7 +47,7 @@ class RecordedJob : public graph::ConfirmationJob {
 
  private:
   std::unique_ptr<graph::ConfirmationJob> job_;
-  PointPair edge_;
+  Edge edge_;
   EdgeVerdicts* verdicts_;
 };
 
@@ -60,7 +60,7 @@ bool SearchedManoeuvre::CN(const Point& v) const {
   return Guard("CN", v, [&] { return manoeuvre_->CN(v); });
 }
 
-bool SearchedManoeuvre::CN(const PointPair& edge) const {
+bool SearchedManoeuvre::CN(const Edge& edge) const {
   return Guard("CN", edge, [&] { return manoeuvre_->CN(edge); });
 }
 
@@ -68,7 +68,7 @@ bool SearchedManoeuvre::CS(const Point& v) const {
   return Guard("CS", v, [&] { return manoeuvre_->CS(v); });
 }
 
-bool SearchedManoeuvre::CS(const PointPair& edge) const {
+bool SearchedManoeuvre::CS(const Edge& edge) const {
   const std::optional<bool> possible = verdicts_.On(edge);
   if (possible) return *possible && Explorable(edge);
   return Guard("CS", edge, [&] { return manoeuvre_->CS(edge); });
@@ -78,7 +78,7 @@ bool SearchedManoeuvre::Explorable(const Point& v) const {
   return Guard("Explorable", v, [&] { return manoeuvre_->Explorable(v); });
 }
 
-bool SearchedManoeuvre::Explorable(const PointPair& edge) const {
+bool SearchedManoeuvre::Explorable(const Edge& edge) const {
   if (!verdicts_.On(edge).value_or(true)) return false;
   return Guard("Explorable", edge, [&] { return manoeuvre_->Explorable(edge); });
 }
@@ -103,19 +103,19 @@ std::vector<Point> SearchedManoeuvre::TransitionFrom(const Point& v) const {
   return Guard("TransitionFrom", v, [&] { return manoeuvre_->TransitionFrom(v); });
 }
 
-double SearchedManoeuvre::ExpectedDuration(const PointPair& edge) const {
+double SearchedManoeuvre::ExpectedDuration(const Edge& edge) const {
   return Guard("ExpectedDuration", edge, [&] { return manoeuvre_->ExpectedDuration(edge); });
 }
 
 std::unique_ptr<graph::ConfirmationJob> SearchedManoeuvre::SpawnConfirmationJob(
-    const PointPair& edge) const {
+    const Edge& edge) const {
   auto job =
       Guard("SpawnConfirmationJob", edge, [&] { return manoeuvre_->SpawnConfirmationJob(edge); });
   if (!job) return nullptr;
   return std::make_unique<RecordedJob>(std::move(job), edge, &verdicts_);
 }
 
-void SearchedManoeuvre::Forbid(const PointPair& edge, const std::string& reason, bool everywhere) {
+void SearchedManoeuvre::Forbid(const Edge& edge, const std::string& reason, bool everywhere) {
   verdicts_.Record(edge, false, reason);
   if (everywhere) manoeuvre_->RefuteEverywhere(edge);
 }

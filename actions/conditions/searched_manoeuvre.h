@@ -29,14 +29,14 @@ class SearchedManoeuvre final : public graph::NonholonomicAction {
   const Manoeuvre& manoeuvre() const { return *manoeuvre_; }
 
   bool CN(const graph::Point& v) const override;
-  bool CN(const graph::PointPair& edge) const override;
+  bool CN(const graph::Edge& edge) const override;
   bool CS(const graph::Point& v) const override;
   /// The verdict on the edge if there is one, otherwise the manoeuvre's C_S. A confirmed edge must
   /// still be explorable.
-  bool CS(const graph::PointPair& edge) const override;
+  bool CS(const graph::Edge& edge) const override;
   bool Explorable(const graph::Point& v) const override;
   /// False for refuted edges.
-  bool Explorable(const graph::PointPair& edge) const override;
+  bool Explorable(const graph::Edge& edge) const override;
   graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
   graph::Point ReverseExtend(const graph::Point& v0, const graph::Point& v1) const override;
   std::optional<graph::Point> FindLaunchPoint(const graph::Point& v,
@@ -45,21 +45,21 @@ class SearchedManoeuvre final : public graph::NonholonomicAction {
                                                const graph::Point& v1) const override;
   std::vector<graph::Point> TransitionFrom(const graph::Point& v) const override;
   bool IsReversible() const override { return manoeuvre_->IsReversible(); }
-  double ExpectedDuration(const graph::PointPair& edge) const override;
+  double ExpectedDuration(const graph::Edge& edge) const override;
   /// The manoeuvre's job. Its verdict is recorded here; the job must not outlive this object.
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair& edge) const override;
+      const graph::Edge& edge) const override;
   double cycle_budget() const override { return manoeuvre_->cycle_budget(); }
 
   /// Manoeuvre::Motion.
-  std::vector<Phase> Motion(const graph::PointPair& edge,
+  std::vector<Phase> Motion(const graph::Edge& edge,
                             const std::function<bool()>& keep_going) const {
     return manoeuvre_->Motion(edge, keep_going);
   }
 
   /// Marks an edge as impossible because its motion failed. `everywhere`: the fault does not depend
   /// on the place, so the manoeuvre is told as well.
-  void Forbid(const graph::PointPair& edge, const std::string& reason, bool everywhere);
+  void Forbid(const graph::Edge& edge, const std::string& reason, bool everywhere);
   /// Edges that jobs refuted or the planner forbade, in that order.
   std::vector<Refusal> Refusals() const { return verdicts_.Refusals(); }
 

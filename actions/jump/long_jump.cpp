@@ -153,7 +153,7 @@ bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& la
   const graph::Point b = PointOf(landing);
   const auto way = [&](const QuasiStaticAction& first, const graph::Point& via,
                        const QuasiStaticAction& second) {
-    return first.CS(graph::PointPair{a, via}) && second.CS(graph::PointPair{via, b});
+    return first.CS(graph::Edge{a, via}) && second.CS(graph::Edge{via, b});
   };
   return way(launch_gait(), PointOf(standing), landing_gait()) ||
          way(landing_gait(), PointOf(sitting), landing_gait());
@@ -225,7 +225,7 @@ std::optional<graph::Point> LongJump::LinedUp(const graph::Point& v, const Vecto
   return is_lined_up ? v : PointOf(*stance);
 }
 
-std::optional<LongJump::Leap> LongJump::AsLeap(const graph::PointPair& edge) const {
+std::optional<LongJump::Leap> LongJump::AsLeap(const graph::Edge& edge) const {
   const std::optional<GroundedStance> launch = LaunchStance(edge.from);
   const std::optional<GroundedStance> landing = LandingStance(edge.to);
   if (!launch || !landing) return std::nullopt;
@@ -239,13 +239,13 @@ std::optional<LongJump::Leap> LongJump::AsLeap(const graph::PointPair& edge) con
   return Leap{*launch, *landing, task};
 }
 
-bool LongJump::CN(const graph::PointPair& edge) const {
+bool LongJump::CN(const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   return leap && reach_.Allows(leap->task) && landing_gait().CS(edge.to) &&
          launch_gait().CS(edge.from) && SomeParabolaIsFree(edge);
 }
 
-bool LongJump::SomeParabolaIsFree(const graph::PointPair& edge) const {
+bool LongJump::SomeParabolaIsFree(const graph::Edge& edge) const {
   const int steps = static_cast<int>(highest_rise_ / kRiseSpacing);
   for (int i = 0; i <= steps; ++i) {
     if (ParabolaIsFree(edge, i * kRiseSpacing)) return true;
@@ -253,7 +253,7 @@ bool LongJump::SomeParabolaIsFree(const graph::PointPair& edge) const {
   return false;
 }
 
-bool LongJump::ParabolaIsFree(const graph::PointPair& edge, double rise) const {
+bool LongJump::ParabolaIsFree(const graph::Edge& edge, double rise) const {
   const Isometry3d from = ToPose(edge.from);
   const Isometry3d to = ToPose(edge.to);
   const double length = (to.translation() - from.translation()).norm() + 2 * rise;
@@ -267,13 +267,13 @@ bool LongJump::ParabolaIsFree(const graph::PointPair& edge, double rise) const {
   return true;
 }
 
-bool LongJump::Explorable(const graph::PointPair& edge) const {
+bool LongJump::Explorable(const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap || IsImpossible(leap->task) || IsNeedless(leap->launch, leap->landing)) return false;
   return Manoeuvre::Explorable(edge);
 }
 
-double LongJump::ExpectedDuration(const graph::PointPair& edge) const {
+double LongJump::ExpectedDuration(const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   const std::lock_guard lock(mutex_);
   for (const Solved& solved : solved_) {
@@ -283,14 +283,13 @@ double LongJump::ExpectedDuration(const graph::PointPair& edge) const {
 }
 
 std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
-    const graph::PointPair& edge) const {
+    const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap || !CN(edge)) return nullptr;
   return std::make_unique<Job>(*this, *leap);
 }
 
-std::vector<Phase> LongJump::Motion(const graph::PointPair& edge,
-                                    const std::function<bool()>&) const {
+std::vector<Phase> LongJump::Motion(const graph::Edge& edge, const std::function<bool()>&) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap) throw MotionError("not a jump between nominal stances");
   const std::optional<JumpAnswer> answer = library_->Find(leap->task);
@@ -316,7 +315,7 @@ bool LongJump::ReplaceGuesses(const std::function<bool()>& keep_going) {
   return true;
 }
 
-void LongJump::RefuteEverywhere(const graph::PointPair& edge) {
+void LongJump::RefuteEverywhere(const graph::Edge& edge) {
   if (const std::optional<Leap> leap = AsLeap(edge)) RecordImpossible(leap->task);
 }
 

@@ -42,15 +42,15 @@ class LongJump : public Manoeuvre {
 
   using Manoeuvre::CN;
   using Manoeuvre::Explorable;
-  bool CN(const graph::PointPair& edge) const override;
+  bool CN(const graph::Edge& edge) const override;
   /// C_N, unless such a jump is known to be impossible anywhere or the gaits can go straight on
   /// without a jump.
-  bool Explorable(const graph::PointPair& edge) const override;
+  bool Explorable(const graph::Edge& edge) const override;
 
-  double ExpectedDuration(const graph::PointPair& edge) const override;
+  double ExpectedDuration(const graph::Edge& edge) const override;
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair& edge) const override;
-  std::vector<Phase> Motion(const graph::PointPair& edge,
+      const graph::Edge& edge) const override;
+  std::vector<Phase> Motion(const graph::Edge& edge,
                             const std::function<bool()>& keep_going) const override;
 
   ManoeuvreBounds Bounds() const override;
@@ -58,7 +58,7 @@ class LongJump : public Manoeuvre {
   bool ReplaceGuesses(const std::function<bool()>& keep_going) override;
 
   /// Excludes every jump of the same distance and height.
-  void RefuteEverywhere(const graph::PointPair& edge) override;
+  void RefuteEverywhere(const graph::Edge& edge) override;
 
   const JumpReach& reach() const { return reach_; }
   const JumpSolver& solver() const { return *solver_; }
@@ -72,7 +72,7 @@ class LongJump : public Manoeuvre {
     GroundedStance landing;
     JumpTask task;  ///< on the grid
   };
-  std::optional<Leap> AsLeap(const graph::PointPair& edge) const;
+  std::optional<Leap> AsLeap(const graph::Edge& edge) const;
   /// The other end of the longest jump from `stance`, of at most `distance` (m), that has ground to
   /// bear on there: forward from a launch, or backward from a landing.
   std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
@@ -89,8 +89,8 @@ class LongJump : public Manoeuvre {
   /// Sufficient: the straight way on from `launch`, `distance` (m) long, is free all around and on
   /// wide ground.
   bool WayIsOpen(const GroundedStance& launch, double distance) const;
-  bool SomeParabolaIsFree(const graph::PointPair& edge) const;
-  bool ParabolaIsFree(const graph::PointPair& edge, double rise) const;
+  bool SomeParabolaIsFree(const graph::Edge& edge) const;
+  bool ParabolaIsFree(const graph::Edge& edge, double rise) const;
 
   void RecordImpossible(const JumpTask& task) const;
   bool IsImpossible(const JumpTask& task) const;

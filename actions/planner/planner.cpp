@@ -101,7 +101,7 @@ class TraversalPlanner {
                                                scenario_.planner.rotation_weight);
     for (size_t gait = 0; gait < model_.gaits.size(); ++gait) {
       gaits_.push_back(std::make_shared<QuasiStaticAction>(model_, static_cast<int>(gait), world_,
-                                                             space_, scenario_.planner.step));
+                                                           space_, scenario_.planner.step));
     }
     PrepareManoeuvres();
     const auto checked = [this](const models::Stance& stance, const std::string& key) {
@@ -382,7 +382,7 @@ class TraversalPlanner {
   }
 
   void Forbid(const RouteLeg& leg, const std::string& reason, bool everywhere = false) {
-    const graph::PointPair edge = LegEdge(model_, leg);
+    const graph::Edge edge = LegEdge(model_, leg);
     if (leg.manoeuvre != nullptr) return leg.manoeuvre->Forbid(edge, reason, everywhere);
     if (leg.transition < 0) return gaits_[static_cast<size_t>(leg.gait)]->Forbid(edge);
     for (const auto& action : gaits_) action->Forbid(edge);

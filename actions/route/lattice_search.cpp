@@ -123,13 +123,12 @@ bool LatticeSearch::IsReached(int index) {
   ++examined_;
   const GroundedStance& from = nodes_[node.parent].stance;
   if (node.action >= num_gaits()) {
-    return ManoeuvreOf(node.action)
-        .Explorable(graph::PointPair{PointOf(from), PointOf(node.stance)});
+    return ManoeuvreOf(node.action).Explorable(graph::Edge{PointOf(from), PointOf(node.stance)});
   }
   const QuasiStaticAction& gait = *(*space_.gaits)[node.action];
   if (from.gait == node.stance.gait) return gait.CS(from, node.stance);
   return gait.Examine(node.stance) == StanceFault::kNone &&
-         gait.CS(graph::PointPair{PointOf(from), PointOf(node.stance)});
+         gait.CS(graph::Edge{PointOf(from), PointOf(node.stance)});
 }
 
 void LatticeSearch::Expand(int node) {

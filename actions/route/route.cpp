@@ -67,7 +67,7 @@ std::string LegWords(const LocomotionModel& model, const RouteLeg& leg) {
                      leg.from.x, leg.from.y, leg.to.x, leg.to.y);
 }
 
-graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg) {
+graph::Edge LegEdge(const LocomotionModel& model, const RouteLeg& leg) {
   return {ToPoint(model.gaits[StartGait(model, leg)]->stance.RootPose(leg.from, leg.z)),
           ToPoint(model.gaits[EndGait(model, leg)]->stance.RootPose(leg.to, leg.z_to))};
 }

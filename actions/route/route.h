@@ -38,7 +38,7 @@ std::string LegName(const LocomotionModel& model, const RouteLeg& leg);
 std::string LegWords(const LocomotionModel& model, const RouteLeg& leg);
 
 /// The edge of E that the leg executes.
-graph::PointPair LegEdge(const LocomotionModel& model, const RouteLeg& leg);
+graph::Edge LegEdge(const LocomotionModel& model, const RouteLeg& leg);
 
 /// The route along a confirmed path. `path`: edges between nominal stances, end to end; their
 /// actions are the model's gaits in order, then `manoeuvres`, which must outlive the route.

@@ -166,7 +166,7 @@ void ShortcutRoadmap::AddHop(Hop hop, const std::vector<GroundedStance>& stances
   hop.start_yaw = stances.front().pose.yaw;
   hop.end_yaw = stances.back().pose.yaw;
   for (std::size_t i = 1; i < stances.size(); ++i) {
-    const auto edge = Edge(stances[i - 1], stances[i]);
+    const auto edge = EdgeBetween(stances[i - 1], stances[i]);
     if (!edge) continue;
     hop.duration += (*space_.gaits)[edge->action]->ExpectedDuration(edge->points);
     hop.edges.push_back(*edge);
@@ -177,7 +177,7 @@ void ShortcutRoadmap::AddHop(Hop hop, const std::vector<GroundedStance>& stances
 Hop ShortcutRoadmap::Turn(int place, double from_yaw, double to_yaw) const {
   Hop turn{.from = place, .to = place, .start_yaw = from_yaw, .end_yaw = to_yaw};
   if (std::abs(WrapAngle(to_yaw - from_yaw)) < graph::kSamePointDistance) return turn;
-  const auto edge = Edge(StanceAt(place, from_yaw), StanceAt(place, to_yaw));
+  const auto edge = EdgeBetween(StanceAt(place, from_yaw), StanceAt(place, to_yaw));
   turn.duration = (*space_.gaits)[edge->action]->ExpectedDuration(edge->points);
   turn.edges = {*edge};
   return turn;
@@ -192,8 +192,8 @@ std::optional<PlanarPose> ShortcutRoadmap::Displacement(int from_gait, int to_ga
   return std::nullopt;
 }
 
-std::optional<graph::PathEdge> ShortcutRoadmap::Edge(const GroundedStance& from,
-                                                     const GroundedStance& to) const {
+std::optional<graph::PathEdge> ShortcutRoadmap::EdgeBetween(const GroundedStance& from,
+                                                            const GroundedStance& to) const {
   const bool same =
       from.gait == to.gait &&
       (from.pose.position() - to.pose.position()).norm() < graph::kSamePointDistance &&

@@ -75,7 +75,8 @@ class ShortcutRoadmap {
   /// transition.
   std::optional<PlanarPose> Displacement(int from_gait, int to_gait) const;
   /// The edge between two stances; none if they are the same.
-  std::optional<graph::PathEdge> Edge(const GroundedStance& from, const GroundedStance& to) const;
+  std::optional<graph::PathEdge> EdgeBetween(const GroundedStance& from,
+                                             const GroundedStance& to) const;
   GroundedStance StanceAt(int place, double yaw) const;
 
   RouteSpace space_;

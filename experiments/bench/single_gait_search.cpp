@@ -54,7 +54,7 @@ bool SingleGaitSearch::IsValid(const PlanarPose& pose) const {
 }
 
 bool SingleGaitSearch::IsValid(const PlanarPose& from, const PlanarPose& to) const {
-  return gaits_[0]->CS(graph::PointPair{PointAt(from), PointAt(to)});
+  return gaits_[0]->CS(graph::Edge{PointAt(from), PointAt(to)});
 }
 
 FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t seed,

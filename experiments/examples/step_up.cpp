@@ -33,7 +33,7 @@ StepUp::StepUp(const PlanningContext& context)
   }
 }
 
-std::optional<StepUp::Step> StepUp::AsStep(const graph::PointPair& edge) const {
+std::optional<StepUp::Step> StepUp::AsStep(const graph::Edge& edge) const {
   const std::optional<GroundedStance> from = LaunchStance(edge.from);
   const std::optional<GroundedStance> to = LandingStance(edge.to);
   if (!from || !to) return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<StepUp::Step> StepUp::AsStep(const graph::PointPair& edge) const {
   return step;
 }
 
-bool StepUp::CN(const graph::PointPair& edge) const {
+bool StepUp::CN(const graph::Edge& edge) const {
   if (!AsStep(edge) || !launch_gait().CS(edge.from) || !landing_gait().CS(edge.to)) return false;
   const Eigen::Isometry3d from = ToPose(edge.from);
   const Eigen::Isometry3d to = ToPose(edge.to);
@@ -117,12 +117,12 @@ std::optional<graph::Point> StepUp::FindLandingPoint(const graph::Point& v,
   return StanceAtAnEdge(v, v1);
 }
 
-double StepUp::ExpectedDuration(const graph::PointPair& edge) const {
+double StepUp::ExpectedDuration(const graph::Edge& edge) const {
   const std::optional<Step> step = AsStep(edge);
   return motion_.ExpectedDuration(step ? step->low.pose : PlanarPose());
 }
 
-std::vector<Phase> StepUp::Motion(const graph::PointPair& edge,
+std::vector<Phase> StepUp::Motion(const graph::Edge& edge,
                                   const std::function<bool()>& keep_going) const {
   const std::optional<Step> step = AsStep(edge);
   if (!step) throw MotionError("not a step between walking stances");

@@ -22,15 +22,15 @@ class StepUp : public Manoeuvre {
   explicit StepUp(const PlanningContext& context);
 
   using Manoeuvre::CN;
-  bool CN(const graph::PointPair& edge) const override;
+  bool CN(const graph::Edge& edge) const override;
   graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
   graph::Point ReverseExtend(const graph::Point& v0, const graph::Point& v1) const override;
   std::optional<graph::Point> FindLaunchPoint(const graph::Point& v,
                                               const graph::Point& v1) const override;
   std::optional<graph::Point> FindLandingPoint(const graph::Point& v,
                                                const graph::Point& v1) const override;
-  double ExpectedDuration(const graph::PointPair& edge) const override;
-  std::vector<Phase> Motion(const graph::PointPair& edge,
+  double ExpectedDuration(const graph::Edge& edge) const override;
+  std::vector<Phase> Motion(const graph::Edge& edge,
                             const std::function<bool()>& keep_going) const override;
   ManoeuvreBounds Bounds() const override;
 
@@ -41,7 +41,7 @@ class StepUp : public Manoeuvre {
     GroundedStance high;
     bool up = true;
   };
-  std::optional<Step> AsStep(const graph::PointPair& edge) const;
+  std::optional<Step> AsStep(const graph::Edge& edge) const;
   /// The other end of a step that has `stance` at one end: ahead on higher ground if `towards`
   /// points ahead, otherwise behind on lower ground. None if the ground does not hold at both ends.
   std::optional<GroundedStance> OtherEnd(const GroundedStance& stance,

@@ -86,11 +86,11 @@ class Leap : public Manoeuvre {
 
   using Manoeuvre::CN;
   using Manoeuvre::Explorable;
-  bool CN(const graph::PointPair& edge) const override {
+  bool CN(const graph::Edge& edge) const override {
     on_asked_("CN");
     return edge.from.isApprox(edge_.from, 1e-9) && edge.to.isApprox(edge_.to, 1e-9);
   }
-  bool Explorable(const graph::PointPair& edge) const override {
+  bool Explorable(const graph::Edge& edge) const override {
     on_asked_("Explorable");
     return Manoeuvre::Explorable(edge);
   }
@@ -111,16 +111,15 @@ class Leap : public Manoeuvre {
     on_asked_("FindLandingPoint");
     return v.x() > 0 ? std::optional(edge_.to) : std::nullopt;
   }
-  double ExpectedDuration(const graph::PointPair&) const override {
+  double ExpectedDuration(const graph::Edge&) const override {
     on_asked_("ExpectedDuration");
     return 1;
   }
-  std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair&) const override {
+  std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(const graph::Edge&) const override {
     on_asked_("SpawnConfirmationJob");
     return std::make_unique<Job>(*this);
   }
-  std::vector<Phase> Motion(const graph::PointPair&, const std::function<bool()>&) const override {
+  std::vector<Phase> Motion(const graph::Edge&, const std::function<bool()>&) const override {
     return make_motion_(*this);
   }
 
@@ -164,7 +163,7 @@ class Leap : public Manoeuvre {
   RunJob run_job_;
   MakeMotion make_motion_;
   OnAsked on_asked_;
-  graph::PointPair edge_;
+  graph::Edge edge_;
 };
 
 /// A job that takes this long (s) and then confirms. It ends at once when it is cancelled.

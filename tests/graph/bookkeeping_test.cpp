@@ -30,7 +30,7 @@ using test::MakePoint;
 class TimedAction : public test::BandAction {
  public:
   TimedAction() : BandAction("timed", {0, 1}, 0.5, {}) {}
-  double ExpectedDuration(const PointPair& edge) const override {
+  double ExpectedDuration(const Edge& edge) const override {
     return duration >= 0 ? std::floor(std::fmod(edge.from[0] * 37 + edge.to[0] * 91, 7)) : duration;
   }
   double duration = 0;

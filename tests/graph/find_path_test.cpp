@@ -47,19 +47,17 @@ void ExpectValidPath(const PathResult& result, const Point& start, const std::ve
 /// A walk that needs jobs: edges within a stretch of x meet only the necessary conditions.
 class UncertainAction : public BandAction {
  public:
-  using Script = std::function<std::unique_ptr<ConfirmationJob>(const PointPair&)>;
+  using Script = std::function<std::unique_ptr<ConfirmationJob>(const Edge&)>;
   UncertainAction(const std::string& name, Interval band, double height, Interval uncertain,
                   Script script)
       : BandAction(name, band, height, {}), uncertain_(uncertain), script_(std::move(script)) {}
-  bool CS(const PointPair& edge) const override {
+  bool CS(const Edge& edge) const override {
     return CN(edge) && !uncertain_.Overlaps(edge.from[0], edge.to[0]);
   }
-  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const override {
+  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const Edge& edge) const override {
     return script_(edge);
   }
-  bool Uncertain(const PointPair& edge) const {
-    return uncertain_.Overlaps(edge.from[0], edge.to[0]);
-  }
+  bool Uncertain(const Edge& edge) const { return uncertain_.Overlaps(edge.from[0], edge.to[0]); }
 
  private:
   Interval uncertain_;
@@ -67,17 +65,17 @@ class UncertainAction : public BandAction {
 };
 
 UncertainAction::Script Always(Ending ending, int steps) {
-  return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, steps); };
+  return [=](const Edge&) { return std::make_unique<ScriptedJob>(ending, steps); };
 }
 
 /// A walk that is only possible towards greater x.
 class OneWayAction : public BandAction {
  public:
   OneWayAction() : BandAction("one way", {0.7, 1.0}, 0.85, {}) {}
-  bool CN(const PointPair& edge) const override {
+  bool CN(const Edge& edge) const override {
     return BandAction::CN(edge) && edge.to[0] >= edge.from[0];
   }
-  bool CS(const PointPair& edge) const override { return CN(edge); }
+  bool CS(const Edge& edge) const override { return CN(edge); }
   bool IsReversible() const override { return false; }
 };
 
@@ -97,7 +95,7 @@ TEST(StickFigure, CrawlsUnderTheBarWithEverySeed) {
     EXPECT_EQ(result.statistics.vertices, static_cast<int>(result.graph.vertices.size()));
     for (const GraphSnapshot::Edge& edge : result.graph.edges) {
       EXPECT_TRUE(actions[edge.action]->CN(
-          PointPair{result.graph.vertices[edge.from], result.graph.vertices[edge.to]}));
+          Edge{result.graph.vertices[edge.from], result.graph.vertices[edge.to]}));
     }
   }
 }
@@ -369,12 +367,12 @@ class SlowAction : public UncertainAction {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return UncertainAction::CN(vertex);
   }
-  bool CN(const PointPair& edge) const override { return UncertainAction::CN(edge); }
+  bool CN(const Edge& edge) const override { return UncertainAction::CN(edge); }
 };
 
 TEST(Turns, OfJobsComeInTimeDespiteSlowConditions) {
   // The job takes two turns. The first, of 1000 steps, gives no verdict.
-  const auto job = [](const PointPair&) {
+  const auto job = [](const Edge&) {
     return std::make_unique<ScriptedJob>(Ending::kConfirm, 1500, std::chrono::microseconds(500));
   };
   const Actions actions = {
@@ -544,7 +542,7 @@ TEST_P(WithJobs, AnIndeterminateEdgeIsReturnedOnlyAfterItsJobConfirmed) {
     ++uncertain;
     bool confirmed = false;
     for (const ConfirmationReport& report : result.confirmations) {
-      const PointPair& points = report.points;
+      const Edge& points = report.points;
       confirmed = confirmed || (report.outcome == JobOutcome::kConfirmed &&
                                 ((points.from == edge.points.from && points.to == edge.points.to) ||
                                  (points.from == edge.points.to && points.to == edge.points.from)));
@@ -579,8 +577,8 @@ TEST_P(WithJobs, ARefutedFailedOrEndlessRouteIsReplacedByAnother) {
 }
 
 TEST_P(WithJobs, AnEdgeIsExaminedOnlyOnce) {
-  std::vector<PointPair> spawned;
-  const auto script = [&](const PointPair& edge) {
+  std::vector<Edge> spawned;
+  const auto script = [&](const Edge& edge) {
     spawned.push_back(edge);
     return std::make_unique<ScriptedJob>(Ending::kRefute, 1);
   };
@@ -617,7 +615,7 @@ TEST_P(WithJobs, AnotherActionMayConfirmWhatTheFirstCannot) {
 
 TEST_P(WithJobs, AnIndeterminateEdgeWithoutJobIsNotUsed) {
   const auto walk = std::make_shared<UncertainAction>(
-      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair&) { return nullptr; });
+      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const Edge&) { return nullptr; });
   FindPathSettings settings = Settings();
   settings.max_cycles = 50;
   const PathResult result = FindPath(Start(), {Goal()}, {walk}, kRoom, settings);
@@ -628,7 +626,7 @@ TEST_P(WithJobs, AnIndeterminateEdgeWithoutJobIsNotUsed) {
 
 TEST_P(WithJobs, JobsThatNeverEndDoNotHoldUpTheTimeLimit) {
   int spawned = 0;
-  const auto script = [&](const PointPair&) {
+  const auto script = [&](const Edge&) {
     ++spawned;
     return std::make_unique<ScriptedJob>(Ending::kNever, 0, std::chrono::milliseconds(5));
   };
@@ -643,7 +641,7 @@ TEST_P(WithJobs, JobsThatNeverEndDoNotHoldUpTheTimeLimit) {
 /// A search of this many cycles. Its jobs have this many checkpoints, with a pause after each.
 PathResult SearchWithJobsOf(int checkpoints, int cycles, std::chrono::microseconds pause) {
   const auto walk = std::make_shared<UncertainAction>(
-      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [=](const PointPair& edge) {
+      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [=](const Edge& edge) {
         const bool good = edge.from[1] > 0.72;
         return std::make_unique<ScriptedJob>(good ? Ending::kConfirm : Ending::kRefute, checkpoints,
                                              pause);
@@ -663,7 +661,7 @@ void ExpectTheSameHoweverSlow(int checkpoints, int cycles) {
 
 TEST(FindPath, AFullGraphEndsRandomExplorationEarly) {
   const auto walk = std::make_shared<UncertainAction>(
-      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const PointPair&) { return nullptr; });
+      "walk", Interval{0.7, 1}, 0.85, Interval{4, 6}, [](const Edge&) { return nullptr; });
   const PathResult result =
       FindPath(Start(), {Goal()}, {walk}, kRoom, {.time_limit = 600, .max_graph_size = 500});
   EXPECT_EQ(result.status, PathStatus::kTimeLimit);

@@ -41,15 +41,15 @@ constexpr int kWalk = 0;
 constexpr int kCrawl = 1;
 constexpr int kJump = 2;
 
-double Length(const PointPair& edge) { return std::abs(edge.to[0] - edge.from[0]); }
+double Length(const Edge& edge) { return std::abs(edge.to[0] - edge.from[0]); }
 
-std::unique_ptr<ConfirmationJob> Truth(const PointPair& edge) {
+std::unique_ptr<ConfirmationJob> Truth(const Edge& edge) {
   const bool possible = Length(edge) <= kTrueReach;
   return std::make_unique<ScriptedJob>(possible ? Ending::kConfirm : Ending::kRefute, 3);
 }
 
 JumpAction::Script Always(Ending ending, std::chrono::microseconds per_step = {}) {
-  return [=](const PointPair&) { return std::make_unique<ScriptedJob>(ending, 3, per_step); };
+  return [=](const Edge&) { return std::make_unique<ScriptedJob>(ending, 3, per_step); };
 }
 
 /// Walking and crawling cannot cross the gap.
@@ -77,7 +77,7 @@ FindPathSettings Settings(int threads, std::uint64_t seed) {
 }
 
 /// Whether a job confirmed the edge.
-bool IsConfirmed(const PathResult& result, const PointPair& edge) {
+bool IsConfirmed(const PathResult& result, const Edge& edge) {
   return std::any_of(result.confirmations.begin(), result.confirmations.end(),
                      [&](const ConfirmationReport& report) {
                        return report.outcome == JobOutcome::kConfirmed && report.action == kJump &&
@@ -184,7 +184,7 @@ TEST_P(Jump, WhileJobsAreUndecidedASlowerRouteWithoutJumpsIsReturned) {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     FindPathSettings settings = Settings(GetParam(), seed);
     settings.skip_growth.clear();
-    const auto a_minute = [](const PointPair&) {
+    const auto a_minute = [](const Edge&) {
       return std::make_unique<ScriptedJob>(Ending::kConfirm, 60000, std::chrono::milliseconds(1));
     };
     const PathResult result =
@@ -276,7 +276,7 @@ class Growth : public ::testing::Test {
     exploration_->AddInitialVertex(master_->goals()[0]);
   }
 
-  PointPair Points(const NewEdge& edge) const {
+  Edge Points(const NewEdge& edge) const {
     return {master_->point(edge.from), master_->point(edge.to)};
   }
   void ExpectEdge(const NewEdge& edge, const Point& from, const Point& to) const {

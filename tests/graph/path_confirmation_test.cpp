@@ -23,9 +23,9 @@ using test::ScriptedJob;
 class Doubtful : public BandAction {
  public:
   explicit Doubtful(Ending ending) : BandAction("doubtful", {0, 1}, 0.5, {}), ending_(ending) {}
-  bool CS(const PointPair&) const override { return false; }
+  bool CS(const Edge&) const override { return false; }
   bool IsReversible() const override { return false; }
-  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair&) const override {
+  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const Edge&) const override {
     return std::make_unique<ScriptedJob>(ending_, 2);
   }
 
@@ -37,11 +37,11 @@ class Doubtful : public BandAction {
 class Certain : public BandAction {
  public:
   Certain() : BandAction("certain", {0, 1}, 0.5, {}) {}
-  bool CN(const PointPair& edge) const override { return own.count(Key(edge)) > 0; }
-  bool CS(const PointPair& edge) const override { return CN(edge); }
+  bool CN(const Edge& edge) const override { return own.count(Key(edge)) > 0; }
+  bool CS(const Edge& edge) const override { return CN(edge); }
   bool IsReversible() const override { return false; }
   using Ends = std::pair<double, double>;
-  static Ends Key(const PointPair& edge) { return {edge.from[0], edge.to[0]}; }
+  static Ends Key(const Edge& edge) { return {edge.from[0], edge.to[0]}; }
   std::map<Ends, bool> own;
 };
 

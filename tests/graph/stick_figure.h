@@ -56,12 +56,12 @@ class BandAction : public HolonomicAction {
   }
 
   bool CN(const Point& v) const override { return InBand(v) && Free(v[0], v[0]); }
-  bool CN(const PointPair& edge) const override {
+  bool CN(const Edge& edge) const override {
     const bool transition = !InBand(edge.from) || !InBand(edge.to);
     return (transition ? edge.from[0] == edge.to[0] : true) && Free(edge.from[0], edge.to[0]);
   }
   bool CS(const Point& v) const override { return CN(v); }
-  bool CS(const PointPair& edge) const override { return CN(edge); }
+  bool CS(const Edge& edge) const override { return CN(edge); }
 
   std::vector<Point> TransitionFrom(const Point& v) const override {
     constexpr double kLowest = 0.1;  // nobody can stand up with the chest on the ground
@@ -71,10 +71,8 @@ class BandAction : public HolonomicAction {
     return {MakePoint(v[0], transition_height_)};
   }
   bool IsReversible() const override { return true; }
-  double ExpectedDuration(const PointPair& edge) const override {
-    return (edge.to - edge.from).norm();
-  }
-  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair&) const override {
+  double ExpectedDuration(const Edge& edge) const override { return (edge.to - edge.from).norm(); }
+  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const Edge&) const override {
     return nullptr;
   }
   Point Project(const Point& v) const override {

@@ -22,7 +22,7 @@ class JumpAction : public NonholonomicAction {
   static constexpr double kStandingHeight = 0.85;
   static constexpr double kCrawlingHeight = 0.3;
   static constexpr double kShortest = 0.2;
-  using Script = std::function<std::unique_ptr<ConfirmationJob>(const PointPair&)>;
+  using Script = std::function<std::unique_ptr<ConfirmationJob>(const Edge&)>;
 
   JumpAction(std::shared_ptr<const Action> walk, std::shared_ptr<const Action> crawl, double reach,
              Script script)
@@ -49,17 +49,17 @@ class JumpAction : public NonholonomicAction {
   }
 
   bool CN(const Point& v) const override { return Upright(v) || Crawling(v); }
-  bool CN(const PointPair& edge) const override {
+  bool CN(const Edge& edge) const override {
     const double length = std::abs(edge.to[0] - edge.from[0]);
     return edge.from[1] == kStandingHeight && Upright(edge.from) && edge.to[1] == kCrawlingHeight &&
            Crawling(edge.to) && length >= kShortest && length <= reach_ + 1e-12;
   }
   bool CS(const Point& v) const override { return CN(v); }
-  bool CS(const PointPair&) const override { return false; }
-  double ExpectedDuration(const PointPair& edge) const override {
+  bool CS(const Edge&) const override { return false; }
+  double ExpectedDuration(const Edge& edge) const override {
     return 0.5 + std::abs(edge.to[0] - edge.from[0]) / 4;
   }
-  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const PointPair& edge) const override {
+  std::unique_ptr<ConfirmationJob> SpawnConfirmationJob(const Edge& edge) const override {
     return script_(edge);
   }
 
@@ -82,7 +82,7 @@ class JumpAction : public NonholonomicAction {
 class SlowBandAction : public BandAction {
  public:
   using BandAction::BandAction;
-  double ExpectedDuration(const PointPair& edge) const override {
+  double ExpectedDuration(const Edge& edge) const override {
     return 10 * BandAction::ExpectedDuration(edge);
   }
 };

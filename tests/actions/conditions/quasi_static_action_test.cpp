@@ -94,9 +94,9 @@ TEST_P(QuasiStaticActionTest, TransitionEdgesAreSufficientInBothDirectionsAndFor
     ++made;
     ASSERT_EQ(path.size(), 1u);
     EXPECT_TRUE(action().CS(path[0]));
-    EXPECT_TRUE(action().CS(graph::PointPair{v, path[0]}));
-    EXPECT_TRUE(action().CS(graph::PointPair{path[0], v}));
-    EXPECT_TRUE(gaits_[other]->CS(graph::PointPair{v, path[0]}));
+    EXPECT_TRUE(action().CS(graph::Edge{v, path[0]}));
+    EXPECT_TRUE(action().CS(graph::Edge{path[0], v}));
+    EXPECT_TRUE(gaits_[other]->CS(graph::Edge{v, path[0]}));
   }
   EXPECT_GT(made, 10);
 }
@@ -110,10 +110,10 @@ TEST_P(QuasiStaticActionTest, SufficientImpliesNecessaryEverywhere) {
     if (action().CS(a)) {
       EXPECT_TRUE(action().CN(a));
     }
-    if (!action().CS(graph::PointPair{a, b})) continue;
+    if (!action().CS(graph::Edge{a, b})) continue;
     ++sufficient;
-    EXPECT_TRUE(action().CN(graph::PointPair{a, b}));
-    EXPECT_TRUE(action().CS(graph::PointPair{b, a}));
+    EXPECT_TRUE(action().CN(graph::Edge{a, b}));
+    EXPECT_TRUE(action().CS(graph::Edge{b, a}));
   }
   EXPECT_GT(sufficient, 20);
 }
@@ -122,8 +122,8 @@ TEST_P(QuasiStaticActionTest, AForbiddenEdgeStaysForbiddenInBothDirections) {
   const Point a = StancePoint(GetParam(), {0.1, 0.2, 0.3});
   const Point b = StancePoint(GetParam(), {0.2, 0.2, 0.3});
   gaits_[GetParam()]->Forbid({a, b});
-  EXPECT_FALSE(action().CS(graph::PointPair{a, b}));
-  EXPECT_FALSE(action().CS(graph::PointPair{b, a}));
+  EXPECT_FALSE(action().CS(graph::Edge{a, b}));
+  EXPECT_FALSE(action().CS(graph::Edge{b, a}));
 }
 
 TEST_P(QuasiStaticActionTest, AStanceOverTheGapIsOffGround) {

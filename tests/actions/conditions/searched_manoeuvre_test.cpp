@@ -11,7 +11,7 @@ namespace {
 graph::JobVerdict Confirms(graph::JobControl*) { return graph::JobVerdict::kConfirmed; }
 std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
 
-graph::PointPair EdgeOf(const graph::NonholonomicAction& leap) {
+graph::Edge EdgeOf(const graph::NonholonomicAction& leap) {
   const graph::Point from = *leap.FindLaunchPoint(ToPoint(PlanarPose{-1, 0, 0}.At(1)), {});
   return {from, leap.ExtendTowards(from, {})};
 }
@@ -19,7 +19,7 @@ graph::PointPair EdgeOf(const graph::NonholonomicAction& leap) {
 TEST(SearchedManoeuvreTest, AConfirmedEdgeMeetsSufficientConditions) {
   const Context context(PitScene(true).environment);
   const SearchedManoeuvre leap(std::make_shared<Leap>(*context, Confirms, Slides));
-  const graph::PointPair edge = EdgeOf(leap);
+  const graph::Edge edge = EdgeOf(leap);
   EXPECT_TRUE(leap.Explorable(edge));
   EXPECT_FALSE(leap.CS(edge));
   graph::JobControl control;
@@ -32,7 +32,7 @@ TEST(SearchedManoeuvreTest, AnUndecidedJobLeavesNoVerdict) {
   const Context context(PitScene(true).environment);
   const SearchedManoeuvre leap(std::make_shared<Leap>(
       *context, [](graph::JobControl*) { return graph::JobVerdict::kUndecided; }, Slides));
-  const graph::PointPair edge = EdgeOf(leap);
+  const graph::Edge edge = EdgeOf(leap);
   graph::JobControl control;
   EXPECT_EQ(leap.SpawnConfirmationJob(edge)->Run(&control), graph::JobVerdict::kUndecided);
   EXPECT_TRUE(leap.Explorable(edge));
@@ -43,7 +43,7 @@ TEST(SearchedManoeuvreTest, AnUndecidedJobLeavesNoVerdict) {
 TEST(SearchedManoeuvreTest, TheLatestVerdictOnAnEdgeHolds) {
   const Context context(PitScene(true).environment);
   SearchedManoeuvre leap(std::make_shared<Leap>(*context, Confirms, Slides));
-  const graph::PointPair edge = EdgeOf(leap);
+  const graph::Edge edge = EdgeOf(leap);
   graph::JobControl control;
   leap.SpawnConfirmationJob(edge)->Run(&control);
   leap.Forbid(edge, "a reason", false);
@@ -57,7 +57,7 @@ TEST(SearchedManoeuvreTest, TheLatestVerdictOnAnEdgeHolds) {
 class RememberingLeap : public Leap {
  public:
   using Leap::Leap;
-  void RefuteEverywhere(const graph::PointPair&) override { ++refuted; }
+  void RefuteEverywhere(const graph::Edge&) override { ++refuted; }
   int refuted = 0;
 };
 

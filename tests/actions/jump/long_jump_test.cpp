@@ -81,7 +81,7 @@ class JumpScene {
   static graph::Point At(int gait, double x, double y, double yaw, double z = 0) {
     return ToPoint(Model().gaits[gait]->stance.RootPose({x, y, yaw}, z));
   }
-  static graph::PointPair Edge(double x, double distance, double yaw = 0) {
+  static graph::Edge Edge(double x, double distance, double yaw = 0) {
     return {At(0, x, 0, yaw), At(1, x + distance * std::cos(yaw), distance * std::sin(yaw), yaw)};
   }
 
@@ -99,7 +99,7 @@ constexpr double kGap = 0.3;
 
 TEST(LongJumpTest, NecessaryConditionsHoldAcrossAGap) {
   const JumpScene scene(TwoFloors(kGap));
-  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.75);
   EXPECT_TRUE(scene.jump().CN(edge));
   EXPECT_TRUE(scene.jump().Explorable(edge));
   EXPECT_FALSE(scene.jump().CS(edge)) << "nobody has confirmed it";
@@ -109,15 +109,15 @@ TEST(LongJumpTest, NecessaryConditionsHoldAcrossAGap) {
 
 TEST(LongJumpTest, EachUnmetNecessaryConditionRefusesTheJump) {
   const JumpScene scene(TwoFloors(kGap));
-  const graph::PointPair good = JumpScene::Edge(-0.2, 0.75);
+  const graph::Edge good = JumpScene::Edge(-0.2, 0.75);
   EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.1, 0.75))) << "toes over the edge";
   EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.3, 0.75))) << "pegs in the gap";
   EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.2, 0.76))) << "off the grid";
   EXPECT_FALSE(scene.jump().CN(JumpScene::Edge(-0.2, 1.5))) << "out of reach";
-  EXPECT_FALSE(scene.jump().CN(graph::PointPair{good.to, good.from})) << "backwards";
-  EXPECT_FALSE(scene.jump().CN(graph::PointPair{good.from, JumpScene::At(1, 0.55, 0.01, 0)}))
+  EXPECT_FALSE(scene.jump().CN(graph::Edge{good.to, good.from})) << "backwards";
+  EXPECT_FALSE(scene.jump().CN(graph::Edge{good.from, JumpScene::At(1, 0.55, 0.01, 0)}))
       << "to the side";
-  EXPECT_FALSE(scene.jump().CN(graph::PointPair{good.from, JumpScene::At(1, 0.55, 0, 0.1)}))
+  EXPECT_FALSE(scene.jump().CN(graph::Edge{good.from, JumpScene::At(1, 0.55, 0, 0.1)}))
       << "turning";
 }
 
@@ -127,7 +127,7 @@ TEST(LongJumpTest, AJumpThroughAWallIsRefused) {
 
 TEST(LongJumpTest, OverGroundThatCanBeWalkedNoJumpIsExplored) {
   const JumpScene scene(TwoFloors(0));
-  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.75);
   EXPECT_TRUE(scene.jump().CN(edge));
   EXPECT_FALSE(scene.jump().Explorable(edge));
   EXPECT_FALSE(scene.jump().FindLaunchPoint(edge.from, edge.to).has_value());
@@ -142,7 +142,7 @@ TEST(LongJumpTest, ExtensionsFaceTheTargetAndStayOnTheGrid) {
   EXPECT_LT((launch->head<3>() - v.head<3>()).norm(), 1e-9);
   EXPECT_NEAR(Heading(ToPose(*launch).linear()), std::atan2(0.2, 2.2), 1e-9);
   const graph::Point landing = scene.jump().ExtendTowards(*launch, target);
-  EXPECT_TRUE(scene.jump().CN(graph::PointPair{*launch, landing}));
+  EXPECT_TRUE(scene.jump().CN(graph::Edge{*launch, landing}));
   const double distance = (landing - *launch).head<2>().norm();
   EXPECT_NEAR(std::remainder(distance, JumpLibrary::kDistanceStep), 0, 1e-9);
   EXPECT_EQ(scene.jump().FindLaunchPoint(*launch, target), *launch) << "lined up already";
@@ -155,7 +155,7 @@ TEST(LongJumpTest, ReverseExtensionsComeFromTheTarget) {
   const auto landing = scene.jump().FindLandingPoint(v, target);
   ASSERT_TRUE(landing.has_value());
   const graph::Point launch = scene.jump().ReverseExtend(*landing, target);
-  EXPECT_TRUE(scene.jump().CN(graph::PointPair{launch, *landing}));
+  EXPECT_TRUE(scene.jump().CN(graph::Edge{launch, *landing}));
 }
 
 TEST(LongJumpTest, FarFromTheGapNoLaunchIsFound) {
@@ -166,7 +166,7 @@ TEST(LongJumpTest, FarFromTheGapNoLaunchIsFound) {
 
 TEST(LongJumpTest, TheJobRefutesAJumpIntoABeamWithAReason) {
   JumpScene scene(TwoFloors(kGap, {Beam()}));
-  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.75);
   ASSERT_TRUE(scene.jump().CN(edge));
   const auto job = scene.searched().SpawnConfirmationJob(edge);
   ASSERT_NE(job, nullptr);
@@ -181,7 +181,7 @@ TEST(LongJumpTest, TheJobRefutesAJumpIntoABeamWithAReason) {
 
 TEST(LongJumpTest, ACancelledJobIsUndecided) {
   const JumpScene scene(TwoFloors(kGap));
-  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.8);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.8);
   const auto job = scene.searched().SpawnConfirmationJob(edge);
   graph::JobControl control;
   control.Cancel();
@@ -216,8 +216,8 @@ TEST(LongJumpTest, WithoutWorkersAJumpTakesTheSameNumberOfTurnsEveryTime) {
 
 TEST(LongJumpTest, AForbiddenJumpIsNeitherConfirmedNorExplored) {
   JumpScene scene(TwoFloors(kGap));
-  const graph::PointPair edge = JumpScene::Edge(-0.2, 0.75);
-  const graph::PointPair same_elsewhere = JumpScene::Edge(-0.21, 0.75);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.75);
+  const graph::Edge same_elsewhere = JumpScene::Edge(-0.21, 0.75);
   scene.mutable_searched()->Forbid(edge, "a reason", false);
   EXPECT_FALSE(scene.searched().Explorable(edge));
   EXPECT_FALSE(scene.searched().CS(edge));

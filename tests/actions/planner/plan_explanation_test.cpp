@@ -75,7 +75,7 @@ TEST(PlanExplanationTest, ManoeuvresAreExplainedByTheirFirstFewRefusals) {
       [](const Leap& l) { return l.Slide(); }));
   EXPECT_EQ(ExplainManoeuvres({leap}, {}), "");
   const auto edge = [](double x) {
-    return graph::PointPair{ToPoint(PlanarPose{x, 1, 0}.At(1)), ToPoint(PlanarPose{x, 2, 0}.At(1))};
+    return graph::Edge{ToPoint(PlanarPose{x, 1, 0}.At(1)), ToPoint(PlanarPose{x, 2, 0}.At(1))};
   };
   leap->Forbid(edge(0), "a wall", false);
   EXPECT_EQ(ExplainManoeuvres({leap}, {}), " 1 of 'leap' refuted: from (0.00, 1.00): a wall.");

@@ -76,7 +76,7 @@ void ExpectSufficientIsVerifiedIsNecessary(int count, unsigned seed) {
     const QuasiStaticAction& action = scene.action(0);
     for (int attempt = 0; attempt < 20; ++attempt) {
       const RouteLeg leg = RandomLeg(&generator, 2.5);
-      const graph::PointPair edge = LegEdge(model, leg);
+      const graph::Edge edge = LegEdge(model, leg);
       const bool is_sufficient = action.CS(edge);
       const VerificationReport report = scene.VerifyLeg(leg);
       if (is_sufficient) {

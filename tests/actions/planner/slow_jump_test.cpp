@@ -29,7 +29,7 @@ class SlowJump : public LongJump {
         jobs_that_ended_(jobs_that_ended) {}
 
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
-      const graph::PointPair& edge) const override {
+      const graph::Edge& edge) const override {
     auto job = LongJump::SpawnConfirmationJob(edge);
     auto rehearsal = twin_.SpawnConfirmationJob(edge);
     if (!job || !rehearsal) return nullptr;

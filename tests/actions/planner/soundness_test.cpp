@@ -44,7 +44,7 @@ void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_le
     for (int attempt = 0; attempt < 200 && verified < count; ++attempt) {
       const RouteLeg leg = make_leg(&generator);
       const QuasiStaticAction& action = scene.action(EndGait(model, leg));
-      const graph::PointPair edge = LegEdge(model, leg);
+      const graph::Edge edge = LegEdge(model, leg);
       if (!action.CS(edge)) continue;
       EXPECT_TRUE(action.CN(edge));
       const VerificationReport report = scene.VerifyLeg(leg);
@@ -67,7 +67,7 @@ void ExpectVerifiedLegsMeetNecessaryConditions(int count, unsigned seed) {
       if (!scene.VerifyLeg(leg).accepted()) continue;
       ++verified;
       const QuasiStaticAction& action = scene.action(EndGait(model, leg));
-      const graph::PointPair edge = LegEdge(model, leg);
+      const graph::Edge edge = LegEdge(model, leg);
       EXPECT_TRUE(action.CN(edge));
       EXPECT_TRUE(action.CN(edge.from));
       EXPECT_TRUE(action.CN(edge.to));

@@ -157,7 +157,7 @@ TEST(StraightWay, AnswersAgreeWithSingleSamples) {
       EXPECT_EQ(ways.action().IsClear(ways.At(from), ways.At(to)), by_samples);
       const bool ends = ways.StanceBySample(from) && ways.StanceBySample(to);
       EXPECT_EQ(ways.action().CS(ways.PointAt(from)), ways.StanceBySample(from));
-      EXPECT_EQ(ways.action().CS(graph::PointPair{ways.PointAt(from), ways.PointAt(to)}),
+      EXPECT_EQ(ways.action().CS(graph::Edge{ways.PointAt(from), ways.PointAt(to)}),
                 ends && by_samples);
       ++(ends && by_samples ? clear : blocked);
     }

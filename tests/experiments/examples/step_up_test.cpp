@@ -112,15 +112,15 @@ class StepUpScene : public testing::Test {
 TEST_F(StepUpScene, EachUnmetNecessaryConditionRefusesTheStep) {
   const graph::Point low = At(-0.02, 0, 0, 0);
   const graph::Point high = At(0.48, 0, 0, 0.1);
-  EXPECT_TRUE(step_up_->CN(graph::PointPair{low, high}));
-  EXPECT_TRUE(step_up_->CN(graph::PointPair{high, low})) << "down again";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{low, At(0.47, 0, 0, 0.1)})) << "too near";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{low, At(0.48, 0.01, 0, 0.1)})) << "to the side";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{low, At(0.48, 0, 0.01, 0.1)})) << "turning";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{low, At(0.48, 0, 0, 0)})) << "into the plinth";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{At(-0.1, 0, 0, 0), At(0.4, 0, 0, 0.1)}))
+  EXPECT_TRUE(step_up_->CN(graph::Edge{low, high}));
+  EXPECT_TRUE(step_up_->CN(graph::Edge{high, low})) << "down again";
+  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.47, 0, 0, 0.1)})) << "too near";
+  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.48, 0.01, 0, 0.1)})) << "to the side";
+  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.48, 0, 0.01, 0.1)})) << "turning";
+  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.48, 0, 0, 0)})) << "into the plinth";
+  EXPECT_FALSE(step_up_->CN(graph::Edge{At(-0.1, 0, 0, 0), At(0.4, 0, 0, 0.1)}))
       << "heels over the edge";
-  EXPECT_FALSE(step_up_->CN(graph::PointPair{At(0.3, 0, 0, 0), At(0.8, 0, 0, 0.1)}))
+  EXPECT_FALSE(step_up_->CN(graph::Edge{At(0.3, 0, 0, 0), At(0.8, 0, 0, 0.1)}))
       << "too close to stand there";
 }
 
@@ -128,8 +128,7 @@ TEST_F(StepUpScene, TheExpectedDurationIsThatOfTheMotion) {
   for (const double y : {0.0, 0.3, -0.123}) {
     const graph::Point low = At(-0.02, y, 0, 0);
     const graph::Point high = At(0.48, y, 0, 0.1);
-    for (const graph::PointPair& edge :
-         {graph::PointPair{low, high}, graph::PointPair{high, low}}) {
+    for (const graph::Edge& edge : {graph::Edge{low, high}, graph::Edge{high, low}}) {
       const double duration = step_up_->Motion(edge, {}).back().knots.back().t;
       EXPECT_NEAR(step_up_->ExpectedDuration(edge), duration, 1e-9) << y;
     }
@@ -147,21 +146,21 @@ TEST_F(StepUpScene, LaunchesAndLandingsAtAnEdgeAreFoundFromBothSides) {
   const auto launch = step_up_->FindLaunchPoint(At(-1, 0.2, 2, 0), target);
   ASSERT_TRUE(launch.has_value());
   const graph::Point landing = step_up_->ExtendTowards(*launch, target);
-  EXPECT_TRUE(step_up_->CN(graph::PointPair{*launch, landing}));
+  EXPECT_TRUE(step_up_->CN(graph::Edge{*launch, landing}));
   EXPECT_EQ(*step_up_->FindLaunchPoint(*launch, target), *launch) << "there already";
 
   const graph::Point floor = At(-1, 0.3, 0, 0);
   const auto descent = step_up_->FindLaunchPoint(At(1.5, 0.2, 1, 0.1), floor);
   ASSERT_TRUE(descent.has_value());
-  EXPECT_TRUE(step_up_->CN(graph::PointPair{*descent, step_up_->ExtendTowards(*descent, floor)}));
+  EXPECT_TRUE(step_up_->CN(graph::Edge{*descent, step_up_->ExtendTowards(*descent, floor)}));
 
   const auto arrival = step_up_->FindLandingPoint(At(1.5, 0.2, 1, 0.1), floor);
   ASSERT_TRUE(arrival.has_value());
-  EXPECT_TRUE(step_up_->CN(graph::PointPair{step_up_->ReverseExtend(*arrival, floor), *arrival}));
+  EXPECT_TRUE(step_up_->CN(graph::Edge{step_up_->ReverseExtend(*arrival, floor), *arrival}));
 }
 
 TEST_F(StepUpScene, TheJobConfirmsRefutesWithAReasonOrIsCancelled) {
-  const graph::PointPair edge = {At(-0.02, 0, 0, 0), At(0.48, 0, 0, 0.1)};
+  const graph::Edge edge = {At(-0.02, 0, 0, 0), At(0.48, 0, 0, 0.1)};
   graph::JobControl control;
   EXPECT_EQ(step_up_->SpawnConfirmationJob(edge)->Run(&control), graph::JobVerdict::kConfirmed);
 
@@ -177,7 +176,7 @@ TEST_F(StepUpScene, TheJobConfirmsRefutesWithAReasonOrIsCancelled) {
   EXPECT_NE(job->reason().find("'beam'"), std::string::npos);
 
   control.Cancel();
-  const graph::PointPair other = {At(-0.02, 0.1, 0, 0), At(0.48, 0.1, 0, 0.1)};
+  const graph::Edge other = {At(-0.02, 0.1, 0, 0), At(0.48, 0.1, 0, 0.1)};
   EXPECT_EQ(step_up_->SpawnConfirmationJob(other)->Run(&control), graph::JobVerdict::kUndecided);
 }
 
