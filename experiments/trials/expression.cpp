@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <muParser.h>
 
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -14,120 +14,103 @@
 namespace possibility::experiments {
 namespace {
 
-/// Recursive descent, a function per level of precedence.
-class Parser {
- public:
-  Parser(const std::string& text, const std::map<std::string, double>& names)
-      : text_(text), names_(names) {}
+using Names = std::map<std::string, double>;
 
-  double Evaluate() {
-    const double value = Sum();
-    if (Peek() != '\0') Fail("expected an operator");
-    return value;
-  }
+constexpr char kLanguage[] =
+    "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.+-*/() \t";
 
- private:
-  static constexpr int kDeepest = 100;
+double Finite(double value) {
+  if (!std::isfinite(value)) throw mu::ParserError(mu::ecDOMAIN_ERROR);
+  return value;
+}
 
-  double Sum() {
-    double value = Product();
-    for (char c = Peek(); c == '+' || c == '-'; c = Peek()) {
-      ++at_;
-      const double next = Product();
-      value = Finite(c == '+' ? value + next : value - next);
+/// Replaces each run of signs and blanks by blanks and one sign. muParser knows one sign before a
+/// value only. Places stay what they are.
+std::string WithSingleSigns(std::string text) {
+  std::size_t last = std::string::npos;  // the sign before, if only blanks lie between
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_sign = text[i] == '+' || text[i] == '-';
+    if (is_sign && last != std::string::npos) {
+      text[i] = text[i] == text[last] ? '+' : '-';
+      text[last] = ' ';
     }
-    return value;
-  }
-
-  double Product() {
-    double value = Factor();
-    for (char c = Peek(); c == '*' || c == '/'; c = Peek()) {
-      ++at_;
-      const double next = Factor();
-      value = Finite(c == '*' ? value * next : value / next);
+    if (is_sign) {
+      last = i;
+    } else if (text[i] != ' ' && text[i] != '\t') {
+      last = std::string::npos;
     }
-    return value;
   }
+  return text;
+}
 
-  double Factor() {
-    if (++depth_ > kDeepest) Fail(fmt::format("expected at most {} nested levels", kDeepest));
-    const double value = SignedOrPrimary();
-    --depth_;
-    return value;
+/// A parser of the documented language only: none of muParser's functions, constants, comparisons,
+/// assignments or conditions.
+mu::Parser ParserOf(const Names& names) {
+  mu::Parser parser;
+  parser.ClearFun();
+  parser.ClearConst();
+  parser.EnableBuiltInOprt(false);
+  // Operators of our own, because muParser's let infinity pass.
+  parser.DefineOprt(
+      "+", [](double a, double b) { return Finite(a + b); }, mu::prADD_SUB);
+  parser.DefineOprt(
+      "-", [](double a, double b) { return Finite(a - b); }, mu::prADD_SUB);
+  parser.DefineOprt(
+      "*", [](double a, double b) { return Finite(a * b); }, mu::prMUL_DIV);
+  parser.DefineOprt(
+      "/", [](double a, double b) { return Finite(a / b); }, mu::prMUL_DIV);
+  for (const auto& [name, value] : names) parser.DefineConst(name, value);
+  return parser;
+}
+
+std::string UnknownName(const std::string& text, const std::string& name, const Names& names) {
+  std::vector<std::string> known;
+  for (const auto& [other, value] : names) known.push_back(other);
+  return fmt::format("there is no '{}' in '{}', expected one of {}{}", name, text,
+                     fmt::join(known, ", "), models::DidYouMean(name, known));
+}
+
+std::string MessageOf(const mu::ParserError& error, const std::string& text, const Names& names) {
+  std::string token = error.GetToken();
+  token.erase(token.find_last_not_of(" \t") + 1);
+  const bool is_at_end = error.GetPos() >= static_cast<int>(text.size());
+  switch (is_at_end && !token.empty() && token != ")" ? mu::ecUNEXPECTED_EOF : error.GetCode()) {
+    case mu::ecDOMAIN_ERROR:
+      return fmt::format("'{}' is not finite, expected a number", text);
+    case mu::ecEMPTY_EXPRESSION:
+    case mu::ecUNEXPECTED_EOF:
+      return fmt::format("'{}': expected a number, a name or '(' at the end", text);
+    case mu::ecMISSING_PARENS:
+      return fmt::format("'{}': expected ')' at the end", text);
+    case mu::ecUNASSIGNABLE_TOKEN:
+      if (std::isalpha(static_cast<unsigned char>(token[0])) != 0 || token[0] == '_') {
+        return UnknownName(text, token, names);
+      }
+      break;
+    default:
+      if (token.empty() || error.GetPos() < 0) {
+        return fmt::format("'{}': {}", text, error.GetMsg());
+      }
   }
-
-  double SignedOrPrimary() {
-    const char c = Peek();
-    if (c == '-' || c == '+') {
-      ++at_;
-      const double value = Factor();
-      return c == '-' ? -value : value;
-    }
-    if (c == '(') {
-      ++at_;
-      const double value = Sum();
-      if (Peek() != ')') Fail("expected ')'");
-      ++at_;
-      return value;
-    }
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_') return Name();
-    return Number();
-  }
-
-  double Name() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() &&
-           (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
-      ++at_;
-    }
-    const std::string name = text_.substr(begin, at_ - begin);
-    const auto found = names_.find(name);
-    if (found != names_.end()) return found->second;
-    std::vector<std::string> known;
-    for (const auto& [other, value] : names_) known.push_back(other);
-    throw InputError(fmt::format("there is no '{}' in '{}', expected one of {}{}", name, text_,
-                                 fmt::join(known, ", "), models::DidYouMean(name, known)));
-  }
-
-  double Number() {
-    double value = 0;
-    const char* begin = text_.data() + at_;
-    const char* end = text_.data() + text_.size();
-    // from_chars knows "inf" and "nan", which Name has taken.
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error == std::errc::result_out_of_range) Fail("expected a smaller number");
-    if (error != std::errc()) Fail("expected a number, a name or '('");
-    at_ += static_cast<std::size_t>(stop - begin);
-    return value;
-  }
-
-  char Peek() {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
-    return at_ < text_.size() ? text_[at_] : '\0';
-  }
-
-  double Finite(double value) const {
-    if (!std::isfinite(value)) {
-      throw InputError(fmt::format("'{}' is not finite, expected a number", text_));
-    }
-    return value;
-  }
-
-  [[noreturn]] void Fail(const std::string& what) const {
-    throw InputError(fmt::format("'{}': {} at character {}", text_, what, at_ + 1));
-  }
-
-  const std::string& text_;
-  const std::map<std::string, double>& names_;
-  std::size_t at_ = 0;
-  int depth_ = 0;
-};
+  return fmt::format("'{}': unexpected '{}' at character {}", text, token, error.GetPos() + 1);
+}
 
 }  // namespace
 
-double EvaluateExpression(const std::string& expression,
-                          const std::map<std::string, double>& names) {
-  return Parser(expression, names).Evaluate();
+double EvaluateExpression(const std::string& expression, const Names& names) {
+  // What muParser would take beyond the language: commas, conditions, strings.
+  const std::size_t foreign = expression.find_first_not_of(kLanguage);
+  if (foreign != std::string::npos) {
+    throw InputError(fmt::format("'{}': expected a digit, a letter, + - * / ( or ) at character {}",
+                                 expression, foreign + 1));
+  }
+  try {
+    mu::Parser parser = ParserOf(names);
+    parser.SetExpr(WithSingleSigns(expression));
+    return parser.Eval();
+  } catch (const mu::ParserError& error) {
+    throw InputError(MessageOf(error, expression, names));
+  }
 }
 
 }  // namespace possibility::experiments
