@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "experiments/report/action_colors.h"
 
 namespace possibility::experiments {
 namespace {
@@ -59,7 +60,7 @@ std::string Reached(const actions::Barrier& barrier) {
     for (const std::vector<Vector2d>& outline : region.outlines) {
       path += fmt::format("M{}Z", Points(outline));
     }
-    const std::string color = region.action.empty() ? "#868e96" : ActionColor(region.action);
+    const std::string color = ActionColor(region.action);
     svg += fmt::format("<path d=\"{}\" class=\"reached\" fill=\"{}\" stroke=\"{}\"/>\n", path,
                        color, color);
   }
@@ -138,21 +139,6 @@ std::string Route(const actions::Plan& plan, double dot) {
 }
 
 }  // namespace
-
-std::string ActionColor(const std::string& action) {
-  // Actions in the paper's figures have fixed colours; others share the rest.
-  static constexpr std::array<std::pair<const char*, const char*>, 3> kKnown = {
-      {{"walk", "#0b6fb8"}, {"crawl", "#d9480f"}, {"jump", "#c2255c"}}};
-  static constexpr std::array<const char*, 4> kOthers = {"#2b8a3e", "#6741d9", "#b8860b",
-                                                         "#0c8599"};
-  for (const auto& [name, color] : kKnown) {
-    if (action == name) return color;
-  }
-  if (action.find("->") != std::string::npos) return "#868e96";
-  std::size_t sum = 0;
-  for (const char c : action) sum += static_cast<unsigned char>(c);
-  return kOthers[sum % kOthers.size()];
-}
 
 std::string PlanPicture(const actions::Plan& plan, const models::Environment& environment,
                         double width) {

@@ -7,9 +7,6 @@
 
 namespace possibility::experiments {
 
-/// Colour of a gait, a jump, or a transition ("a->b"); the same in every picture.
-std::string ActionColor(const std::string& action);
-
 /// The scene from above as an SVG document: ground, obstacles, the explored graph in thin lines and
 /// the path of the pelvis, coloured by action. Without segments: no path.
 std::string PlanPicture(const actions::Plan& plan, const models::Environment& environment,

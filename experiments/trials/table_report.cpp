@@ -162,8 +162,9 @@ std::vector<NamedPicture> Pictures(const std::vector<TrialGroup>& groups) {
 PageSection Gallery(const std::vector<TrialGroup>& groups, const std::filesystem::path& folder) {
   PageSection gallery = PlanGallery(groups, folder);
   gallery.paragraphs = {
-      "From above: obstacles dark, explored graph thin, pelvis path coloured by action (blue walk, "
-      "orange crawl, red jump, grey transitions)."};
+      "From above: obstacles dark, explored graph thin, pelvis path coloured by action (green "
+      "walk, "
+      "light blue crawl, fuchsia jump, orange transitions)."};
   return gallery;
 }
 

@@ -5,9 +5,6 @@
 
 const kBarrierColour = '#e03131';
 const kPassageColour = '#b45309';
-const kPelvisColour = '#7a8699';  // of what the pelvis alone reaches
-
-const regionColour = (action) => action ? actionColour(action) : kPelvisColour;
 
 function signedArea(corners) {
   let area = 0;
@@ -43,7 +40,7 @@ function regionShapes(outlines) {
 
 function regionMesh(region, lift) {
   const group = new THREE.Group();
-  const colour = regionColour(region.action);
+  const colour = actionColour(region.action);
   const face = new THREE.MeshBasicMaterial(
       {color: colour, transparent: true, opacity: 0.22, side: THREE.DoubleSide, depthWrite: false});
   group.add(new THREE.Mesh(new THREE.ShapeBufferGeometry(regionShapes(region.outlines)), face));

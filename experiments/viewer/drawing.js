@@ -2,9 +2,6 @@
 
 /* Everything that is drawn: the world, the explored graph, the route and the robot. */
 
-const kTransitionColour = '#f08a24';
-const kOtherActionColour = '#7768d8';
-const kActionColours = {walk: '#2f9e54', crawl: '#55b4e6', jump: '#e0219f'};
 const kLimbColours = ['#d1495b', '#2667c9', '#e6a117', '#6a4c93', '#1b998b', '#8d5524'];
 const kForceScale = 1 / 800;  // m per N
 const kFieldOfView = 35;      // degrees
@@ -15,11 +12,9 @@ const kPhaseColours = {
   preparation: '#aab3bf', crouch: '#5b8def', toes: '#f2b134', flight: '#e0219f',
   settle: '#8e6bd1', landing: '#20a39e', stance: '#ccd2da', on: '#98a2b0', swing: '#98a2b0'};
 
-function actionColour(action) {
-  if (action.includes('->')) return kTransitionColour;
-  const name = Object.keys(kActionColours).find((known) => action.includes(known));
-  return name ? kActionColours[name] : kOtherActionColour;
-}
+/* By action, from the page's data: one table serves pages and pictures. */
+let actionColours = {};
+const actionColour = (action) => actionColours[action];
 const limbColour = (contact) => kLimbColours[contact % kLimbColours.length];
 
 function phaseColour(phase, contacts) {

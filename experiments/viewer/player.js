@@ -104,7 +104,7 @@ class Player {
     if (!barrier) return;
     const actions = new Set(barrier.reached.map((region) => region.action));
     for (const action of actions) {
-      addKey('reached: ' + (action || 'the pelvis alone'), regionColour(action), 'action');
+      addKey('reached: ' + (action || 'the pelvis alone'), actionColour(action), 'action');
     }
     addKey('closes the way', kBarrierColour, 'action');
   }
@@ -275,6 +275,7 @@ function showMessage(text) {
 
 function openPage() {
   const data = JSON.parse(element('plan-data').textContent);
+  actionColours = data.action_colors;
   const motion = new Motion(data);
   let drawing;
   try {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/tree/tree_kinematics.h"
+#include "experiments/report/action_colors.h"
 #include "experiments/report/plan_summary.h"
 #include "experiments/viewer/viewer_motion.h"
 #include "experiments/viewer/viewer_packing.h"
@@ -159,6 +160,18 @@ Json NoJson(const actions::NoPlan& no) {
   return json;
 }
 
+/// By the name of every action that the page shows.
+Json ActionColorsJson(const actions::Plan& plan) {
+  Json colors = Json::object();
+  const auto add = [&colors](const std::string& action) { colors[action] = ActionColor(action); };
+  for (const actions::Segment& segment : plan.segments) add(segment.action);
+  for (const auto& edge : plan.explored.edges) add(edge.action);
+  if (plan.no && plan.no->barrier) {
+    for (const actions::ReachedRegion& region : plan.no->barrier->reached) add(region.action);
+  }
+  return colors;
+}
+
 /// No '<' or '&', so that nothing inside can end the element; text that is not UTF-8 is replaced.
 std::string ScriptSafe(const Json& json) {
   std::string safe;
@@ -225,6 +238,7 @@ std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& 
   json["start"] = StanceJson(scenario.start);
   json["goals"] = goals;
   json["segments"] = segments;
+  json["action_colors"] = ActionColorsJson(plan);
   motion.WriteTo(&json);
   json["explored"] = ExploredJson(plan.explored);
   json["no"] = plan.no ? NoJson(*plan.no) : Json();

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "experiments/report/action_colors.h"
 #include "experiments/report/experiment_page.h"
 #include "experiments/report/plan_picture.h"
 #include "experiments/report/text_table.h"

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "experiments/report/action_colors.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/hop_plan.h"
 #include "tests/experiments/sample_plan.h"
@@ -46,6 +47,16 @@ TEST_F(ViewerPageTest, HoldsEveryName) {
   EXPECT_EQ(data["segments"][1]["action"], "walk->crawl");
   EXPECT_EQ(data["segments"][1]["phases"][0]["contacts"], (std::vector<int>{0, 1}));
   EXPECT_EQ(data["explored"]["actions"], (std::vector<std::string>{"walk", "crawl"}));
+}
+
+TEST_F(ViewerPageTest, HoldsTheColourOfEveryActionThatItShows) {
+  plan_.explored.edges[0].action = "vault";
+  plan_.no = {"exhausted", "", {}};
+  plan_.no->barrier = {{1, 0.5}, 2, {}, {{"jump", 0, {}}, {"", 0, {}}}};
+  const nlohmann::json data = EmbeddedData(Page());
+  for (const std::string action : {"walk", "walk->crawl", "crawl", "vault", "jump", ""}) {
+    EXPECT_EQ(data["action_colors"][action], ActionColor(action)) << action;
+  }
 }
 
 TEST_F(ViewerPageTest, HoldsThePointsOfAPatchThatBear) {
