@@ -14,11 +14,16 @@ namespace {
 
 constexpr double kAtTheGoal = 1e-6;  // m
 
-/// The first few refusals with their reasons.
-std::string Listed(const std::vector<Refusal>& refusals, const std::string& what) {
+/// "1 cycle", "2 cycles".
+std::string Counted(std::int64_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+/// The first few refusals with their reasons, after a heading.
+std::string Listed(const std::vector<Refusal>& refusals, const std::string& heading) {
   constexpr size_t kAtMost = 3;
   if (refusals.empty()) return {};
-  std::string text = fmt::format(" {} {}:", refusals.size(), what);
+  std::string text = fmt::format(" {}:", heading);
   for (size_t i = 0; i < std::min(refusals.size(), kAtMost); ++i) {
     const graph::Point& from = refusals[i].edge.from;
     text += fmt::format("{} from ({:.2f}, {:.2f}): {}", i == 0 ? "" : ";", from.x(), from.y(),
@@ -32,25 +37,25 @@ std::int64_t Count(const std::map<std::string, std::int64_t>& statistics, const 
   return found == statistics.end() ? 0 : found->second;
 }
 
-/// "1 cycle", "2 cycles".
-std::string Counted(std::int64_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// A counter that the search keeps for every action (graph/), and its wording.
 struct RefusalWords {
   const char* counter;  ///< after "<action>: "
-  const char* words;    ///< format string of a count and an action
+  const char* one;      ///< format string of an action, after the count 1
+  const char* many;     ///< after other counts
 };
 
 constexpr RefusalWords kRefusalWords[] = {
-    {"extend rejected at vertex", "{} places where '{}' cannot be"},
-    {"extend rejected on edge", "{} ways that '{}' cannot go"},
-    {"extend stopped at removed edge", "{} ways of '{}' that were refuted before"},
-    {"growth rejected", "{} tries of '{}' that its conditions refuse"},
-    {"growth stopped at removed edge", "{} tries of '{}' that were refuted before"},
-    {"growth not lined up", "{} tries of '{}' to which no way leads"},
-    {"transition failed", "{} changes to '{}' that led nowhere"},
+    {"extend rejected at vertex", "place where '{}' cannot be", "places where '{}' cannot be"},
+    {"extend rejected on edge", "way that '{}' cannot go", "ways that '{}' cannot go"},
+    {"extend stopped at removed edge", "way of '{}' that was refuted before",
+     "ways of '{}' that were refuted before"},
+    {"growth rejected", "try of '{}' that its conditions refuse",
+     "tries of '{}' that its conditions refuse"},
+    {"growth stopped at removed edge", "try of '{}' that was refuted before",
+     "tries of '{}' that were refuted before"},
+    {"growth not lined up", "try of '{}' to which no way leads",
+     "tries of '{}' to which no way leads"},
+    {"transition failed", "change to '{}' that led nowhere", "changes to '{}' that led nowhere"},
 };
 
 /// The three most frequent, in descending order.
@@ -63,8 +68,10 @@ std::vector<std::string> MostFrequentRefusals(
     if (count == 0 || colon == std::string::npos) continue;
     for (const RefusalWords& refusal : kRefusalWords) {
       if (name.substr(colon + 2) != refusal.counter) continue;
-      refusals.emplace_back(count,
-                            fmt::format(fmt::runtime(refusal.words), count, name.substr(0, colon)));
+      const char* words = count == 1 ? refusal.one : refusal.many;
+      refusals.emplace_back(
+          count,
+          fmt::format("{} {}", count, fmt::format(fmt::runtime(words), name.substr(0, colon))));
     }
   }
   std::stable_sort(refusals.begin(), refusals.end(),
@@ -157,10 +164,14 @@ std::string ExplainManoeuvres(const std::vector<std::shared_ptr<SearchedManoeuvr
                               const FailedJobs& failures) {
   std::string text;
   for (const auto& manoeuvre : manoeuvres) {
-    text += Listed(manoeuvre->Refusals(), fmt::format("of '{}' refuted", manoeuvre->name()));
+    const std::vector<Refusal> refuted = manoeuvre->Refusals();
+    text += Listed(refuted, fmt::format("{} of '{}' refuted", refuted.size(), manoeuvre->name()));
     const auto failed = failures.find(manoeuvre->name());
     if (failed == failures.end()) continue;
-    text += Listed(failed->second, fmt::format("jobs of '{}' failed", manoeuvre->name()));
+    text += Listed(failed->second,
+                   fmt::format("{} of '{}' failed",
+                               Counted(static_cast<std::int64_t>(failed->second.size()), "job"),
+                               manoeuvre->name()));
   }
   return text;
 }

@@ -82,7 +82,7 @@ TEST(PlanExplanationTest, ManoeuvresAreExplainedByTheirFirstFewRefusals) {
   for (int i = 1; i < 5; ++i) leap->Forbid(edge(i), "r" + std::to_string(i), false);
   EXPECT_EQ(ExplainManoeuvres({leap}, {{"leap", {{edge(9), "it threw"}}}, {"hop", {{}}}}),
             " 5 of 'leap' refuted: from (0.00, 1.00): a wall; from (1.00, 1.00): r1; from (2.00, "
-            "1.00): r2; ... 1 jobs of 'leap' failed: from (9.00, 1.00): it threw.");
+            "1.00): r2; ... 1 job of 'leap' failed: from (9.00, 1.00): it threw.");
 }
 
 }  // namespace
