@@ -316,6 +316,7 @@ TEST(RolloutCheck, AStoppedOrRefusedRolloutIsReportedInOneLine) {
   sunk.phases[0].knots[0].q[6] -= 0.01;
   const RolloutDrift refused = RollOutSegment(sunk, subject.robot, ground);
   EXPECT_FALSE(refused.follows());
+  EXPECT_NE(refused.failure, "");
   EXPECT_EQ(refused.failure.find('\n'), std::string::npos) << refused.failure;
 }
 
