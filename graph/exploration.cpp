@@ -1,6 +1,8 @@
 #include "graph/exploration.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace possibility::graph {
@@ -131,11 +133,14 @@ double Exploration::work() const {
 }
 
 double Exploration::lower_bound() const {
-  double bound = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (const Seat& seat : seats_) {
-    bound = std::max(bound, seat.explorer->lower_bound());
+    const double bound = seat.explorer->lower_bound();
+    if (bound > 0) {
+      least = std::min(least, bound);
+    }
   }
-  return bound;
+  return std::isfinite(least) ? least : 0;
 }
 
 }  // namespace possibility::graph

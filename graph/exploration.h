@@ -41,7 +41,9 @@ class Exploration {
   /// cost keeps no job waiting.
   double work() const;
 
-  /// The greatest lower bound of all explorers, s.
+  /// A lower bound of the expected duration of all routes that explorers with a bound have
+  /// explored, s: the least of their bounds. Explorers that know none (0) say nothing of their
+  /// routes, so those are not covered. 0 if no explorer knows a bound.
   double lower_bound() const;
 
  private:

@@ -285,8 +285,9 @@ class Improver : public Explorer {
     EXPECT_NEAR(sum, duration, 1e-9);
     return true;
   }
-  double lower_bound() const override { return 8; }
+  double lower_bound() const override { return bound; }
 
+  double bound = 8;
   int turns = 0;
   std::vector<double> durations;
 };
@@ -313,6 +314,27 @@ double DurationOf(const PathResult& result) {
     duration += (edge.points.to - edge.points.from).norm();
   }
   return duration;
+}
+
+// What is below one explorer's bound may be among the other's routes.
+TEST_F(ImprovementTest, TheLowerBoundOfSeveralExplorersIsTheLeastThatIsKnown) {
+  const auto with_bound = [](double bound) {
+    return [bound](const ExplorerContext&) {
+      auto improver = std::make_unique<Improver>();
+      improver->bound = bound;
+      return improver;
+    };
+  };
+  FindPathSettings settings{.time_limit = 10, .seed = 1, .improvement_share = 0.5};
+  const auto bound_of = [&](std::initializer_list<double> bounds) {
+    settings.explorers = {RandomExploration()};
+    for (const double bound : bounds) settings.explorers.push_back(with_bound(bound));
+    return FindPath(Start(), {Goal()}, actions_, kRoom, settings).lower_bound;
+  };
+  EXPECT_EQ(bound_of({}), 0);
+  EXPECT_EQ(bound_of({0}), 0);
+  EXPECT_EQ(bound_of({8, 5}), 5);
+  EXPECT_EQ(bound_of({5, 0, 8}), 5);
 }
 
 TEST_F(ImprovementTest, ThePathIsAShortestPathOfTheExploredGraph) {
