@@ -24,8 +24,8 @@ enum class GuardDirection { kFalling, kRising, kBoth };
 
 struct OdeGuard {
   GuardDirection direction = GuardDirection::kFalling;
-  /// Whether a guard that starts at zero and leaves it in its direction fires at the start. A guard
-  /// that starts beyond zero fires only after it has come back.
+  /// Whether a guard that starts at zero and leaves it in its direction fires at the start; kBoth
+  /// never does. A guard that starts beyond zero fires only after it has come back.
   bool fires_from_zero = true;
 };
 
