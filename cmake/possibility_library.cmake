@@ -25,7 +25,7 @@ function(possibility_uses_regex)
 endfunction()
 
 # What most files include, compiled once for all libraries.
-set(possibility_common_headers
+set(possibility_precompiled_headers
     <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits>
     <map> <memory> <mutex> <numbers> <numeric> <optional> <set> <sstream> <stdexcept> <string>
     <string_view> <thread> <tuple> <unordered_map> <utility> <variant> <vector>
@@ -63,9 +63,9 @@ function(possibility_part folder)
   possibility_library(${target} ${folder})
   set(links ${ARGN})
   list(TRANSFORM links REPLACE "^([a-z]+)/([a-z]+)$" "possibility::\\1_\\2")
-  list(TRANSFORM links REPLACE "^graph$" "possibility::graph")
+  list(TRANSFORM links REPLACE "^(common|graph)$" "possibility::\\1")
   target_link_libraries(possibility_${target} PUBLIC Eigen3::Eigen fmt::fmt Threads::Threads ${links})
-  target_precompile_headers(possibility_${target} REUSE_FROM possibility_common)
+  target_precompile_headers(possibility_${target} REUSE_FROM possibility_precompiled)
 endfunction()
 
 # possibility_room(<folder> <link>...): the same, installed.

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "common/deadline.h"
 #include "graph/confirmation_job.h"
-#include "graph/deadline.h"
 #include "graph/job_rotation.h"
 #include "graph/queued_job.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "common/deadline.h"
 #include "graph/confirmation_queue.h"
-#include "graph/deadline.h"
 
 namespace possibility::graph {
 

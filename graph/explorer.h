@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/deadline.h"
 #include "graph/action.h"
-#include "graph/deadline.h"
 #include "graph/path_edge.h"
 #include "graph/possibility_graph.h"
 #include "graph/random.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/deadline.h"
 #include "graph/confirmation_turns.h"
-#include "graph/deadline.h"
 #include "graph/exploration.h"
 #include "graph/find_path_arguments.h"
 #include "graph/path_confirmation.h"

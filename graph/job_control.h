@@ -9,6 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/cancellation_token.h"
+
 namespace possibility::graph {
 
 /// How a routine with its own handle is paused, resumed and cancelled from another thread. Each
@@ -20,8 +22,9 @@ struct JobSteering {
   std::function<void()> cancel;
 };
 
-/// Links a running confirmation job with its runner: a ConfirmationQueue or a test. Thread-safe:
-/// the job calls the first group of functions, other threads the second.
+/// Links a running routine with whoever pauses, resumes and cancels it: a confirmation job with its
+/// ConfirmationQueue, a solve with the jobs that wait for it. Thread-safe: the routine calls the
+/// first group of functions, other threads the second.
 class JobControl {
  public:
   /// Starts unpaused. The job's thread calls `on_held` (optional) when a pause begins to hold it.
@@ -33,6 +36,11 @@ class JobControl {
   /// paused. False once the job is cancelled: Run then returns without delay. Costs two atomic
   /// loads while no pause, cancellation or ration is pending.
   bool Checkpoint();
+  /// For what takes no JobControl: asking it is a Checkpoint. For the job's thread alone; must not
+  /// outlive the JobControl.
+  CancellationToken token() {
+    return CancellationToken([this] { return Checkpoint(); });
+  }
   bool cancelled() const { return cancelled_.load(std::memory_order_acquire); }
 
   /// Runs `routine`, steered through its own handle meanwhile, and returns Checkpoint(). Exceptions

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/deadline.h"
 #include "graph/action_exploration.h"
 #include "graph/confirmation_queue.h"
-#include "graph/deadline.h"
 #include "graph/find_path.h"
 #include "graph/possibility_graph.h"
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "common/deadline.h"
 #include "graph/action.h"
-#include "graph/deadline.h"
 #include "graph/find_path.h"
 
 namespace possibility::graph {

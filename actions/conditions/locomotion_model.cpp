@@ -100,7 +100,7 @@ int LocomotionModel::GaitIndex(const std::string& name) const {
 
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
-                                     const std::function<bool()>& keep_going,
+                                     const CancellationToken& cancellation,
                                      const std::filesystem::path& library,
                                      const std::vector<GaitFactory>& further) {
   std::vector<std::string> names;
@@ -111,7 +111,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
   for (const std::string& action : actions) {
     if (IsJump(robot, action)) continue;
     std::unique_ptr<GaitEntry> entry = MakeEntry(robot, action, further);
-    entry->volumes = SweepGait(robot, entry->stance, *entry->motion, keep_going);
+    entry->volumes = SweepGait(robot, entry->stance, *entry->motion, cancellation);
     model.gaits.push_back(std::move(entry));
   }
   for (const models::Transition& transition : robot.transitions) {
@@ -120,7 +120,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     entry.to = model.GaitIndex(transition.to);
     if (entry.from < 0 || entry.to < 0) continue;
     const TransitionMotion motion(robot, model.gaits[entry.from]->stance,
-                                  model.gaits[entry.to]->stance, library, keep_going);
+                                  model.gaits[entry.to]->stance, library, cancellation);
     entry.displacement = motion.displacement();
     entry.phases = motion.phases();
     entry.sweep = SweepTransition(robot, motion).Boxes();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,11 +48,10 @@ struct LocomotionModel {
 /// transitions, empty for none.
 /// @throws InputError if an action does not exist, if a factory names no gait of the robot, is
 /// empty or makes nothing, or a gait's bounds allow a stride that the robot
-/// cannot execute (every extreme stride is generated and checked here); Abandoned if `keep_going`
-/// (may be empty) returns false.
+/// cannot execute (every extreme stride is generated and checked here); Cancelled.
 LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
-                                     const std::function<bool()>& keep_going = {},
+                                     const CancellationToken& cancellation = {},
                                      const std::filesystem::path& library = {},
                                      const std::vector<GaitFactory>& further = {});
 

@@ -48,7 +48,7 @@ std::unique_ptr<graph::ConfirmationJob> Manoeuvre::SpawnConfirmationJob(
   return std::make_unique<MotionJob>(*this, checker_, edge);
 }
 
-bool Manoeuvre::ReplaceGuesses(const std::function<bool()>&) { return false; }
+bool Manoeuvre::ReplaceGuesses(const CancellationToken&) { return false; }
 
 std::optional<GroundedStance> Manoeuvre::LaunchStance(const graph::Point& v) const {
   return AsStance(*model_, from_, ToPose(v));

@@ -12,6 +12,7 @@
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "graph/action.h"
 #include "models/world/collision.h"
 #include "models/world/scenario.h"
@@ -26,9 +27,9 @@ struct PlanningContext {
   std::vector<std::shared_ptr<const QuasiStaticAction>> gaits;
   std::shared_ptr<const graph::ExplorationSpace> space;
   models::PlannerSettings settings;
-  std::filesystem::path library;     ///< folder of solved motions and reaches; empty: none
-  bool solved_motions = true;        ///< false: the library provides only reaches
-  std::function<bool()> keep_going;  ///< returns false once time is up; may be empty
+  std::filesystem::path library;   ///< folder of solved motions and reaches; empty: none
+  bool solved_motions = true;      ///< false: the library provides only reaches
+  CancellationToken cancellation;  ///< cancels at the time limit
 };
 
 /// An action that leads in one piece from a nominal stance of one gait to a nominal stance of
@@ -66,18 +67,18 @@ class Manoeuvre : public graph::NonholonomicAction {
 
   /// Motion of an edge in the world frame, from rest in the launch stance to rest in the landing
   /// stance, times from 0. Deterministic: the same edge has the same motion. Called from any
-  /// thread, by jobs for edges that meet C_N and by the planner for confirmed edges. `keep_going`:
-  /// to be called every few milliseconds, may be empty.
-  /// @throws MotionError if there is no motion; Abandoned if `keep_going` returns false.
+  /// thread, by jobs for edges that meet C_N and by the planner for confirmed edges. `cancellation`
+  /// is to be asked every few milliseconds.
+  /// @throws MotionError if there is no motion; Cancelled.
   virtual std::vector<Phase> Motion(const graph::Edge& edge,
-                                    const std::function<bool()>& keep_going) const = 0;
+                                    const CancellationToken& cancellation) const = 0;
 
   /// Bounds that the floods may rely on; none unless overridden.
   virtual ManoeuvreBounds Bounds() const { return {}; }
 
   /// Replaces guessed bounds by valid ones and returns whether they changed. Called before the
-  /// planner answers "no". @throws Abandoned if `keep_going` (may be empty) returns false.
-  virtual bool ReplaceGuesses(const std::function<bool()>& keep_going);
+  /// planner answers "no". @throws Cancelled.
+  virtual bool ReplaceGuesses(const CancellationToken& cancellation);
 
   /// Reports that the motion of a confirmed edge has a fault that does not depend on the place. A
   /// manoeuvre that has the same motion elsewhere should exclude it there. Does nothing unless

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "actions/motion/motion_collision.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -11,23 +12,23 @@ MotionJob::MotionJob(const Manoeuvre& manoeuvre,
     : manoeuvre_(manoeuvre), checker_(std::move(checker)), edge_(std::move(edge)) {}
 
 graph::JobVerdict MotionJob::Run(graph::JobControl* control) {
-  const auto keep_going = [control] { return control->Checkpoint(); };
+  const CancellationToken cancellation = control->token();
   std::vector<Phase> motion;
   try {
-    motion = manoeuvre_.Motion(edge_, keep_going);
-  } catch (const Abandoned&) {
+    motion = manoeuvre_.Motion(edge_, cancellation);
+  } catch (const Cancelled&) {
     return graph::JobVerdict::kUndecided;
   } catch (const MotionError& error) {
     return Decide(error.what());
   }
   const models::RobotModel& robot = *manoeuvre_.model().robot;
   const MotionPoses poses(robot, motion);
-  std::string hit = FirstSelfHit(robot, *checker_, poses, keep_going);
+  std::string hit = FirstSelfHit(robot, *checker_, poses, cancellation);
   if (hit.empty()) {
     hit = FirstHit(robot, *manoeuvre_.world().environment, *checker_, poses,
-                   Eigen::Isometry3d::Identity(), keep_going);
+                   Eigen::Isometry3d::Identity(), cancellation);
   }
-  return control->Checkpoint() ? Decide(hit) : graph::JobVerdict::kUndecided;
+  return cancellation.Proceed() ? Decide(hit) : graph::JobVerdict::kUndecided;
 }
 
 graph::JobVerdict MotionJob::Decide(const std::string& fault) {

@@ -125,7 +125,7 @@ std::invoke_result_t<Call> SearchedManoeuvre::Guard(const char* function, const 
                                                     const Call& call) const {
   try {
     return call();
-  } catch (const Abandoned&) {
+  } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: action '{}': {} failed for {}: {}", where_, name(), function,

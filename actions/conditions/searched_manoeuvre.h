@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,13 +8,14 @@
 
 #include "actions/conditions/edge_verdicts.h"
 #include "actions/conditions/manoeuvre.h"
+#include "common/cancellation_token.h"
 #include "graph/action.h"
 
 namespace possibility::actions {
 
 /// A manoeuvre during a search: its conditions combined with the verdicts of its jobs and of the
 /// planner. An exception from a condition or an extension becomes an InputError of one line that
-/// begins with `where` and names the action, the function and the pose. Abandoned passes through.
+/// begins with `where` and names the action, the function and the pose. Cancelled passes through.
 /// Exceptions from jobs and motions stay as they are: they cost an edge, not the plan.
 ///
 /// One thread explores. Jobs, `Motion` and the verdicts are used from several threads at once.
@@ -52,9 +52,8 @@ class SearchedManoeuvre final : public graph::NonholonomicAction {
   double cycle_budget() const override { return manoeuvre_->cycle_budget(); }
 
   /// Manoeuvre::Motion.
-  std::vector<Phase> Motion(const graph::Edge& edge,
-                            const std::function<bool()>& keep_going) const {
-    return manoeuvre_->Motion(edge, keep_going);
+  std::vector<Phase> Motion(const graph::Edge& edge, const CancellationToken& cancellation) const {
+    return manoeuvre_->Motion(edge, cancellation);
   }
 
   /// Marks an edge as impossible because its motion failed. `everywhere`: the fault does not depend

@@ -17,7 +17,7 @@ BlockFlood::BlockFlood(int planes, double nx, double ny, CellQuadtrees::Judge ju
 
 BlockState BlockFlood::Judge(const CellBlock& block) {
   if (++judged_ > limits_.most_judged) throw CutShort();
-  if (limits_.keep_going && !limits_.keep_going()) throw CutShort();
+  if (!limits_.cancellation.Proceed()) throw CutShort();
   return judge_(block);
 }
 
@@ -57,7 +57,7 @@ FloodEnd BlockFlood::Run(const CellBlock& seed,
       goal_ = current_;
       return FloodEnd::kGoal;
     }
-    if (limits_.keep_going && !limits_.keep_going()) return FloodEnd::kCutShort;
+    if (!limits_.cancellation.Proceed()) return FloodEnd::kCutShort;
     late_.push_back(current_);
     expand(block);
   }

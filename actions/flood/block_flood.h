@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "actions/flood/cell_quadtrees.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -19,7 +20,7 @@ struct FloodLimits {
   static constexpr std::int64_t kMostNodes = 20'000'000;
 
   std::int64_t most_judged = kMostNodes;  ///< blocks of cells
-  std::function<bool()> keep_going = {};  ///< called for every block judged; may be empty
+  CancellationToken cancellation = {};    ///< asked for every block judged
 };
 
 /// A flood over cells, in blocks as large as possible whose cells are all open, blocks close to a

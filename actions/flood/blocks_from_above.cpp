@@ -37,11 +37,11 @@ ClosestApproach BlocksFromAbove::ClosestOf(const std::deque<BlockFlood::Reached>
 
 std::vector<std::vector<Vector2d>> BlocksFromAbove::OutlinesOf(
     const std::vector<CellBlock>& blocks, const Vector2i& num_cells,
-    const std::function<bool()>& keep_going) const {
+    const CancellationToken& cancellation) const {
   CellMask mask(num_cells.x(), num_cells.y());
   for (const CellBlock& block : blocks) mask.Add(block.x0, block.y0, block.x1, block.y1);
   std::vector<std::vector<Vector2d>> outlines;
-  for (const std::vector<Vector2i>& corners : mask.Outlines(keep_going)) {
+  for (const std::vector<Vector2i>& corners : mask.Outlines(cancellation)) {
     outlines.emplace_back();
     for (const Vector2i& corner : corners) {
       outlines.back().emplace_back(origin_ + size_.cwiseProduct(corner.cast<double>()));

@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <deque>
-#include <functional>
 #include <vector>
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/flood/block_flood.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -30,10 +30,10 @@ class BlocksFromAbove {
   ClosestApproach ClosestOf(const std::deque<BlockFlood::Reached>& reached) const;
 
   /// Outlines of the union of all blocks over all planes, on a grid of `num_cells`; none once
-  /// `keep_going` (may be empty) returns false.
-  std::vector<std::vector<Eigen::Vector2d>> OutlinesOf(
-      const std::vector<CellBlock>& blocks, const Eigen::Vector2i& num_cells,
-      const std::function<bool()>& keep_going) const;
+  /// cancelled.
+  std::vector<std::vector<Eigen::Vector2d>> OutlinesOf(const std::vector<CellBlock>& blocks,
+                                                       const Eigen::Vector2i& num_cells,
+                                                       const CancellationToken& cancellation) const;
 
  private:
   ClosestApproach Closest(const CellBlock& block) const;

@@ -166,12 +166,11 @@ void CellMask::VisitEmptyCells(const Rectangle& strip, const Visit& visit) const
   }
 }
 
-std::vector<std::vector<Vector2i>> CellMask::Outlines(
-    const std::function<bool()>& keep_going) const {
+std::vector<std::vector<Vector2i>> CellMask::Outlines(const CancellationToken& cancellation) const {
   BoundaryEdges edges(nx_);
   bool goes_on = true;
   VisitFull({0, 0, 0, size_}, [&](const Rectangle& full) {
-    goes_on = goes_on && (!keep_going || keep_going());
+    goes_on = goes_on && cancellation.Proceed();
     if (!goes_on) return;
     VisitEmptyCells({full.x0, full.y0 - 1, full.x1, full.y0},
                     [&](int x, int y) { edges.Add(x, y + 1, 0); });

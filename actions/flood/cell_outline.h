@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <vector>
+
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -19,10 +20,9 @@ class CellMask {
 
   /// Closed polygons along the edges of cells, corners only, in units of cells: counter-clockwise
   /// around parts, clockwise around holes. Cells that only share a corner are not connected.
-  /// Polygons may meet at corners, but never cross. `keep_going`: may be empty; no polygons once it
-  /// returns false.
+  /// Polygons may meet at corners, but never cross. No polygons once cancelled.
   std::vector<std::vector<Eigen::Vector2i>> Outlines(
-      const std::function<bool()>& keep_going = {}) const;
+      const CancellationToken& cancellation = {}) const;
 
  private:
   enum class State : std::uint8_t { kEmpty, kFull, kSplit };

@@ -8,28 +8,29 @@
 #include "actions/flood/passage_gauge.h"
 #include "actions/flood/passage_search.h"
 #include "actions/flood/sufficient_flood.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
 FloodOracle::FloodOracle(const LocomotionModel& model, const World& world,
                          const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres,
-                         double resolution, std::function<bool()> keep_going)
+                         double resolution, CancellationToken cancellation)
     : model_(model),
       world_(world),
       manoeuvres_(manoeuvres),
       resolution_(resolution),
-      keep_going_(std::move(keep_going)) {}
+      cancellation_(std::move(cancellation)) {}
 
 graph::RouteOracleAnswer FloodOracle::Ask(const GroundedStance& start,
                                           const std::vector<GroundedStance>& goals) {
   try {
     return Answer(start, goals);
-  } catch (const Abandoned&) {
+  } catch (const Cancelled&) {
     return graph::RouteOracleAnswer::kUnknown;
   }
 }
 
-/// @throws Abandoned at the time limit.
+/// @throws Cancelled at the time limit.
 graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
                                              const std::vector<GroundedStance>& goals) {
   std::optional<std::vector<FloodManoeuvre>> manoeuvres = FloodManoeuvres();
@@ -77,8 +78,8 @@ void FloodOracle::FindPassage(const GroundedStance& start, const std::vector<Gro
                               const std::vector<FloodManoeuvre>& manoeuvres) {
   passage_ =
       flood_->route_may_exist
-          ? PassageGauge(model_, world_, manoeuvres).Narrowest(flood_->way, keep_going_)
-          : SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, keep_going_);
+          ? PassageGauge(model_, world_, manoeuvres).Narrowest(flood_->way, cancellation_)
+          : SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, cancellation_);
 }
 
 /// The flood over C_S. If coarse cells find no barrier, finer floods follow within their limits: a
@@ -99,7 +100,7 @@ FloodResult FloodOracle::CoarseToFine(const GroundedStance& start,
 }
 
 FloodLimits FloodOracle::Limits(std::int64_t most_judged) const {
-  return {.most_judged = most_judged, .keep_going = keep_going_};
+  return {.most_judged = most_judged, .cancellation = cancellation_};
 }
 
 /// None if some manoeuvre does not declare its landings: then a closed barrier is no proof.
@@ -125,11 +126,11 @@ std::optional<std::vector<FlightBounds>> FloodOracle::Flights() const {
   return result;
 }
 
-/// Returns whether any bound has changed. @throws Abandoned at the time limit.
+/// Returns whether any bound has changed. @throws Cancelled at the time limit.
 bool FloodOracle::ReplaceGuesses() {
   bool replaced = false;
   for (const auto& manoeuvre : manoeuvres_) {
-    replaced = manoeuvre->ReplaceGuesses(keep_going_) || replaced;
+    replaced = manoeuvre->ReplaceGuesses(cancellation_) || replaced;
   }
   return replaced;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "actions/conditions/manoeuvre.h"
 #include "actions/flood/route_flood.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "graph/find_path.h"
 
 namespace possibility::actions {
@@ -20,10 +20,10 @@ namespace possibility::actions {
 class FloodOracle {
  public:
   /// All references must outlive the oracle; `manoeuvres` may be filled later. `resolution`: cell
-  /// size, m. `keep_going`: returns false once time is up.
+  /// size, m. `cancellation` cancels at the time limit.
   FloodOracle(const LocomotionModel& model, const World& world,
               const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres, double resolution,
-              std::function<bool()> keep_going);
+              CancellationToken cancellation);
 
   /// Replaces guessed bounds of manoeuvres before a "no". kUnknown at the time limit.
   graph::RouteOracleAnswer Ask(const GroundedStance& start,
@@ -53,7 +53,7 @@ class FloodOracle {
   const World& world_;
   const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres_;
   double resolution_;
-  std::function<bool()> keep_going_;
+  CancellationToken cancellation_;
   std::optional<NarrowPassage> passage_;
   std::optional<FloodResult> flood_;  ///< the last one over C_S, or the one that proved "no"
 };

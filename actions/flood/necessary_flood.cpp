@@ -1,7 +1,6 @@
 #include "actions/flood/necessary_flood.h"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -45,7 +44,7 @@ void OfferNeighbours(const CellBlock& block, BlockFlood* flood) {
 
 Barrier BarrierOf(const PelvisCells& cells, const BlocksFromAbove& view, const BlockFlood& flood,
                   double z, const std::vector<GroundedStance>& goals,
-                  const std::function<bool()>& keep_going) {
+                  const CancellationToken& cancellation) {
   const ClosestApproach closest = view.ClosestOf(flood.reached());
   std::set<std::string> closed_by;
   for (const GroundedStance& goal : goals) {
@@ -58,7 +57,7 @@ Barrier BarrierOf(const PelvisCells& cells, const BlocksFromAbove& view, const B
   barrier.closest = closest.point;
   barrier.distance = closest.distance;
   barrier.closed_by = {closed_by.begin(), closed_by.end()};
-  barrier.reached.push_back({"", z, view.OutlinesOf(blocks, size, keep_going)});
+  barrier.reached.push_back({"", z, view.OutlinesOf(blocks, size, cancellation)});
   return barrier;
 }
 
@@ -91,7 +90,7 @@ FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
   result.is_cut_short = end == FloodEnd::kCutShort;
   result.route_may_exist = end != FloodEnd::kNothingLeft;
   if (end == FloodEnd::kNothingLeft) {
-    result.barrier = BarrierOf(cells, view, flood, start.z, goals, limits.keep_going);
+    result.barrier = BarrierOf(cells, view, flood, start.z, goals, limits.cancellation);
   }
   return result;
 }

@@ -79,11 +79,11 @@ std::vector<PassageGauge::Place> PassageGauge::Along(const std::vector<GroundedS
   return places;
 }
 
-std::optional<NarrowPassage> PassageGauge::Narrowest(
-    const std::vector<GroundedStance>& way, const std::function<bool()>& keep_going) const {
+std::optional<NarrowPassage> PassageGauge::Narrowest(const std::vector<GroundedStance>& way,
+                                                     const CancellationToken& cancellation) const {
   std::optional<NarrowPassage> narrowest;
   for (const Place& place : Along(way)) {
-    if (keep_going && !keep_going()) break;
+    if (!cancellation.Proceed()) break;
     std::optional<NarrowPassage> passage;
     if (!HasGround(place.p, place.z)) {
       passage = GapAt(place);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/flood/route_flood.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "models/world/collision.h"
 
 namespace possibility::actions {
@@ -23,10 +23,10 @@ class PassageGauge {
                const std::vector<FloodManoeuvre>& manoeuvres);
 
   /// The place of a way with the most missing room, or the smallest margin, for the action that
-  /// fits best there; none if the way is wide and high everywhere. `keep_going` (may be empty):
-  /// called at every place; false skips the rest.
+  /// fits best there; none if the way is wide and high everywhere. Asks
+  /// `cancellation` at every place; once cancelled, skips the rest.
   std::optional<NarrowPassage> Narrowest(const std::vector<GroundedStance>& way,
-                                         const std::function<bool()>& keep_going) const;
+                                         const CancellationToken& cancellation) const;
 
  private:
   /// A place on the way and the height of its ground.

@@ -20,11 +20,11 @@ std::optional<NarrowPassage> SearchPassage(const LocomotionModel& model, const W
                                            const std::vector<GroundedStance>& goals,
                                            double resolution,
                                            const std::vector<FloodManoeuvre>& manoeuvres,
-                                           const std::function<bool()>& keep_going) {
+                                           const CancellationToken& cancellation) {
   const auto way_with = [&](double leniency) {
     return FloodSufficient(model, world, start, goals,
                            {.resolution = resolution, .halvings = 2, .leniency = leniency},
-                           {.most_judged = kMostJudged, .keep_going = keep_going}, manoeuvres)
+                           {.most_judged = kMostJudged, .cancellation = cancellation}, manoeuvres)
         .way;
   };
   double closed = 0, open = kMostLeniency;
@@ -40,7 +40,7 @@ std::optional<NarrowPassage> SearchPassage(const LocomotionModel& model, const W
       way = std::move(narrower);
     }
   }
-  return PassageGauge(model, world, manoeuvres).Narrowest(way, keep_going);
+  return PassageGauge(model, world, manoeuvres).Narrowest(way, cancellation);
 }
 
 }  // namespace possibility::actions

@@ -5,6 +5,7 @@
 
 #include "actions/flood/route_flood.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -17,6 +18,6 @@ std::optional<NarrowPassage> SearchPassage(const LocomotionModel& model, const W
                                            const std::vector<GroundedStance>& goals,
                                            double resolution,
                                            const std::vector<FloodManoeuvre>& manoeuvres,
-                                           const std::function<bool()>& keep_going);
+                                           const CancellationToken& cancellation);
 
 }  // namespace possibility::actions

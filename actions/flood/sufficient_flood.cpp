@@ -42,7 +42,7 @@ class SufficientFlood {
         start_(start),
         goals_(goals),
         manoeuvres_(manoeuvres),
-        keep_going_(limits.keep_going),
+        cancellation_(limits.cancellation),
         cells_(model, world,
                manoeuvres.empty() ? std::vector<double>{start.z} : world.ground->levels(),
                FarthestTransition(model), settings),
@@ -260,7 +260,7 @@ class SufficientFlood {
       const CellBlock cell = CellBlock::Of(cells_.Plane(layer, 0), 0, 0);
       barrier.reached.push_back(
           {model_.gaits[cells_.GaitOf(cell)]->stance.gait->name, cells_.HeightOf(cell),
-           view.OutlinesOf(blocks, cells_.NumCells().cast<int>(), keep_going_)});
+           view.OutlinesOf(blocks, cells_.NumCells().cast<int>(), cancellation_)});
     }
     return barrier;
   }
@@ -287,7 +287,7 @@ class SufficientFlood {
   const GroundedStance& start_;
   const std::vector<GroundedStance>& goals_;
   const std::vector<FloodManoeuvre>& manoeuvres_;
-  std::function<bool()> keep_going_;
+  CancellationToken cancellation_;
   StanceCells cells_;
   BlockFlood flood_;
 };

@@ -9,6 +9,7 @@
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/planar_pose.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
@@ -21,11 +22,11 @@ class GaitMotion {
 
   /// The whole robot's motion from rest in the nominal stance at strides.front() to rest in it at
   /// strides.back(), on ground of height 0, times from 0. `strides`: at least two stances, as of
-  /// PlanStrides. `knot_spacing`: s, at most. `keep_going`: to be called every few milliseconds,
-  /// may be empty. Deterministic.
-  /// @throws MotionError if there is no motion; Abandoned if `keep_going` returns false.
+  /// PlanStrides. `knot_spacing`: s, at most. `cancellation` is to be asked every few
+  /// milliseconds. Deterministic.
+  /// @throws MotionError if there is no motion; Cancelled.
   virtual std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
-                                    const std::function<bool()>& keep_going) const = 0;
+                                    const CancellationToken& cancellation) const = 0;
 
   /// Expected duration of a motion of `strides` strides straight ahead, s; 0 for none.
   virtual double ExpectedDuration(int strides) const = 0;

@@ -57,7 +57,7 @@ QuasiStaticGait::Progress QuasiStaticGait::AtRest(const PlanarPose& stance, doub
 
 std::vector<Phase> QuasiStaticGait::Motion(const std::vector<PlanarPose>& strides,
                                            double knot_spacing,
-                                           const std::function<bool()>& keep_going) const {
+                                           const CancellationToken& cancellation) const {
   MotionSettings settings;
   settings.knot_spacing = knot_spacing;
   MotionBuilder builder(*robot_, settings);
@@ -65,7 +65,7 @@ std::vector<Phase> QuasiStaticGait::Motion(const std::vector<PlanarPose>& stride
   guess.segment<2>(4) = strides.front().position();
   for (const double scale : kTimeScales) {
     try {
-      return builder.Build(Phases(strides, 0, scale), guess, keep_going);
+      return builder.Build(Phases(strides, 0, scale), guess, cancellation);
     } catch (const MotionError&) {
       if (scale == std::end(kTimeScales)[-1]) throw;
     }

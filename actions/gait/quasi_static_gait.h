@@ -18,7 +18,7 @@ class QuasiStaticGait final : public GaitMotion {
 
   /// Durations are stretched if the motion would break a limit otherwise.
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
-                            const std::function<bool()>& keep_going) const override;
+                            const CancellationToken& cancellation) const override;
 
   /// From rest in the nominal posture at strides.front() to rest in it at strides.back(), on
   /// ground of height z. `time_scale` >= 1 stretches all durations.

@@ -59,11 +59,11 @@ void VisitPoses(const models::RobotModel& robot, const std::vector<Phase>& motio
 
 SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& stance,
                         const GaitMotion& gait, const PlanarPose& displacement,
-                        const std::function<bool()>& keep_going) {
+                        const CancellationToken& cancellation) {
   SweptVolume volume;
   const PlanarPose start;
   try {
-    VisitPoses(robot, gait.Motion({start, displacement}, kSamplingInterval, keep_going),
+    VisitPoses(robot, gait.Motion({start, displacement}, kSamplingInterval, cancellation),
                [&](const std::vector<Eigen::Isometry3d>& X_WL) {
                  volume.Add(robot, X_WL, StrideFrame(start, displacement));
                });
@@ -148,11 +148,11 @@ AlignedBox3d SweptVolume::Grown(size_t slab, double margin) const {
 }
 
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
-                      const GaitMotion& gait, const std::function<bool()>& keep_going) {
+                      const GaitMotion& gait, const CancellationToken& cancellation) {
   std::vector<SweptVolume> volumes(kStrideClasses.size() + 1);
   std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
   for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
-    const SweptVolume swept = SweepStride(robot, stance, gait, displacement, keep_going);
+    const SweptVolume swept = SweepStride(robot, stance, gait, displacement, cancellation);
     for (size_t i = 0; i < kStrideClasses.size(); ++i) {
       if (Includes(kStrideClasses[i], displacement)) volumes[i].Add(swept);
     }

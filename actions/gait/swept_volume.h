@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "actions/gait/gait_motion.h"
 #include "actions/gait/stride.h"
 #include "actions/motion/motion_builder.h"
+#include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
@@ -58,9 +58,8 @@ struct GaitVolumes {
 
 /// `motion`: of the gait that `stance` belongs to.
 /// @throws InputError naming the stride if the robot cannot execute an extreme stride of the bounds
-/// within its limits and without self-collision; Abandoned if `keep_going` (may be empty) returns
-/// false.
+/// within its limits and without self-collision; Cancelled.
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
-                      const GaitMotion& motion, const std::function<bool()>& keep_going = {});
+                      const GaitMotion& motion, const CancellationToken& cancellation = {});
 
 }  // namespace possibility::actions

@@ -104,9 +104,10 @@ std::optional<JumpAnswer> JumpLibrary::Find(const JumpTask& task) {
   return answers_.emplace(KeyOf(task), answer).first->second;
 }
 
-JumpAnswer JumpLibrary::FindOrSolve(const JumpTask& task, collocation::SolveControl* control) {
+JumpAnswer JumpLibrary::FindOrSolve(const JumpTask& task, const CancellationToken& cancellation,
+                                    const JumpSolver::Log& log) {
   if (auto known = Find(task)) return *known;
-  JumpAnswer answer = solver_.Solve(OnGrid(task), control);
+  JumpAnswer answer = solver_.Solve(OnGrid(task), cancellation, log);
   if (answer.cancelled) return answer;
   const std::lock_guard lock(mutex_);
   return answers_.emplace(KeyOf(task), answer).first->second;

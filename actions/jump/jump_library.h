@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "actions/jump/jump_solver.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -51,9 +52,10 @@ class JumpLibrary {
 
   /// The known answer to a task on the grid, without solving; none if unknown.
   std::optional<JumpAnswer> Find(const JumpTask& task);
-  /// Find, or else solves; keeps the answer unless it was cancelled. Two threads that ask for the
-  /// same jump may both solve it.
-  JumpAnswer FindOrSolve(const JumpTask& task, collocation::SolveControl* control = nullptr);
+  /// Find, or else solves (JumpSolver::Solve); keeps the answer unless it was cancelled. Two
+  /// threads that ask for the same jump may both solve it.
+  JumpAnswer FindOrSolve(const JumpTask& task, const CancellationToken& cancellation = {},
+                         const JumpSolver::Log& log = {});
 
   const JumpSolver& solver() const { return solver_; }
 

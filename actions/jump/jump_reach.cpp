@@ -1,11 +1,7 @@
 #include "actions/jump/jump_reach.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <future>
-
-#include "collocation/solver/solve_control.h"
 
 namespace possibility::actions {
 namespace {
@@ -14,23 +10,13 @@ namespace {
 constexpr double kFairlyShort = 0.5;
 constexpr double kFairlyFar = 1.4;
 
-/// Interval at which a running solve checks `keep_going`.
-constexpr std::chrono::milliseconds kPatience(10);
-
 constexpr int kFirstStride = 4;
 
 double GridStep(int steps) { return steps * JumpLibrary::kDistanceStep; }
 
-bool IsPossible(const JumpTask& task, JumpLibrary* library,
-                const std::function<bool()>& keep_going) {
-  collocation::SolveControl control;
-  std::future<JumpAnswer> answer =
-      std::async(std::launch::async, [&] { return library->FindOrSolve(task, &control); });
-  while (answer.wait_for(kPatience) != std::future_status::ready) {
-    if (keep_going && !keep_going()) control.Cancel();
-  }
-  const JumpAnswer found = answer.get();
-  if (found.cancelled) throw Abandoned();
+bool IsPossible(const JumpTask& task, JumpLibrary* library, const CancellationToken& cancellation) {
+  const JumpAnswer found = library->FindOrSolve(task, cancellation);
+  if (found.cancelled) throw Cancelled();
   return found.jump != nullptr;
 }
 
@@ -61,7 +47,7 @@ JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& height
 }
 
 JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
-                         const std::function<bool()>& keep_going) {
+                         const CancellationToken& cancellation) {
   const auto steps = [](double distance) {
     return static_cast<int>(std::floor(distance / JumpLibrary::kDistanceStep + 1e-6));
   };
@@ -71,7 +57,7 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
     const int limit = bounds ? steps(bounds->second) : 0;
     row.farthest =
         GridStep(Farthest(steps(row.shortest), steps(row.farthest), limit, [&](int distance) {
-          return IsPossible({GridStep(distance), row.height}, library, keep_going);
+          return IsPossible({GridStep(distance), row.height}, library, cancellation);
         }));
   }
   return reach;

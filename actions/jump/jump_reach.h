@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "actions/conditions/manoeuvre_bounds.h"
 #include "actions/jump/jump_library.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -15,10 +15,9 @@ JumpReach GuessReach(const JumpSolver& solver, const std::vector<double>& height
 
 /// The rows of `guess` with the farthest distance found by solving; the shortest stays. The answers
 /// stay in the library. Assumes that nothing beyond an impossible distance is possible.
-/// `keep_going`: called often, may be empty.
-/// @throws Abandoned if it returns false.
+/// @throws Cancelled.
 JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
-                         const std::function<bool()>& keep_going = {});
+                         const CancellationToken& cancellation = {});
 
 /// Follows from the longest flight and the largest root speed: JumpProblem bounds both, and
 /// JumpMotion refuses faster motion.

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "actions/sagittal/bare_ground.h"
 #include "collocation/study/optimal_control.h"
+#include "common/stopwatch.h"
 
 namespace possibility::actions {
 namespace {
@@ -33,16 +33,6 @@ constexpr std::array<double, 3> kFineness = {1, 1.5, 1.25};
 /// Least gap between grounds of different heights, m.
 constexpr double kLeastGap = 0.01;
 
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 void Add(const collocation::SolverTimes& times, collocation::SolverTimes* sum) {
   sum->total += times.total;
   sum->functions += times.functions;
@@ -64,7 +54,8 @@ JumpSolver::JumpSolver(const models::RobotModel& robot, const NominalStance& lau
   settings_.limits.friction = robot.friction;
 }
 
-JumpAnswer JumpSolver::Solve(const JumpTask& task, collocation::SolveControl* control) const {
+JumpAnswer JumpSolver::Solve(const JumpTask& task, const CancellationToken& cancellation,
+                             const Log& log) const {
   const Stopwatch stopwatch;
   JumpAnswer answer;
   const collocation::Bounds gap = GapBetween(model_, task.distance);
@@ -75,13 +66,14 @@ JumpAnswer JumpSolver::Solve(const JumpTask& task, collocation::SolveControl* co
     return answer;
   }
   for (const double fineness : kFineness) {
-    if (Attempt(task, fineness, control, &answer)) break;
+    if (Attempt(task, fineness, cancellation, log, &answer)) break;
   }
-  answer.effort.total = stopwatch.seconds();
+  answer.effort.total = stopwatch.Seconds();
   return answer;
 }
 
-bool JumpSolver::Attempt(const JumpTask& task, double fineness, collocation::SolveControl* control,
+bool JumpSolver::Attempt(const JumpTask& task, double fineness,
+                         const CancellationToken& cancellation, const Log& log,
                          JumpAnswer* answer) const {
   const JumpProblem problem(model_, task, settings_);
   collocation::OptimalControlOptions options;
@@ -90,7 +82,7 @@ bool JumpSolver::Attempt(const JumpTask& task, double fineness, collocation::Sol
   options.solver.tolerance = 1e-5;
   options.solver.constraint_tolerance = 1e-7;
   const collocation::OptimalControlResult result =
-      collocation::SolveOptimalControl(problem.problem(), options, std::nullopt, control);
+      collocation::SolveOptimalControl(problem.problem(), options, std::nullopt, cancellation, log);
   ++answer->effort.attempts;
   answer->effort.iterations += result.iterations;
   Add(result.times, &answer->effort.solver);
@@ -116,7 +108,7 @@ JumpAnswer JumpSolver::Realise(const JumpTask& task,
   JumpAnswer answer;
   RealiseInSpace(problem, solution.trajectory, false, &answer);
   if (answer.jump) answer.solution = solution;
-  answer.effort.total = stopwatch.seconds();
+  answer.effort.total = stopwatch.Seconds();
   return answer;
 }
 
@@ -145,7 +137,7 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
     answer->reason = fmt::format("the whole robot cannot follow a jump of {:.3f} m by {:.3f} m: {}",
                                  problem.task().distance, problem.task().height, error.what());
   }
-  answer->effort.realisation += stopwatch.seconds();
+  answer->effort.realisation += stopwatch.Seconds();
 }
 
 }  // namespace possibility::actions

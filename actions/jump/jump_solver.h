@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,9 +8,9 @@
 
 #include "actions/jump/jump_motion.h"
 #include "actions/jump/jump_problem.h"
-#include "collocation/solver/solve_control.h"
 #include "collocation/solver/solver.h"
 #include "collocation/study/stored_solution.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -44,6 +45,8 @@ struct JumpAnswer {
 /// may run at once. Deterministic: the same task has the same answer.
 class JumpSolver {
  public:
+  using Log = std::function<void(const collocation::SolverIteration&)>;
+
   /// `robot`, `launch` and `landing` must outlive the solver. @throws as SagittalModel.
   JumpSolver(const models::RobotModel& robot, const NominalStance& launch,
              const NominalStance& landing, const JumpSettings& settings = {});
@@ -51,8 +54,9 @@ class JumpSolver {
   const SagittalModel& model() const { return model_; }
   const JumpSettings& settings() const { return settings_; }
 
-  /// Solves from scratch. `control` (optional) cancels and pauses.
-  JumpAnswer Solve(const JumpTask& task, collocation::SolveControl* control = nullptr) const;
+  /// Solves from scratch. `log` (may be empty) is called with every iteration.
+  JumpAnswer Solve(const JumpTask& task, const CancellationToken& cancellation = {},
+                   const Log& log = {}) const;
   /// Realises a stored solution of the same task, without solving.
   /// @throws std::invalid_argument if it belongs to another problem.
   JumpAnswer Realise(const JumpTask& task, const collocation::StoredSolution& solution) const;
@@ -61,8 +65,8 @@ class JumpSolver {
 
  private:
   /// True if the attempt decided the answer. A finer mesh may help if only the whole robot failed.
-  bool Attempt(const JumpTask& task, double fineness, collocation::SolveControl* control,
-               JumpAnswer* answer) const;
+  bool Attempt(const JumpTask& task, double fineness, const CancellationToken& cancellation,
+               const Log& log, JumpAnswer* answer) const;
   /// Verifies the motion, too, if `is_new`.
   void RealiseInSpace(const JumpProblem& problem, const collocation::Trajectory& trajectory,
                       bool is_new, JumpAnswer* answer) const;

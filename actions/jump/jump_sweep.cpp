@@ -22,13 +22,13 @@ class SweepQueue {
 
   void Work() {
     try {
-      for (std::size_t row = next_++; row < entries_.size() && !abandoned_; row = next_++) {
+      for (std::size_t row = next_++; row < entries_.size() && !ended_; row = next_++) {
         SweepHeight(sweep_.heights[row], &entries_[row]);
       }
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!error_) error_ = std::current_exception();
-      abandoned_ = true;
+      ended_ = true;
     }
   }
 
@@ -43,7 +43,7 @@ class SweepQueue {
   void SweepHeight(double height, std::vector<JumpSweepEntry>* row) {
     bool found = false;
     int refusals = 0;
-    for (int i = 0; i < distances_ && !abandoned_; ++i) {
+    for (int i = 0; i < distances_ && !ended_; ++i) {
       const JumpTask task =
           JumpLibrary::OnGrid({sweep_.shortest + i * JumpLibrary::kDistanceStep, height});
       row->push_back(Answer(task));
@@ -80,7 +80,8 @@ class SweepQueue {
     const std::lock_guard lock(mutex_);
     done_ += answered;
     const int all = distances_ * static_cast<int>(entries_.size());
-    if (sweep_.keep_going && !sweep_.keep_going(done_, all)) abandoned_ = true;
+    if (sweep_.progress) sweep_.progress(done_, all);
+    if (!sweep_.cancellation.Proceed()) ended_ = true;
   }
 
   const JumpSweep& sweep_;
@@ -88,7 +89,7 @@ class SweepQueue {
   int distances_;
   std::vector<std::vector<JumpSweepEntry>> entries_;  // by height
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> abandoned_ = false;
+  std::atomic<bool> ended_ = false;
   std::mutex mutex_;
   int done_ = 0;
   std::exception_ptr error_;

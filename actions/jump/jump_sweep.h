@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "actions/jump/jump_library.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -18,9 +19,12 @@ struct JumpSweep {
   int refusals_to_stop = 2;
   /// Simulates each new jump and refuses it if the simulation does not follow it; takes seconds.
   bool simulates = false;
+  /// Asked after every answer, from any thread, one question at a time. Once cancelled, the rest is
+  /// left out.
+  CancellationToken cancellation;
   /// Called after every answer, from any thread, one call at a time, with the number of answers and
-  /// the largest possible total; false abandons the rest. May be empty.
-  std::function<bool(int, int)> keep_going;
+  /// the largest possible total. May be empty.
+  std::function<void(int, int)> progress;
 };
 
 struct JumpSweepEntry {

@@ -67,9 +67,9 @@ class LongJump::Job : public graph::ConfirmationJob {
       action_.RecordImpossible(leap_.task);
       return Decide(false, solved.hit);
     }
-    const std::string hit = FirstHit(
-        *action_.model().robot, *action_.world().environment, *action_.checker(), *solved.poses,
-        leap_.launch.pose.At(leap_.launch.z), [&] { return control->Checkpoint(); });
+    const std::string hit =
+        FirstHit(*action_.model().robot, *action_.world().environment, *action_.checker(),
+                 *solved.poses, leap_.launch.pose.At(leap_.launch.z), control->token());
     if (!control->Checkpoint()) return graph::JobVerdict::kUndecided;
     return Decide(hit.empty(), hit);
   }
@@ -289,7 +289,7 @@ std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
   return std::make_unique<Job>(*this, *leap);
 }
 
-std::vector<Phase> LongJump::Motion(const graph::Edge& edge, const std::function<bool()>&) const {
+std::vector<Phase> LongJump::Motion(const graph::Edge& edge, const CancellationToken&) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap) throw MotionError("not a jump between nominal stances");
   const std::optional<JumpAnswer> answer = library_->Find(leap->task);
@@ -309,9 +309,9 @@ ManoeuvreBounds LongJump::Bounds() const {
   return bounds;
 }
 
-bool LongJump::ReplaceGuesses(const std::function<bool()>& keep_going) {
+bool LongJump::ReplaceGuesses(const CancellationToken& cancellation) {
   if (library_->reach_is_derived()) return false;
-  reach_ = DeriveFarthest(reach_, library_.get(), keep_going);
+  reach_ = DeriveFarthest(reach_, library_.get(), cancellation);
   return true;
 }
 

@@ -51,11 +51,11 @@ class LongJump : public Manoeuvre {
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
       const graph::Edge& edge) const override;
   std::vector<Phase> Motion(const graph::Edge& edge,
-                            const std::function<bool()>& keep_going) const override;
+                            const CancellationToken& cancellation) const override;
 
   ManoeuvreBounds Bounds() const override;
   /// Replaces a guessed reach by solving. Must not run while FindPath explores in another thread.
-  bool ReplaceGuesses(const std::function<bool()>& keep_going) override;
+  bool ReplaceGuesses(const CancellationToken& cancellation) override;
 
   /// Excludes every jump of the same distance and height.
   void RefuteEverywhere(const graph::Edge& edge) override;

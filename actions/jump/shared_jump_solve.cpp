@@ -68,7 +68,7 @@ class SharedJumpSolve::Visit {
 };
 
 SharedJumpSolve::SharedJumpSolve(JumpLibrary* library, const JumpTask& task)
-    : task_(task), library_(library), solve_([this] { ChargeVisitors(); }) {
+    : task_(task), library_(library) {
   solve_.Pause();
   worker_ = std::jthread([this] { Work(); });
 }
@@ -107,11 +107,12 @@ void SharedJumpSolve::Wake() {
 }
 
 void SharedJumpSolve::Work() {
-  solve_.WaitWhilePaused();
+  solve_.Checkpoint();  // waits for the first visitor
   std::optional<JumpAnswer> answer;
   std::exception_ptr error;
   try {
-    answer = library_->FindOrSolve(task_, &solve_);
+    answer = library_->FindOrSolve(
+        task_, solve_.token(), [this](const collocation::SolverIteration&) { ChargeVisitors(); });
   } catch (...) {
     error = std::current_exception();
   }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "actions/jump/jump_library.h"
-#include "collocation/solver/solve_control.h"
 #include "graph/job_control.h"
 
 namespace possibility::actions {
@@ -42,7 +41,7 @@ class SharedJumpSolve {
 
   JumpTask task_;
   JumpLibrary* library_;
-  collocation::SolveControl solve_;
+  graph::JobControl solve_;
   std::mutex mutex_;
   std::condition_variable changed_;
   int wanted_ = 0;

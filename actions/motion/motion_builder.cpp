@@ -30,12 +30,12 @@ MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettin
 
 std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
                                         const Eigen::VectorXd& guess,
-                                        const std::function<bool()>& keep_going) {
+                                        const CancellationToken& cancellation) {
   std::vector<Phase> result;
   Eigen::VectorXd q = guess;
   double start = 0;
   for (const MotionPhase& phase : phases) {
-    if (keep_going && !keep_going()) throw Abandoned();
+    cancellation.ThrowIfCancelled();
     result.push_back(BuildPhase(phase, start, &q));
     start += phase.duration;
   }

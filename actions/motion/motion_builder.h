@@ -1,11 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <stdexcept>
 #include <vector>
 
 #include "actions/motion/whole_body_task.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "dynamics/contact/contact_forces.h"
 #include "models/robot/robot_model.h"
 
@@ -16,12 +16,6 @@ struct MotionPhase {
   double duration = 0;                          ///< s
   std::vector<int> contacts;                    ///< bearing patches
   std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
-};
-
-/// Thrown when a caller's `keep_going` returned false.
-class Abandoned : public std::runtime_error {
- public:
-  Abandoned() : std::runtime_error("abandoned") {}
 };
 
 struct MotionSettings {
@@ -46,11 +40,11 @@ class MotionBuilder {
  public:
   explicit MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings = {});
 
-  /// `guess`: q near the start (nq). Times start at 0. `keep_going`: called before every phase;
-  /// false abandons the rest. May be empty.
-  /// @throws MotionError naming the limit that the motion would exceed and the time; Abandoned.
+  /// `guess`: q near the start (nq). Times start at 0. Asks `cancellation` before every
+  /// phase.
+  /// @throws MotionError naming the limit that the motion would exceed and the time; Cancelled.
   std::vector<Phase> Build(const std::vector<MotionPhase>& phases, const Eigen::VectorXd& guess,
-                           const std::function<bool()>& keep_going = {});
+                           const CancellationToken& cancellation = {});
 
  private:
   Phase BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess);

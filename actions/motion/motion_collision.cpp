@@ -16,11 +16,11 @@ constexpr double kClearance = 0.01;
 constexpr double kGroundTolerance = 1e-3;
 constexpr double kTolerance = 1e-4;
 
-/// Samples between calls of `keep_going`: a millisecond or less.
+/// Samples between questions to the token: a millisecond or less.
 constexpr size_t kSamplesPerQuestion = 16;
 
-bool GoOn(size_t sample, const std::function<bool()>& keep_going) {
-  return sample % kSamplesPerQuestion != 0 || !keep_going || keep_going();
+bool GoOn(size_t sample, const CancellationToken& cancellation) {
+  return sample % kSamplesPerQuestion != 0 || cancellation.Proceed();
 }
 
 std::vector<bool> LinksThatBear(const models::RobotModel& robot) {
@@ -53,12 +53,12 @@ MotionPoses::MotionPoses(const models::RobotModel& robot, const std::vector<Phas
 
 std::string FirstHit(const models::RobotModel& robot, const models::Environment& environment,
                      const models::CollisionChecker& checker, const MotionPoses& poses,
-                     const Eigen::Isometry3d& X_WS, const std::function<bool()>& keep_going) {
+                     const Eigen::Isometry3d& X_WS, const CancellationToken& cancellation) {
   const std::vector<bool> bears = LinksThatBear(robot);
   std::vector<Eigen::Isometry3d> X_WL(robot.links.size());
   for (size_t i = 0; i < poses.samples().size(); ++i) {
     const MotionPoses::Sample& sample = poses.samples()[i];
-    if (!GoOn(i, keep_going)) return {};
+    if (!GoOn(i, cancellation)) return {};
     for (size_t link = 0; link < X_WL.size(); ++link) X_WL[link] = X_WS * sample.X_SL[link];
     for (const models::Proximity& pair : checker.EnvironmentProximities(X_WL, kClearance)) {
       const models::Obstacle& obstacle = environment.obstacles[pair.other];
@@ -74,10 +74,10 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
 }
 
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
-                         const MotionPoses& poses, const std::function<bool()>& keep_going) {
+                         const MotionPoses& poses, const CancellationToken& cancellation) {
   for (size_t i = 0; i < poses.samples().size(); ++i) {
     const MotionPoses::Sample& sample = poses.samples()[i];
-    if (!GoOn(i, keep_going)) return {};
+    if (!GoOn(i, cancellation)) return {};
     const std::vector<models::Proximity> close = checker.SelfProximities(sample.X_SL, 0);
     if (close.empty()) continue;
     return fmt::format("hits {} with {} at {:.2f} s", robot.links[close.front().other].name,

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 #include "models/world/collision.h"
 #include "models/world/environment.h"
@@ -32,13 +32,13 @@ class MotionPoses {
 /// The first hit of the whole robot when it executes the motion from a place (S at X_WS): "hits
 /// 'bar' with Body_LSP at 1.30 s"; empty if none. Requires a clearance from obstacles. Ground may
 /// be touched; links that ever bear on ground may enter it by the verifier's tolerance.
-/// `keep_going`: called often, may be empty; once it returns false the answer is meaningless.
+/// Once cancelled, the answer is meaningless.
 std::string FirstHit(const models::RobotModel& robot, const models::Environment& environment,
                      const models::CollisionChecker& checker, const MotionPoses& poses,
-                     const Eigen::Isometry3d& X_WS, const std::function<bool()>& keep_going = {});
+                     const Eigen::Isometry3d& X_WS, const CancellationToken& cancellation = {});
 
 /// The first self-collision: "hits Body_LSP with Body_RSP at 1.30 s"; empty if none.
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
-                         const MotionPoses& poses, const std::function<bool()>& keep_going = {});
+                         const MotionPoses& poses, const CancellationToken& cancellation = {});
 
 }  // namespace possibility::actions

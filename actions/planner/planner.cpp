@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <mutex>
 
@@ -21,22 +20,15 @@
 #include "actions/route/route.h"
 #include "actions/route/route_motion.h"
 #include "actions/route/shortcut_explorer.h"
+#include "common/cancellation_token.h"
+#include "common/deadline.h"
+#include "common/stopwatch.h"
 #include "graph/random_explorer.h"
 #include "models/input/input_error.h"
 #include "models/world/ground_map.h"
 
 namespace possibility::actions {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Minimum time allowed for motion and verification after the time limit, s.
 constexpr double kLeastToFinish = 10;
@@ -85,14 +77,15 @@ class TraversalPlanner {
         scenario_(scenario),
         request_(request),
         switches_(SwitchesOf(request)),
+        deadline_(request.time_limit),
+        last_deadline_(request.time_limit + std::max(request.time_limit, kLeastToFinish)),
         ground_(scenario.environment),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
-        model_(BuildLocomotionModel(
-            robot, GaitNames(), [this] { return Remaining() > 0; }, TransitionLibrary(),
-            request.gaits)),
+        model_(BuildLocomotionModel(robot, GaitNames(), CancellationToken(deadline_),
+                                    TransitionLibrary(), request.gaits)),
         floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
-                [this] { return Remaining() > 0; }) {
+                CancellationToken(deadline_)) {
     if (ground_.levels().empty()) {
       throw InputError(
           fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
@@ -111,7 +104,7 @@ class TraversalPlanner {
     for (size_t i = 0; i < scenario_.goals.size(); ++i) {
       goals_.push_back(checked(scenario_.goals[i], fmt::format("goals[{}]", i)));
     }
-    preparation_s_ = clock_.seconds();
+    preparation_s_ = deadline_.Elapsed();
   }
 
   PlanResult Plan() {
@@ -134,7 +127,7 @@ class TraversalPlanner {
       if (path.status != graph::PathStatus::kFound) return result;
       try {
         if (Realise(path, &result)) return result;
-      } catch (const Abandoned&) {
+      } catch (const Cancelled&) {
         result.plan.segments.clear();
         SayNo(PlanStatus::kTimeLimit,
               fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
@@ -187,7 +180,7 @@ class TraversalPlanner {
     context.settings = scenario_.planner;
     context.library = request_.library;
     context.solved_motions = switches_.solved_motions;
-    context.keep_going = [this] { return Remaining() > 0; };
+    context.cancellation = CancellationToken(deadline_);
     const std::string where = scenario_.file.string() + ": actions";
     manoeuvres_ = MakeManoeuvres(factories_, ActionNames(), context, where);
     for (const auto& manoeuvre : manoeuvres_) {
@@ -206,15 +199,13 @@ class TraversalPlanner {
     return switches_.solved_motions ? request_.library : std::filesystem::path();
   }
 
-  double Remaining() const { return request_.time_limit - clock_.seconds(); }
-
   graph::Point PointOf(const GroundedStance& stance) const {
     return ToPoint(model_.gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));
   }
 
   graph::PathResult Explore(std::uint64_t attempt) {
     graph::FindPathSettings settings;
-    settings.time_limit = std::max(Remaining(), 0.0);
+    settings.time_limit = deadline_.Remaining();
     settings.seed = request_.seed + attempt * 0x9E3779B97F4A7C15u;
     settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
     settings.confirmation_threads = std::max(0, request_.threads - 1);
@@ -301,13 +292,13 @@ class TraversalPlanner {
   }
 
   /// Turns a confirmed path into a verified plan. On failure it forbids the legs at fault.
-  /// @throws Abandoned at the time limit.
+  /// @throws Cancelled at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
     Route route = RouteAlong(model_, searched_, path.path);
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
-    result->plan.timings.motion_s += motion_clock.seconds();
+    result->plan.timings.motion_s += motion_clock.Seconds();
     if (moved) NameVertices(path, &result->plan);
     return moved && IsVerified(route, result);
   }
@@ -321,9 +312,9 @@ class TraversalPlanner {
 
   bool Generate(const Route& route, actions::Plan* plan) {
     try {
-      plan->segments = GenerateMotion(model_, route, request_.threads, [this](double fraction) {
-        return MayFinish("generating motion", fraction);
-      });
+      plan->segments =
+          GenerateMotion(model_, route, request_.threads, CancellationToken(last_deadline_),
+                         [this](double fraction) { Report("generating motion", fraction); });
       return true;
     } catch (const LegError& error) {
       const RouteLeg& leg = route[static_cast<size_t>(error.leg())];
@@ -337,7 +328,8 @@ class TraversalPlanner {
   bool IsVerified(const Route& route, PlanResult* result) {
     VerifierSettings settings;
     settings.threads = request_.threads;
-    settings.keep_going = [this](double fraction) { return MayFinish("verifying", fraction); };
+    settings.cancellation = CancellationToken(last_deadline_);
+    settings.progress = [this](double fraction) { Report("verifying", fraction); };
     result->verification = Verify(result->plan, robot_, scenario_, settings);
     result->plan.timings.verification_s += result->verification.seconds;
     if (!result->verification.accepted()) {
@@ -345,7 +337,7 @@ class TraversalPlanner {
       for (const RouteLeg& leg : route) legs.push_back(LegWords(model_, leg));
       refusals_.ByVerification(result->verification, legs);
     }
-    if (result->verification.abandoned) throw Abandoned();
+    if (result->verification.cancelled) throw Cancelled();
     if (result->verification.accepted()) {
       result->explanation = ExplainManoeuvres(searched_, failures_);
       if (!result->explanation.empty()) result->explanation.erase(0, 1);
@@ -388,21 +380,21 @@ class TraversalPlanner {
     for (const auto& action : gaits_) action->Forbid(edge);
   }
 
-  /// Reports progress, from any thread. Motion and verification of a route found in time may take
-  /// the time limit again (at least kLeastToFinish); false after that.
-  bool MayFinish(const std::string& stage, double fraction) const {
-    if (request_.progress) {
-      const std::lock_guard lock(progress_mutex_);
-      request_.progress({stage, {}, fraction});
-    }
-    return Remaining() > -std::max(request_.time_limit, kLeastToFinish);
+  /// From any thread.
+  void Report(const std::string& stage, double fraction) const {
+    if (!request_.progress) return;
+    const std::lock_guard lock(progress_mutex_);
+    request_.progress({stage, {}, fraction});
   }
 
   const models::RobotModel& robot_;
   const models::Scenario& scenario_;
   const PlanRequest& request_;
   PlannerSwitches switches_;
-  Stopwatch clock_;
+  Deadline deadline_;  ///< of the search
+  /// Motion and verification of a route found in time may take the time limit again (at least
+  /// kLeastToFinish).
+  Deadline last_deadline_;
   models::GroundMap ground_;
   World world_;
   std::vector<ManoeuvreFactory> factories_;
@@ -444,7 +436,7 @@ PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario
   models::CheckScenarioAgainstRobot(asked, robot, FurtherNames(request.gaits, request.manoeuvres));
   try {
     return TraversalPlanner(robot, asked, request).Plan();
-  } catch (const Abandoned&) {
+  } catch (const Cancelled&) {
     PlanResult result;
     FillHeader(robot, scenario, request, &result.plan);
     SayNo(PlanStatus::kTimeLimit, "time ran out while the robot's swept volumes were computed.",

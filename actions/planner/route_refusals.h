@@ -14,7 +14,7 @@ class RouteRefusals {
   /// Adds a route for which motion generation failed at `leg` (a description of the leg).
   void ByMotion(const std::string& leg, const std::string& why);
 
-  /// Adds a route whose motion the verifier refused; an abandoned report holds the violations found
+  /// Adds a route whose motion the verifier refused; a cancelled report holds the violations found
   /// so far. `legs`: descriptions of the route's legs, in the order of the plan's segments.
   void ByVerification(const VerificationReport& report, const std::vector<std::string>& legs);
 

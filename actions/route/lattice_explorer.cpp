@@ -60,7 +60,7 @@ graph::Findings LatticeExplorer::Explore() {
     closest_ = std::numeric_limits<double>::infinity();
     turns_without_progress_ = 0;
   }
-  switch (search_->Advance(kStancesPerTurn, [this] { return !deadline_->Passed(); })) {
+  switch (search_->Advance(kStancesPerTurn, CancellationToken(*deadline_))) {
     case LatticeSearch::Status::kFound:
       return Propose();
     case LatticeSearch::Status::kGivenUp:
@@ -81,8 +81,7 @@ graph::Findings LatticeExplorer::Propose() {
     return findings;
   }
   for (int pass = 0; pass < kShortcutPasses; ++pass) {
-    findings.route =
-        FindShortcuts(space_, findings.route, goals_, [this] { return !deadline_->Passed(); });
+    findings.route = FindShortcuts(space_, findings.route, goals_, CancellationToken(*deadline_));
   }
   findings.outlook = NextLattice().outlook;
   return findings;

@@ -43,7 +43,7 @@ class LatticeExplorer : public graph::Explorer {
   RouteSpace space_;
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
-  const graph::Deadline* deadline_;
+  const Deadline* deadline_;
   std::span<const LatticeSettings> ladder_;
   std::size_t rung_ = 0;
   std::optional<LatticeSearch> search_;  ///< under way

@@ -42,10 +42,10 @@ LatticeSearch::LatticeSearch(const RouteSpace& space, const GroundedStance& star
 }
 
 LatticeSearch::Status LatticeSearch::Advance(std::int64_t stances,
-                                             const std::function<bool()>& keep_going) {
+                                             const CancellationToken& cancellation) {
   const std::int64_t end = examined_ + stances;
   while (!open_.empty() && examined_ <= settings_.most_stances) {
-    if (examined_ >= end || (keep_going && !keep_going())) return Status::kSearching;
+    if (examined_ >= end || !cancellation.Proceed()) return Status::kSearching;
     const Candidate next = open_.top();
     open_.pop();
     if (next.launches) {

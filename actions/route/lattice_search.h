@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <queue>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "actions/route/route_space.h"
+#include "common/cancellation_token.h"
 #include "graph/path_edge.h"
 
 namespace possibility::actions {
@@ -32,9 +32,9 @@ class LatticeSearch {
   LatticeSearch(const RouteSpace& space, const GroundedStance& start,
                 const std::vector<GroundedStance>& goals, const LatticeSettings& settings);
 
-  /// Examines `stances` more stances, or fewer if the search ends. `keep_going` (may be empty):
-  /// called at every stance; false returns at once.
-  Status Advance(std::int64_t stances, const std::function<bool()>& keep_going);
+  /// Examines `stances` more stances, or fewer if the search ends. Asks
+  /// `cancellation` at every stance; once cancelled, returns at once.
+  Status Advance(std::int64_t stances, const CancellationToken& cancellation);
 
   /// The route, if found.
   std::vector<graph::PathEdge> Route() const;

@@ -11,6 +11,7 @@
 
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/phase_sequence.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 namespace {
@@ -50,11 +51,11 @@ std::vector<Phase> Pause(const LocomotionModel& model, const RouteLeg& leg) {
 
 /// The motion of a straight way in one gait that begins at the origin.
 std::vector<Phase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
-                              const std::function<bool()>& keep_going) {
+                              const CancellationToken& cancellation) {
   const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
   const std::vector<PlanarPose> strides = PlanStrides(gait.gait.parameters, leg.from, leg.to);
   if (strides.size() == 1) return Pause(model, leg);
-  return gait.motion->Motion(strides, MotionSettings().knot_spacing, keep_going);
+  return gait.motion->Motion(strides, MotionSettings().knot_spacing, cancellation);
 }
 
 std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg& leg) {
@@ -105,39 +106,41 @@ void RequireFit(const LocomotionModel& model, const RouteLeg& leg,
 }
 
 std::vector<Phase> PhasesOf(const LocomotionModel& model, const RouteLeg& leg,
-                            const std::function<bool()>& keep_going) {
-  if (leg.manoeuvre != nullptr) return leg.manoeuvre->Motion(LegEdge(model, leg), keep_going);
+                            const CancellationToken& cancellation) {
+  if (leg.manoeuvre != nullptr) return leg.manoeuvre->Motion(LegEdge(model, leg), cancellation);
   if (leg.transition >= 0) return TransitionPhases(model, leg);
   const RouteLeg local = SeenFromItsBeginning(leg);
-  return Shifted(GaitPhases(model, local, keep_going), {leg.from.x, leg.from.y, leg.z});
+  return Shifted(GaitPhases(model, local, cancellation), {leg.from.x, leg.from.y, leg.z});
 }
 
 /// Distributes legs to workers; the first failure in route order wins.
 class LegQueue {
  public:
-  LegQueue(const LocomotionModel& model, const Route& route,
-           const std::function<bool(double)>& keep_going)
+  LegQueue(const LocomotionModel& model, const Route& route, const CancellationToken& cancellation,
+           const std::function<void(double)>& progress)
       : model_(model),
         route_(route),
-        keep_going_(keep_going),
+        cancellation_(cancellation),
+        progress_(progress),
         motions_(route.size()),
         errors_(route.size()) {}
 
   void Work() {
-    for (size_t leg = next_++; leg < route_.size() && !abandoned_; leg = next_++) {
+    const CancellationToken own([this] { return Proceed(); });
+    for (size_t leg = next_++; leg < route_.size() && !cancelled_; leg = next_++) {
       try {
-        motions_[leg] = GenerateLeg(model_, route_[leg], [this] { return KeepGoing(); });
+        motions_[leg] = GenerateLeg(model_, route_[leg], own);
       } catch (const MotionError& error) {
         errors_[leg] = error.what();
-      } catch (const Abandoned&) {
-        abandoned_ = true;
+      } catch (const Cancelled&) {
+        cancelled_ = true;
       }
       ++done_;
     }
   }
 
   std::vector<std::vector<Phase>> TakeMotions() {
-    if (abandoned_) throw Abandoned();
+    if (cancelled_) throw Cancelled();
     for (size_t leg = 0; leg < errors_.size(); ++leg) {
       if (errors_[leg]) throw LegError(static_cast<int>(leg), *errors_[leg]);
     }
@@ -145,32 +148,35 @@ class LegQueue {
   }
 
  private:
-  bool KeepGoing() const {
+  /// Reports progress as often as a leg asks: legs may take long.
+  bool Proceed() const {
     const double fraction = static_cast<double>(done_) / static_cast<double>(route_.size());
-    return !abandoned_ && (!keep_going_ || keep_going_(fraction));
+    if (progress_) progress_(fraction);
+    return !cancelled_ && cancellation_.Proceed();
   }
 
   const LocomotionModel& model_;
   const Route& route_;
-  const std::function<bool(double)>& keep_going_;
+  const CancellationToken& cancellation_;
+  const std::function<void(double)>& progress_;
   std::vector<std::vector<Phase>> motions_;
   std::vector<std::optional<std::string>> errors_;
   std::atomic<size_t> next_ = 0;
   std::atomic<size_t> done_ = 0;
-  std::atomic<bool> abandoned_ = false;
+  std::atomic<bool> cancelled_ = false;
 };
 
 }  // namespace
 
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
-                               const std::function<bool()>& keep_going) {
+                               const CancellationToken& cancellation) {
   try {
-    std::vector<Phase> phases = PhasesOf(model, leg, keep_going);
+    std::vector<Phase> phases = PhasesOf(model, leg, cancellation);
     RequireFit(model, leg, phases);
     return phases;
   } catch (const MotionError&) {
     throw;
-  } catch (const Abandoned&) {
+  } catch (const Cancelled&) {
     throw;
   } catch (const std::exception& error) {
     throw MotionError(fmt::format("no motion: {}", error.what()));
@@ -178,8 +184,9 @@ std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg
 }
 
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
-                                    const std::function<bool(double)>& keep_going) {
-  LegQueue queue(model, route, keep_going);
+                                    const CancellationToken& cancellation,
+                                    const std::function<void(double)>& progress) {
+  LegQueue queue(model, route, cancellation, progress);
   {
     std::vector<std::jthread> workers;
     for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {

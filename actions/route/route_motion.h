@@ -7,6 +7,7 @@
 #include "actions/motion/motion_builder.h"
 #include "actions/plan/plan.h"
 #include "actions/route/route.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -24,15 +25,16 @@ class LegError : public MotionError {
 /// is stretched. A manoeuvre provides its own motion; it must have knots of the robot's sizes and
 /// begin and end at rest in the leg's stances.
 /// @throws MotionError if stretching does not help, or if a manoeuvre throws or returns a motion
-/// that does not fit; Abandoned if `keep_going` (may be empty) returns false.
+/// that does not fit; Cancelled.
 std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg,
-                               const std::function<bool()>& keep_going = {});
+                               const CancellationToken& cancellation = {});
 
 /// Motion of a whole route, with its legs distributed over `threads`; the result does not depend on
-/// their number. `keep_going`: called regularly, from any thread, with the fraction done; false
-/// abandons the rest. May be empty.
-/// @throws LegError for the first leg that fails; Abandoned.
+/// their number. `cancellation`: asked regularly, from any thread. `progress` (may be empty):
+/// called as often, from any thread, with the fraction done.
+/// @throws LegError for the first leg that fails; Cancelled.
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
-                                    const std::function<bool(double)>& keep_going);
+                                    const CancellationToken& cancellation = {},
+                                    const std::function<void(double)>& progress = {});
 
 }  // namespace possibility::actions

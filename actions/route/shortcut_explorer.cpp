@@ -22,7 +22,7 @@ graph::Findings ShortcutExplorer::Explore() {
   if (route_.empty()) return {graph::Outlook::kOver, {}};
   const std::vector<graph::PathEdge> known = std::exchange(route_, {});
   std::vector<graph::PathEdge> quicker =
-      FindShortcuts(space_, known, goals_, [this] { return !context_.deadline->Passed(); });
+      FindShortcuts(space_, known, goals_, CancellationToken(*context_.deadline));
   if (DurationOf(quicker) >= DurationOf(known) - kQuicker) quicker.clear();
   return {graph::Outlook::kOver, std::move(quicker)};
 }

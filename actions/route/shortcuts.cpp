@@ -25,10 +25,10 @@ using Edges = std::vector<graph::PathEdge>;
 class ShortcutSearch {
  public:
   ShortcutSearch(const RouteSpace& space, const std::vector<RouteStop>& stops,
-                 const std::vector<GroundedStance>& goals, const std::function<bool()>& keep_going)
+                 const std::vector<GroundedStance>& goals, const CancellationToken& cancellation)
       : space_(space),
         stops_(stops),
-        keep_going_(keep_going),
+        cancellation_(cancellation),
         roadmap_(space, stops, goals),
         leaving_(roadmap_.places().size()),
         previous_(roadmap_.hops().size(), kUnreached) {
@@ -47,7 +47,7 @@ class ShortcutSearch {
   /// None if it was told to stop.
   std::optional<Edges> Run() {
     Expand(kStart);
-    while (!open_.empty() && (!keep_going_ || keep_going_())) {
+    while (!open_.empty() && cancellation_.Proceed()) {
       const Candidate next = open_.top();
       open_.pop();
       if (next.finish >= 0) {
@@ -142,7 +142,7 @@ class ShortcutSearch {
 
   const RouteSpace& space_;
   const std::vector<RouteStop>& stops_;
-  const std::function<bool()>& keep_going_;
+  const CancellationToken& cancellation_;
   ShortcutRoadmap roadmap_;
   std::vector<std::vector<int>> leaving_;  ///< hops, by place
   std::vector<int> previous_;              ///< by hop
@@ -168,7 +168,7 @@ std::vector<RouteStop> StopsOf(const RouteSpace& space, const Edges& route) {
 std::vector<graph::PathEdge> FindShortcuts(const RouteSpace& space,
                                            const std::vector<graph::PathEdge>& route,
                                            const std::vector<GroundedStance>& goals,
-                                           const std::function<bool()>& keep_going) {
+                                           const CancellationToken& cancellation) {
   static const std::vector<GroundedStance> kNoGoals;
   Edges result;
   Edges rest = route;
@@ -177,8 +177,9 @@ std::vector<graph::PathEdge> FindShortcuts(const RouteSpace& space,
     const auto end = rest.begin() + static_cast<std::ptrdiff_t>(std::min(rest.size(), kWindow));
     const Edges window(rest.begin(), end);
     const std::vector<RouteStop> stops = StopsOf(space, window);
-    const Edges quicker =
-        ShortcutSearch(space, stops, is_last ? goals : kNoGoals, keep_going).Run().value_or(window);
+    const Edges quicker = ShortcutSearch(space, stops, is_last ? goals : kNoGoals, cancellation)
+                              .Run()
+                              .value_or(window);
     // The next window begins half-way through the result of this one.
     const std::size_t kept =
         is_last || quicker.size() >= 2 * kWindow ? quicker.size() : (quicker.size() + 1) / 2;

@@ -27,7 +27,7 @@ int LimbOfContact(const models::Gait& gait, int contact) {
 
 TransitionMotion::TransitionMotion(const models::RobotModel& robot, const NominalStance& from,
                                    const NominalStance& to, const std::filesystem::path& library,
-                                   const std::function<bool()>& keep_going)
+                                   const CancellationToken& cancellation)
     : from_(&from), to_(&to) {
   AlignStances(robot);
   const TransitionSolver solver(robot, from, to);
@@ -37,7 +37,7 @@ TransitionMotion::TransitionMotion(const models::RobotModel& robot, const Nomina
   }
   if (FindInLibrary(solver)) return;
   try {
-    solved_ = solver.Solve(keep_going);
+    solved_ = solver.Solve(cancellation);
   } catch (const MotionError& error) {
     throw InputError(fmt::format("{}: transitions: {} to {} is not possible: {}",
                                  robot.file.string(), from.gait->name, to.gait->name,

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/planar_pose.h"
 #include "actions/transition/transition_solver.h"
+#include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
@@ -17,10 +17,10 @@ class TransitionMotion {
  public:
   /// `library`: folder of solved motions; empty: none. A motion that it lacks is solved.
   /// @throws InputError if the two stances disagree about the shared patches, or the robot cannot
-  /// execute the transition; Abandoned if `keep_going` (may be empty) returns false.
+  /// execute the transition; Cancelled.
   TransitionMotion(const models::RobotModel& robot, const NominalStance& from,
                    const NominalStance& to, const std::filesystem::path& library,
-                   const std::function<bool()>& keep_going);
+                   const CancellationToken& cancellation);
 
   const NominalStance& from() const { return *from_; }
   const NominalStance& to() const { return *to_; }

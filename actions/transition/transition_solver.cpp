@@ -1,16 +1,11 @@
 #include "actions/transition/transition_solver.h"
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
-#include <stop_token>
-#include <thread>
-
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/sagittal/bare_ground.h"
 #include "actions/sagittal/stance_motion.h"
 #include "collocation/study/optimal_control.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 namespace {
@@ -18,26 +13,6 @@ namespace {
 /// Intervals of the two phases. The finer mesh is tried because a motion that the whole robot
 /// cannot follow may be the coarse mesh's fault.
 constexpr int kIntervals[][SitDownProblem::kNumPhases] = {{14, 8}, {20, 12}};
-
-/// Cancels a solve once it is no longer wanted; active during its lifetime.
-class Canceller {
- public:
-  Canceller(const std::function<bool()>& keep_going, collocation::SolveControl* control) {
-    if (!keep_going) return;
-    watcher_ = std::jthread([keep_going, control](const std::stop_token& stop) {
-      constexpr auto kPeriod = std::chrono::milliseconds(5);
-      std::mutex mutex;
-      std::condition_variable_any stopped;
-      std::unique_lock lock(mutex);
-      while (!stopped.wait_for(lock, stop, kPeriod, [&] { return stop.stop_requested(); })) {
-        if (!keep_going()) return control->Cancel();
-      }
-    });
-  }
-
- private:
-  std::jthread watcher_;
-};
 
 }  // namespace
 
@@ -47,7 +22,7 @@ TransitionSolver::TransitionSolver(const models::RobotModel& robot, const Nomina
   settings_.limits.friction = robot.friction;
 }
 
-SolvedTransition TransitionSolver::Solve(const std::function<bool()>& keep_going) const {
+SolvedTransition TransitionSolver::Solve(const CancellationToken& cancellation) const {
   const SitDownProblem problem(model_, settings_);
   std::string fault;
   for (const auto& intervals : kIntervals) {
@@ -55,11 +30,9 @@ SolvedTransition TransitionSolver::Solve(const std::function<bool()>& keep_going
     options.intervals = {std::begin(intervals), std::end(intervals)};
     options.solver.tolerance = 1e-5;
     options.solver.constraint_tolerance = 1e-7;
-    collocation::SolveControl control;
-    const Canceller canceller(keep_going, &control);
     const collocation::OptimalControlResult result =
-        collocation::SolveOptimalControl(problem.problem(), options, std::nullopt, &control);
-    if (result.status == collocation::SolverStatus::kCancelled) throw Abandoned();
+        collocation::SolveOptimalControl(problem.problem(), options, std::nullopt, cancellation);
+    if (result.status == collocation::SolverStatus::kCancelled) throw Cancelled();
     fault = result.message;
     if (!result.succeeded()) continue;
     try {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "actions/plan/plan.h"
 #include "actions/sagittal/sagittal_model.h"
 #include "actions/transition/sit_down_problem.h"
 #include "collocation/study/stored_solution.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -26,10 +26,10 @@ class TransitionSolver {
 
   const SagittalModel& model() const { return model_; }
 
-  /// Solves from scratch and verifies the motion on bare ground. `keep_going` (may be empty) is
-  /// also called from another thread.
-  /// @throws MotionError if there is no motion, Abandoned if `keep_going` returns false.
-  SolvedTransition Solve(const std::function<bool()>& keep_going) const;
+  /// Solves from scratch and verifies the motion on bare ground. Asks
+  /// `cancellation` at every step of the solve.
+  /// @throws MotionError if there is no motion, Cancelled.
+  SolvedTransition Solve(const CancellationToken& cancellation) const;
   /// Realises a stored solution. @throws std::invalid_argument if it belongs to another problem;
   /// MotionError.
   SolvedTransition Realise(const collocation::StoredSolution& solution) const;

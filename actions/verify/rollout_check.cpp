@@ -153,7 +153,7 @@ class Rollout {
     settings.touching = kHeight;
     settings.hybrid.integration.relative_tolerance = settings_.tolerance;
     settings.hybrid.integration.absolute_tolerance = settings_.tolerance;
-    settings.hybrid.integration.stop = settings_.stop;
+    settings.hybrid.integration.cancellation = settings_.cancellation;
     settings.hybrid.end_at_zeno = true;
     return settings;
   }

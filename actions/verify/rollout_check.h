@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 #include "models/world/ground_map.h"
 
@@ -12,11 +12,11 @@ namespace possibility::actions {
 struct RolloutCheckSettings {
   /// rad or m: joint error at which feedback alone would demand the full effort.
   double full_effort_error = 0.02;
-  double damping_time = 0.03;  ///< s, damping over stiffness
-  double settling_time = 0.5;  ///< s, hold time of the last posture if the motion ends at rest
-  double sample_time = 0.005;  ///< s, between compared states
-  double tolerance = 1e-8;     ///< of the integrator, relative and absolute
-  std::function<bool()> stop;  ///< called before every step; true aborts. May be empty
+  double damping_time = 0.03;      ///< s, damping over stiffness
+  double settling_time = 0.5;      ///< s, hold time of the last posture if the motion ends at rest
+  double sample_time = 0.005;      ///< s, between compared states
+  double tolerance = 1e-8;         ///< of the integrator, relative and absolute
+  CancellationToken cancellation;  ///< asked before every step
 };
 
 /// Deviation of a simulation from its reference motion.

@@ -1,6 +1,5 @@
 #include "actions/verify/verifier.h"
 
-#include <chrono>
 #include <stdexcept>
 
 #include "actions/verify/verifier_contacts.h"
@@ -11,6 +10,7 @@
 #include "actions/verify/verifier_problem.h"
 #include "actions/verify/verifier_rollouts.h"
 #include "actions/verify/verifier_structure.h"
+#include "common/stopwatch.h"
 #include "models/world/ground_map.h"
 
 namespace possibility::actions {
@@ -34,7 +34,7 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
                              FollowFlights(plan, &evaluator)};
   CheckImpacts(plan, robot, subject.contacts, &evaluator, log);
   VerifyMotion(subject, settings, log, report);
-  if (settings.simulates && log->Worst().empty() && !report->abandoned) {
+  if (settings.simulates && log->Worst().empty() && !report->cancelled) {
     VerifyRollouts(subject, settings, log, report);
   }
 }
@@ -94,14 +94,14 @@ VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,
   if (!(settings.resolution > 0) || settings.threads < 1) {
     throw std::invalid_argument("the verifier needs a positive resolution and number of threads");
   }
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   VerificationReport report;
   report.robot_file = robot.file;
   report.scenario_file = scenario.file;
   ViolationLog log;
   VerifyAll(plan, robot, scenario, settings, &log, &report);
   report.violations = log.Worst();
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = stopwatch.Seconds();
   return report;
 }
 

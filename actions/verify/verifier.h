@@ -7,6 +7,7 @@
 
 #include "actions/plan/plan.h"
 #include "actions/verify/rollout_check.h"
+#include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 #include "models/world/scenario.h"
 
@@ -71,14 +72,14 @@ struct VerificationReport {
   double position_resolution = 0;
   double force_resolution = 0;
   double seconds = 0;
-  bool abandoned = false;  ///< VerifierSettings::keep_going returned false
-  bool accepted() const { return violations.empty() && !abandoned; }
+  bool cancelled = false;
+  bool accepted() const { return violations.empty() && !cancelled; }
 };
 
 struct VerifierSettings {
-  /// Called regularly, from any thread, with the fraction done; false abandons the rest. May be
-  /// empty.
-  std::function<bool(double)> keep_going;
+  CancellationToken cancellation;  ///< asked regularly, from any thread
+  /// Called as often, from any thread, with the fraction done. May be empty.
+  std::function<void(double)> progress;
   double resolution = 0.005;  ///< s, largest sample time; fast motions are sampled more densely
   /// Also simulates stretches with flight or impacts: seconds for each.
   bool simulates = true;

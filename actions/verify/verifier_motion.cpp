@@ -274,17 +274,17 @@ void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings,
                   VerificationReport* report) {
   const std::vector<Chunk> chunks = Divide(subject.plan);
   std::atomic<std::size_t> next = 0;
-  std::atomic<bool> abandoned = false;
+  std::atomic<bool> cancelled = false;
   Tally tally;
   const auto work = [&] {
     try {
       Worker worker(subject, settings.resolution);
-      for (std::size_t i = next++; i < chunks.size() && !abandoned; i = next++) {
+      for (std::size_t i = next++; i < chunks.size() && !cancelled; i = next++) {
         worker.Verify(chunks[i]);
-        if (settings.keep_going &&
-            !settings.keep_going(static_cast<double>(i + 1) / static_cast<double>(chunks.size()))) {
-          abandoned = true;
+        if (settings.progress) {
+          settings.progress(static_cast<double>(i + 1) / static_cast<double>(chunks.size()));
         }
+        if (!settings.cancellation.Proceed()) cancelled = true;
       }
       tally.Add(worker);
     } catch (...) {
@@ -293,7 +293,7 @@ void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings,
   };
   RunOnThreads(settings.threads, work);
   tally.Finish(log, report);
-  report->abandoned = abandoned;
+  report->cancelled = cancelled;
 }
 
 }  // namespace possibility::actions

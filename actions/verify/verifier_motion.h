@@ -22,7 +22,7 @@ struct VerifiedPlan {
 };
 
 /// Checks the motion at all knots and between them, on settings.threads threads. Sets the samples,
-/// resolutions and `abandoned` of the report.
+/// resolutions and `cancelled` of the report.
 void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings, ViolationLog* log,
                   VerificationReport* report);
 

@@ -77,22 +77,23 @@ void VerifyRollouts(const VerifiedPlan& subject, const VerifierSettings& setting
   const std::vector<DynamicStretch> stretches = DynamicStretches(subject.plan);
   std::vector<StretchRollout> rollouts(stretches.size());
   std::atomic<std::size_t> next = 0;
-  std::atomic<bool> abandoned = false;
+  std::atomic<bool> cancelled = false;
   RolloutCheckSettings check;
-  check.stop = [&] {
-    if (settings.keep_going && !settings.keep_going(1)) abandoned = true;
-    return abandoned.load();
-  };
+  check.cancellation = CancellationToken([&] {
+    if (settings.progress) settings.progress(1);
+    if (!settings.cancellation.Proceed()) cancelled = true;
+    return !cancelled;
+  });
   const int threads = std::min(settings.threads, static_cast<int>(rollouts.size()));
   RunOnThreads(threads, [&] {
-    for (std::size_t i = next++; i < rollouts.size() && !abandoned; i = next++) {
+    for (std::size_t i = next++; i < rollouts.size() && !cancelled; i = next++) {
       const DynamicStretch& stretch = stretches[i];
       rollouts[i] = {stretch.first_segment, stretch.last_segment,
                      RollOutSegment(stretch.motion, subject.robot, subject.ground, check)};
     }
   });
-  report->abandoned = abandoned;
-  if (abandoned) return;
+  report->cancelled = cancelled;
+  if (cancelled) return;
   for (const StretchRollout& rollout : rollouts) Judge(rollout, log);
   report->rollouts = std::move(rollouts);
 }

@@ -20,7 +20,7 @@ struct DynamicStretch {
 /// or end.
 std::vector<DynamicStretch> DynamicStretches(const Plan& plan);
 
-/// Simulates the dynamic stretches, on settings.threads threads. Sets the rollouts and `abandoned`
+/// Simulates the dynamic stretches, on settings.threads threads. Sets the rollouts and `cancelled`
 /// of the report.
 void VerifyRollouts(const VerifiedPlan& subject, const VerifierSettings& settings,
                     ViolationLog* log, VerificationReport* report);

@@ -178,7 +178,7 @@ void DenseFront::UpdateTrailing(int first_pivot, int from) {
 }
 
 void DenseFront::Eliminate(int candidates, double threshold, bool last,
-                           const std::function<void()>& interrupt) {
+                           const CancellationToken& cancellation) {
   candidates_ = candidates;
   const size_t buffer = static_cast<size_t>(size_) * std::max(candidates, 1);
   if (scaled_.size() < buffer) scaled_.resize(buffer);
@@ -194,7 +194,7 @@ void DenseFront::Eliminate(int candidates, double threshold, bool last,
     if (found > 0 && num_pivots_ < window) continue;
     // The window is used up, or needs more columns to choose from.
     UpdateTrailing(first_pivot, window);
-    if (interrupt && size_ > 10 * kWindow) interrupt();
+    if (size_ > 10 * kWindow) cancellation.ThrowIfCancelled();
     first_pivot = num_pivots_;
     if (found == 0 && window == candidates) break;
     window = std::min(candidates, window + kWindow);

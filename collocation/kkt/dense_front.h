@@ -1,7 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <vector>
+
+#include "common/cancellation_token.h"
 
 namespace possibility::collocation {
 
@@ -25,9 +26,9 @@ class DenseFront {
   /// them. They become the first num_pivots columns; the others follow in some order. A pivot is
   /// stable if no multiplier exceeds 1 / threshold; much safer pivots are taken first. With `last`,
   /// any pivot that is not zero to rounding is accepted. Entries should be of order one.
-  /// `interrupt` is called between blocks of pivots, and may throw.
+  /// `cancellation` is asked between blocks of pivots. @throws Cancelled.
   void Eliminate(int candidates, double threshold, bool last,
-                 const std::function<void()>& interrupt = {});
+                 const CancellationToken& cancellation = {});
 
   int num_pivots() const { return num_pivots_; }
   /// Whether a remaining candidate has only zero entries, to rounding. It then never gets another

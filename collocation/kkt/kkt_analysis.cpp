@@ -290,9 +290,9 @@ std::vector<int> Inverse(const std::vector<int>& permutation) {
 }  // namespace
 
 KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
-                       const std::function<void()>& interrupt) {
-  auto step = [&interrupt](auto result) {
-    if (interrupt) interrupt();
+                       const CancellationToken& cancellation) {
+  auto step = [&cancellation](auto result) {
+    cancellation.ThrowIfCancelled();
     return result;
   };
   const std::vector<int> partner = step(PairDualRows(size, num_dual, edges));

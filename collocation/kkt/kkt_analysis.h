@@ -1,7 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <vector>
+
+#include "common/cancellation_token.h"
 
 namespace possibility::collocation {
 
@@ -35,8 +36,8 @@ struct KktEdge {
 /// fronts. Each of the last `num_dual` rows, which may have a zero diagonal, is paired with its
 /// heaviest neighbour among the other rows that is still free, so that the two can serve as one 2x2
 /// pivot (Duff & Pralet 2005). The pairs are then ordered by approximate minimum degree.
-/// `interrupt` (may be empty) is called from time to time, and may throw.
+/// `cancellation` is asked from time to time. @throws Cancelled.
 KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
-                       const std::function<void()>& interrupt);
+                       const CancellationToken& cancellation);
 
 }  // namespace possibility::collocation

@@ -13,7 +13,7 @@ namespace {
 constexpr int kScalingPasses = 4;
 constexpr int kMaxRefinements = 3;
 constexpr double kWantedResidual = 1e-10;  // relative to |A| |x| + |b|
-constexpr int kFrontsPerInterrupt = 16;
+constexpr int kFrontsPerQuestion = 16;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ KktFactorisation::KktFactorisation(int size, int num_dual, std::vector<int> rows
   }
 }
 
-void KktFactorisation::Analyse(const double* values, const Interrupt& interrupt) {
+void KktFactorisation::Analyse(const double* values, const CancellationToken& cancellation) {
   const size_t entries = rows_.size();
   // Weights: the size of an entry relative to those of its row and column.
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(size_);
@@ -45,7 +45,7 @@ void KktFactorisation::Analyse(const double* values, const Interrupt& interrupt)
     const double bound = std::sqrt(largest[rows_[t]]) * std::sqrt(largest[columns_[t]]);
     edges.push_back({rows_[t], columns_[t], bound > 0 ? std::abs(values[t]) / bound : 0});
   }
-  analysis_ = AnalyseKkt(size_, num_dual_, edges, interrupt);
+  analysis_ = AnalyseKkt(size_, num_dual_, edges, cancellation);
 
   SortPlaces();
   const int places = static_cast<int>(place_row_.size());
@@ -221,11 +221,11 @@ void KktFactorisation::PassOn(int f) {
 }
 
 KktStatus KktFactorisation::Factorise(const double* values, double pivot_threshold,
-                                      const Interrupt& interrupt) {
+                                      const CancellationToken& cancellation) {
   for (size_t t = 0; t < rows_.size(); ++t) {
     if (!std::isfinite(values[t])) return KktStatus::kNotFinite;
   }
-  if (!analysed_) Analyse(values, interrupt);
+  if (!analysed_) Analyse(values, cancellation);
   values_.setZero(static_cast<int>(place_row_.size()));
   for (size_t t = 0; t < rows_.size(); ++t) values_[place_of_[t]] += values[t];
   if (!values_.allFinite()) return KktStatus::kNotFinite;
@@ -241,10 +241,10 @@ KktStatus KktFactorisation::Factorise(const double* values, double pivot_thresho
   inverse_subdiagonal_.clear();
   num_negative_ = num_delayed_ = 0;
   for (int f = 0; f < static_cast<int>(analysis_.fronts.size()); ++f) {
-    if (interrupt && f % kFrontsPerInterrupt == 0) interrupt();
+    if (f % kFrontsPerQuestion == 0) cancellation.ThrowIfCancelled();
     const bool is_root = analysis_.fronts[f].parent < 0;
     Assemble(f);
-    front_.Eliminate(candidates_, pivot_threshold, is_root, interrupt);
+    front_.Eliminate(candidates_, pivot_threshold, is_root, cancellation);
     const bool is_stuck = is_root && front_.num_pivots() < candidates_;
     if (is_stuck || front_.has_zero_candidate()) return KktStatus::kSingular;
     StoreFactor();

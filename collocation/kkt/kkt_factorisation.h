@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
 
 #include "collocation/kkt/dense_front.h"
 #include "collocation/kkt/kkt_analysis.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::collocation {
 
@@ -22,10 +22,6 @@ enum class KktStatus {
 /// at a time; objects share nothing.
 class KktFactorisation {
  public:
-  /// Called from time to time during long computations. May throw: the computation is then
-  /// abandoned, and the object can be used for another Factorise.
-  using Interrupt = std::function<void()>;
-
   /// The pattern: entry t couples rows[t] and columns[t] (0-based, either triangle, each
   /// off-diagonal entry given once; repeated entries add up). The last `num_dual` rows may have a
   /// zero diagonal: a hint for the ordering.
@@ -33,9 +29,10 @@ class KktFactorisation {
   KktFactorisation(int size, int num_dual, std::vector<int> rows, std::vector<int> columns);
 
   /// `values`: one per entry of the pattern. A pivot is accepted if it bounds the multipliers by
-  /// 1 / pivot_threshold, in (0, 0.5].
+  /// 1 / pivot_threshold, in (0, 0.5]. `cancellation` is asked from time to time.
+  /// @throws Cancelled; the object can then be used for another Factorise.
   KktStatus Factorise(const double* values, double pivot_threshold,
-                      const Interrupt& interrupt = {});
+                      const CancellationToken& cancellation = {});
 
   /// Overwrites the right-hand side (size) with the solution, refined against the matrix. A
   /// solution that is not finite is returned as zero. Call only after kFactorised.
@@ -65,7 +62,7 @@ class KktFactorisation {
     size_t first_value = 0;  ///< in stack_
   };
 
-  void Analyse(const double* values, const Interrupt& interrupt);
+  void Analyse(const double* values, const CancellationToken& cancellation);
   void SortPlaces();
   void Equilibrate();
   void Assemble(int front);

@@ -106,10 +106,10 @@ std::optional<KktStatus> HslScope::Factorise(const void* instance, const double*
   KktFactorisation& kkt = *factorisations_.at(instance);
   try {
     const KktStatus status =
-        kkt.Factorise(values, std::clamp(pivot_threshold, 0.0, 0.5), [this] { StopIfTold(); });
+        kkt.Factorise(values, std::clamp(pivot_threshold, 0.0, 0.5), clock_->token());
     *num_negative = kkt.num_negative();
     return status;
-  } catch (const Stopped&) {
+  } catch (const Cancelled&) {
     return std::nullopt;
   }
 }

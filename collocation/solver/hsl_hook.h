@@ -32,18 +32,13 @@ class HslScope {
 
   // Called by the registered entry points. `instance` identifies the solver instance.
   void SetPattern(const void* instance, int size, int entries, const int* rows, const int* columns);
-  /// Null if the computation was stopped.
+  /// Null if the computation was cancelled.
   std::optional<KktStatus> Factorise(const void* instance, const double* values,
                                      double pivot_threshold, int* num_negative);
   void Solve(const void* instance, double* right_side);
   static HslScope* Current();
 
  private:
-  struct Stopped {};
-  void StopIfTold() {
-    if (!clock_->Proceed()) throw Stopped();
-  }
-
   int num_dual_;
   SolveClock* clock_;
   HslScope* outer_;

@@ -175,7 +175,7 @@ bool IpoptAdapter::intermediate_callback(Ipopt::AlgorithmMode mode, int iteratio
     exception_ = std::current_exception();
     return false;
   }
-  return clock_->EndIteration();
+  return clock_->Proceed();
 }
 
 void IpoptAdapter::finalize_solution(Ipopt::SolverReturn, int n, const double* x,

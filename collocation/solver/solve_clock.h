@@ -1,32 +1,34 @@
 #pragma once
 
-#include <chrono>
-
-#include "collocation/solver/solve_control.h"
+#include "common/cancellation_token.h"
+#include "common/stopwatch.h"
 
 namespace possibility::collocation {
 
-/// The time of one solve since construction, and the orders that it receives from outside.
+/// The time of one solve since construction, and whether it may go on. Pauses of the solve are the
+/// time that its token took to answer.
 class SolveClock {
  public:
   enum class Stop { kNone, kCancelled, kTimeLimit };
 
-  /// `time_limit` in s, 0 for none; `control` may be null.
-  SolveClock(double time_limit, SolveControl* control);
+  /// `time_limit` in s, 0 for none.
+  SolveClock(double time_limit, CancellationToken cancellation);
 
   /// Whether the solve may go on; sleeps while it is paused. Once false, always false.
   bool Proceed();
-  /// Reports the end of an iteration; then like Proceed.
-  bool EndIteration();
+  /// Asks Proceed; must not outlive the clock.
+  CancellationToken token() {
+    return CancellationToken([this] { return Proceed(); });
+  }
   Stop stop() const { return stop_; }
 
   /// s since construction, without pauses.
-  double Seconds() const;
+  double Seconds() const { return stopwatch_.Seconds() - paused_; }
 
  private:
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch stopwatch_;
   double time_limit_;
-  SolveControl* control_;
+  CancellationToken cancellation_;
   double paused_ = 0;
   Stop stop_ = Stop::kNone;
 };

@@ -270,10 +270,10 @@ ApplicationReturnStatus RunIpopt(const SolverOptions& options, const SolverGuess
 }  // namespace
 
 SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
-                   const SolverOptions& options, SolveControl* control,
+                   const SolverOptions& options, const CancellationToken& cancellation,
                    const std::function<void(const SolverIteration&)>& log) {
   CheckInput(*program, guess);
-  SolveClock clock(options.time_limit, control);
+  SolveClock clock(options.time_limit, cancellation);
   SolverResult result;
   result.x = guess.x;
   result.constraint_multipliers = VectorXd::Zero(program->num_constraints());
@@ -287,7 +287,7 @@ SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
     std::optional<TurnQueue::Ticket> turn;
     if (options.linear_solver == LinearSolver::kMumps) {
       turn.emplace(&MumpsTurns());
-      turn->Wait([&clock] { return !clock.Proceed(); });
+      turn->Wait(clock.token());
     }
     if (clock.Proceed()) {
       status = RunIpopt(options, guess, *program, &clock, adapter, &result.times);

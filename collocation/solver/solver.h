@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "collocation/problem/nonlinear_program.h"
-#include "collocation/solver/solve_control.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::collocation {
 
@@ -99,13 +99,14 @@ struct SolverResult {
   }
 };
 
-/// Solves with Ipopt. Any number of solves may run at once, each with its own program. `control`
-/// (optional) cancels or pauses the solve from another thread. `log` is called with every
-/// iteration. Nothing is printed.
+/// Solves with Ipopt. Any number of solves may run at once, each with its own program.
+/// `cancellation` is asked at every evaluation and during factorisations. `log` is called with
+/// every iteration, before the question whether to go on: what it orders always takes effect in the
+/// same place. Nothing is printed.
 /// @throws std::invalid_argument for an empty program, contradictory bounds (naming the variable or
 /// constraint), a guess of a wrong size or one that is not finite, or an unknown Ipopt option.
 SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
-                   const SolverOptions& options = {}, SolveControl* control = nullptr,
+                   const SolverOptions& options = {}, const CancellationToken& cancellation = {},
                    const std::function<void(const SolverIteration&)>& log = {});
 
 }  // namespace possibility::collocation

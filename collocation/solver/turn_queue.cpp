@@ -17,12 +17,12 @@ TurnQueue::Ticket::~Ticket() {
   queue_->changed_.notify_all();
 }
 
-bool TurnQueue::Ticket::Wait(const std::function<bool()>& give_up) {
+bool TurnQueue::Ticket::Wait(const CancellationToken& cancellation) {
   std::unique_lock lock(queue_->mutex_);
   while (queue_->tickets_.front() != this) {
     queue_->changed_.wait_for(lock, std::chrono::milliseconds(5));
     lock.unlock();
-    if (give_up()) return false;
+    if (!cancellation.Proceed()) return false;
     lock.lock();
   }
   return true;

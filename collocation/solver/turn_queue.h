@@ -1,9 +1,10 @@
 #pragma once
 
 #include <condition_variable>
-#include <functional>
 #include <list>
 #include <mutex>
+
+#include "common/cancellation_token.h"
 
 namespace possibility::collocation {
 
@@ -21,8 +22,8 @@ class TurnQueue {
     Ticket& operator=(const Ticket&) = delete;
 
     /// Sleeps until it is this ticket's turn, then returns true. Returns false as soon as
-    /// `give_up`, called every few milliseconds, returns true.
-    bool Wait(const std::function<bool()>& give_up);
+    /// `cancellation`, asked every few milliseconds, says so.
+    bool Wait(const CancellationToken& cancellation);
 
    private:
     TurnQueue* queue_;

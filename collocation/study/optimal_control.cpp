@@ -80,16 +80,7 @@ SolverGuess GuessOf(const Transcription& program, const Start& start) {
   return guess;
 }
 
-/// Thrown to end a cancelled solve.
-struct Cancellation {};
-
-void WaitOrStop(SolveControl* control) {
-  if (control == nullptr) return;
-  if (!control->cancelled()) control->WaitWhilePaused();
-  if (control->cancelled()) throw Cancellation();
-}
-
-OptimalControlResult Cancelled(OptimalControlResult result) {
+OptimalControlResult AsCancelled(OptimalControlResult result) {
   result.status = SolverStatus::kCancelled;
   result.message = "cancelled";
   result.multipliers = {};  // from an earlier mesh
@@ -99,21 +90,21 @@ OptimalControlResult Cancelled(OptimalControlResult result) {
 }
 
 void SolveFrom(Start start, const OptimalControlProblem& problem,
-               const OptimalControlOptions& options, SolveControl* control,
+               const OptimalControlOptions& options, const CancellationToken& cancellation,
                const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
   OptimalControlResult& result = *out;
   std::vector<Mesh> meshes = FirstMeshes(problem, options);
   for (;; ++result.refinements) {
-    Transcription program(problem, options.scheme, meshes, [control] { WaitOrStop(control); });
+    Transcription program(problem, options.scheme, meshes, cancellation);
     const SolverGuess guess = GuessOf(program, start);
     if (result.refinements == 0) result.dual_start = guess.constraint_multipliers.size() > 0;
-    result.solver = Solve(&program, guess, options.solver, control, log);
+    result.solver = Solve(&program, guess, options.solver, cancellation, log);
     AddUp(result.solver, &result);
     result.status = result.solver.status;
     result.message = result.solver.message;
     result.objective = result.solver.objective;
     result.trajectory = program.TrajectoryOf(result.solver.x);
-    if (result.status == SolverStatus::kCancelled) throw Cancellation();
+    if (result.status == SolverStatus::kCancelled) throw Cancelled();
     result.multipliers = program.MultipliersOf(result.solver);
     result.violations = Violations(program, result.solver);
     const auto errors = MeshErrors(problem, result.trajectory);
@@ -132,13 +123,14 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
 }
 
 OptimalControlResult SolveOrCancel(const Start& start, const OptimalControlProblem& problem,
-                                   const OptimalControlOptions& options, SolveControl* control,
+                                   const OptimalControlOptions& options,
+                                   const CancellationToken& cancellation,
                                    const std::function<void(const SolverIteration&)>& log) {
   OptimalControlResult result;
   try {
-    SolveFrom(start, problem, options, control, log, &result);
-  } catch (const Cancellation&) {
-    return Cancelled(std::move(result));
+    SolveFrom(start, problem, options, cancellation, log, &result);
+  } catch (const Cancelled&) {
+    return AsCancelled(std::move(result));
   }
   return result;
 }
@@ -148,18 +140,19 @@ OptimalControlResult SolveOrCancel(const Start& start, const OptimalControlProbl
 OptimalControlResult SolveOptimalControl(const OptimalControlProblem& problem,
                                          const OptimalControlOptions& options,
                                          const std::optional<Trajectory>& guess,
-                                         SolveControl* control,
+                                         const CancellationToken& cancellation,
                                          const std::function<void(const SolverIteration&)>& log) {
-  return SolveOrCancel({guess ? &*guess : nullptr, nullptr}, problem, options, control, log);
+  return SolveOrCancel({guess ? &*guess : nullptr, nullptr}, problem, options, cancellation, log);
 }
 
 OptimalControlResult SolveOptimalControl(const OptimalControlProblem& problem,
                                          const StoredSolution& start,
                                          const OptimalControlOptions& options,
-                                         SolveControl* control,
+                                         const CancellationToken& cancellation,
                                          const std::function<void(const SolverIteration&)>& log) {
   CheckSameQuantities(problem, start);
-  return SolveOrCancel({&start.trajectory, &start.multipliers}, problem, options, control, log);
+  return SolveOrCancel({&start.trajectory, &start.multipliers}, problem, options, cancellation,
+                       log);
 }
 
 StoredSolution Store(const OptimalControlProblem& problem, const OptimalControlResult& result) {

@@ -10,6 +10,7 @@
 #include "collocation/solver/solver.h"
 #include "collocation/study/stored_solution.h"
 #include "collocation/transcription/transcription.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::collocation {
 
@@ -61,7 +62,8 @@ struct OptimalControlResult {
 /// @throws std::invalid_argument as Transcription and Solve do.
 OptimalControlResult SolveOptimalControl(
     const OptimalControlProblem& problem, const OptimalControlOptions& options = {},
-    const std::optional<Trajectory>& guess = std::nullopt, SolveControl* control = nullptr,
+    const std::optional<Trajectory>& guess = std::nullopt,
+    const CancellationToken& cancellation = {},
     const std::function<void(const SolverIteration&)>& log = {});
 
 /// The same, from a solution of a neighbouring problem (another distance, another bound). If the
@@ -72,7 +74,7 @@ OptimalControlResult SolveOptimalControl(
 /// first difference.
 OptimalControlResult SolveOptimalControl(
     const OptimalControlProblem& problem, const StoredSolution& start,
-    const OptimalControlOptions& options = {}, SolveControl* control = nullptr,
+    const OptimalControlOptions& options = {}, const CancellationToken& cancellation = {},
     const std::function<void(const SolverIteration&)>& log = {});
 
 /// The result in the form from which a later solve can start.

@@ -8,12 +8,12 @@ namespace possibility::collocation {
 
 Transcription::Transcription(const OptimalControlProblem& problem,
                              const TranscriptionScheme& scheme, std::vector<Mesh> meshes,
-                             const Interrupt& interrupt)
+                             const CancellationToken& cancellation)
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
-  for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, interrupt);
+  for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
   for (int p = 0; p < problem.num_phases(); ++p) {
-    AddPathConstraints(p, interrupt);
-    AddIntegralCosts(p, interrupt);
+    AddPathConstraints(p, cancellation);
+    AddIntegralCosts(p, cancellation);
   }
   AddEnds();
   const auto copy = [](const std::vector<double>& from) {
@@ -24,13 +24,13 @@ Transcription::Transcription(const OptimalControlProblem& problem,
   constraint_upper_ = copy(functions_.row_uppers());
 }
 
-void Transcription::AddDefects(int phase_index, const Interrupt& interrupt) {
+void Transcription::AddDefects(int phase_index, const CancellationToken& cancellation) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const PhaseLayout& layout = layout_.phase(phase_index);
   const int inside = layout_.scheme().num_nodes() - 1;
   const int n = static_cast<int>(phase.coordinates().size());
   for (int interval = 0; interval + 1 < static_cast<int>(layout.mesh.size()); ++interval) {
-    if (interrupt) interrupt();
+    cancellation.ThrowIfCancelled();
     for (int node = 1; node <= inside; ++node) {
       const int point = interval * inside + node;
       for (int c = 0; c < n; ++c) {
@@ -55,11 +55,11 @@ void Transcription::AddDefects(int phase_index, const Interrupt& interrupt) {
   }
 }
 
-void Transcription::AddPathConstraints(int phase_index, const Interrupt& interrupt) {
+void Transcription::AddPathConstraints(int phase_index, const CancellationToken& cancellation) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const int n = static_cast<int>(layout_.phase(phase_index).points.size());
   for (int point = 0; point < n; ++point) {
-    if (interrupt) interrupt();
+    cancellation.ThrowIfCancelled();
     for (const Phase::PathConstraint& constraint : phase.constraints()) {
       if (!HoldsAt(constraint.at, point, n)) continue;
       if (constraint.only_at_knots && !layout_.phase(phase_index).points[point].is_knot) continue;
@@ -74,13 +74,13 @@ void Transcription::AddPathConstraints(int phase_index, const Interrupt& interru
   }
 }
 
-void Transcription::AddIntegralCosts(int phase_index, const Interrupt& interrupt) {
+void Transcription::AddIntegralCosts(int phase_index, const CancellationToken& cancellation) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const PhaseLayout& layout = layout_.phase(phase_index);
   const MeshPoints points(layout.mesh, layout_.scheme());
   for (const Phase::IntegralCost& cost : phase.costs()) {
     for (int point = 0; point < static_cast<int>(layout.points.size()); ++point) {
-      if (interrupt) interrupt();
+      cancellation.ThrowIfCancelled();
       std::vector<PolynomialForm> arguments;
       for (const Variable& argument : cost.arguments) {
         arguments.push_back(layout_.FormOf(argument, phase_index, point));

@@ -23,11 +23,9 @@ namespace possibility::collocation {
 /// that contradict each other at some knot, a mesh that does not ascend from 0 to 1.
 class Transcription : public NonlinearProgram {
  public:
-  /// Called from time to time while a program is built. May throw, which abandons the program.
-  using Interrupt = std::function<void()>;
-
+  /// `cancellation` is asked from time to time. @throws Cancelled.
   Transcription(const OptimalControlProblem& problem, const TranscriptionScheme& scheme,
-                std::vector<Mesh> meshes, const Interrupt& interrupt = {});
+                std::vector<Mesh> meshes, const CancellationToken& cancellation = {});
   Transcription(const Transcription&) = delete;
   Transcription& operator=(const Transcription&) = delete;
 
@@ -71,9 +69,9 @@ class Transcription : public NonlinearProgram {
                       SolverGuess* guess) const;
 
  private:
-  void AddDefects(int phase, const Interrupt& interrupt);
-  void AddPathConstraints(int phase, const Interrupt& interrupt);
-  void AddIntegralCosts(int phase, const Interrupt& interrupt);
+  void AddDefects(int phase, const CancellationToken& cancellation);
+  void AddPathConstraints(int phase, const CancellationToken& cancellation);
+  void AddIntegralCosts(int phase, const CancellationToken& cancellation);
   void AddEnds();
 
   VariableLayout layout_;

@@ -330,8 +330,8 @@ OdeSolution Integrate(const OdeProblem& problem, const OdeSettings& settings) {
 
   Stepper stepper(problem, settings);
   for (int step = 0; stepper.time() < problem.end_time; ++step) {
-    if (settings.stop && settings.stop()) {
-      FinishAt(&solution, OdeEnd::kStopped, stepper.time(), stepper.State());
+    if (!settings.cancellation.Proceed()) {
+      FinishAt(&solution, OdeEnd::kCancelled, stepper.time(), stepper.State());
       break;
     }
     if (step == settings.max_steps) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/cancellation_token.h"
 #include "dynamics/ode/ode_export.h"
 #include "dynamics/ode/ode_trajectory.h"
 
@@ -58,11 +59,11 @@ struct OdeSettings {
   double guard_zero = 1e-11;
   /// s: guards that cross within this time after the first fire together with it.
   double simultaneous = 1e-9;
-  /// Called before every step; true ends the integration (OdeEnd::kStopped).
-  std::function<bool()> stop;
+  /// Asked before every step (OdeEnd::kCancelled).
+  CancellationToken cancellation;
 };
 
-enum class OdeEnd { kTime, kGuard, kStopped };
+enum class OdeEnd { kTime, kGuard, kCancelled };
 
 struct OdeStatistics {
   long steps = 0;
@@ -95,10 +96,10 @@ class POSSIBILITY_ODE_API OdeError : public std::runtime_error {
 };
 
 /// Integrates with CVODE (SUNDIALS: Hindmarsh et al. 2005), whose local error estimates stay within
-/// the tolerances, until the end time, a guard or the stop callback. Reentrant.
+/// the tolerances, until the end time, a guard or cancellation. Reentrant.
 /// @throws std::invalid_argument for invalid sizes, tolerances or numbers; OdeError if the
-/// integrator gives up or a guard is not finite. Exceptions of `rate`, `guard_values` and `stop`
-/// pass through.
+/// integrator gives up or a guard is not finite. Exceptions of `rate`, `guard_values` and
+/// `cancellation` pass through.
 POSSIBILITY_ODE_API OdeSolution Integrate(const OdeProblem& problem,
                                           const OdeSettings& settings = {});
 

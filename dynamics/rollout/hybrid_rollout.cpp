@@ -49,7 +49,7 @@ class Runner {
     rollout_.time = solution.time;
     rollout_.state = solution.state;
     if (solution.end == OdeEnd::kTime) return End(HybridEnd::kTime, "the time is over");
-    if (solution.end == OdeEnd::kStopped) return End(HybridEnd::kStopped, "stopped");
+    if (solution.end == OdeEnd::kCancelled) return End(HybridEnd::kCancelled, "cancelled");
     return PassEvent(solution);
   }
 

@@ -49,7 +49,7 @@ struct HybridSettings {
   bool end_at_zeno = false;
 };
 
-enum class HybridEnd { kTime, kReset, kZeno, kStopped };
+enum class HybridEnd { kTime, kReset, kZeno, kCancelled };
 
 struct HybridSegment {
   std::shared_ptr<const HybridMode> mode;

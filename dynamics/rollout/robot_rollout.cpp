@@ -136,7 +136,7 @@ class RobotSimulator::Impl {
     rollout_.q = hybrid.state.head(robot_.nq());
     rollout_.v = hybrid.state.tail(robot_.nv());
     rollout_.reason = hybrid.reason;
-    if (hybrid.end == HybridEnd::kStopped) rollout_.end = RobotRolloutEnd::kStopped;
+    if (hybrid.end == HybridEnd::kCancelled) rollout_.end = RobotRolloutEnd::kCancelled;
     if (hybrid.end == HybridEnd::kZeno) rollout_.end = RobotRolloutEnd::kZeno;
     for (const HybridSegment& segment : hybrid.segments) {
       for (const double t : segment.trajectory.StepTimes()) {

@@ -45,7 +45,7 @@ struct RobotRolloutSettings {
   double rest_time = 0.1;  ///< s
 };
 
-enum class RobotRolloutEnd { kTime, kAtRest, kSlip, kStopped, kZeno };
+enum class RobotRolloutEnd { kTime, kAtRest, kSlip, kCancelled, kZeno };
 
 /// A touchdown, a release, or both. The first event may be at the start, for the points that stand
 /// on the ground there. Indices are of contacts.

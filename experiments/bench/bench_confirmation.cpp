@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "actions/jump/jump_sweep.h"
+#include "common/stopwatch.h"
 #include "models/input/input_error.h"
 
 namespace possibility::experiments {
@@ -14,10 +15,6 @@ namespace {
 using actions::JumpAnswer;
 using actions::JumpSweepEntry;
 using actions::JumpTask;
-
-double Now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// A folder that is removed by the destructor.
 class TemporaryFolder {
@@ -64,9 +61,9 @@ double LibraryMedian(const models::RobotModel& robot, const actions::JumpSolver&
   std::vector<double> seconds;
   for (const JumpSweepEntry& entry : entries) {
     if (!entry.is_possible) continue;
-    const double begin = Now();
+    const Stopwatch stopwatch;
     library.Find(entry.task);
-    seconds.push_back(Now() - begin);
+    seconds.push_back(stopwatch.Seconds());
   }
   return seconds.empty() ? 0 : Median(seconds);
 }
@@ -105,10 +102,7 @@ BenchmarkReport BenchConfirmation(const models::RobotModel& robot,
   actions::JumpLibrary library(robot, solver, folder.path());
   actions::JumpSweep sweep;
   sweep.heights = {-0.1, 0, 0.1};
-  sweep.keep_going = [&progress](int done, int all) {
-    progress(done, all);
-    return true;
-  };
+  sweep.progress = progress;
   const std::vector<JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
   const actions::JumpReach reach = actions::ReachOf(entries);
 

@@ -4,23 +4,18 @@
 
 #include <algorithm>
 #include <barrier>
-#include <chrono>
 #include <stdexcept>
 #include <thread>
+
+#include "common/stopwatch.h"
 
 namespace possibility::experiments {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double Seconds(Clock::time_point from) {
-  return std::chrono::duration<double>(Clock::now() - from).count();
-}
-
 double TimeCalls(const std::function<void(int)>& call, int calls) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   for (int i = 0; i < calls; ++i) call(i);
-  return Seconds(start);
+  return stopwatch.Seconds();
 }
 
 /// Number of calls that take about `seconds`.
@@ -46,9 +41,9 @@ double TimeTwoThreads(const std::function<std::function<void(int)>()>& worker, i
   std::jthread first(work);
   std::jthread second(work);
   start.arrive_and_wait();
-  const Clock::time_point started = Clock::now();
+  const Stopwatch stopwatch;
   end.arrive_and_wait();
-  return Seconds(started);
+  return stopwatch.Seconds();
 }
 
 }  // namespace

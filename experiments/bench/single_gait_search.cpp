@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <utility>
 
 #include "actions/route/lattice_explorer.h"
+#include "common/stopwatch.h"
 #include "graph/random_explorer.h"
 #include "models/input/input_error.h"
 
@@ -59,7 +59,6 @@ bool SingleGaitSearch::IsValid(const PlanarPose& from, const PlanarPose& to) con
 
 FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t seed,
                                  double time_limit) const {
-  using Clock = std::chrono::steady_clock;
   graph::FindPathSettings settings;
   settings.time_limit = time_limit;
   settings.seed = seed;
@@ -76,10 +75,10 @@ FoundPath SingleGaitSearch::Find(actions::PlannerPreset preset, std::uint64_t se
   const graph::Point start = PointAt(start_);
   const std::vector<graph::Point> goals = {PointAt(goal_)};
   const std::vector<std::shared_ptr<const graph::Action>> actions = {gaits_[0]};
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch stopwatch;
   const graph::PathResult result = graph::FindPath(start, goals, actions, *space_, settings);
   FoundPath path;
-  path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  path.seconds = stopwatch.Seconds();
   path.found = result.status == graph::PathStatus::kFound;
   if (!path.found) return path;
   path.explorers = result.found_by;

@@ -123,11 +123,11 @@ double StepUp::ExpectedDuration(const graph::Edge& edge) const {
 }
 
 std::vector<Phase> StepUp::Motion(const graph::Edge& edge,
-                                  const std::function<bool()>& keep_going) const {
+                                  const CancellationToken& cancellation) const {
   const std::optional<Step> step = AsStep(edge);
   if (!step) throw MotionError("not a step between walking stances");
   const std::vector<Phase> up =
-      motion_.Generate(step->low.pose, step->low.z, step->high.z - step->low.z, keep_going);
+      motion_.Generate(step->low.pose, step->low.z, step->high.z - step->low.z, cancellation);
   return step->up ? up : Reversed(up);
 }
 

@@ -6,6 +6,7 @@
 
 #include "actions/conditions/manoeuvre.h"
 #include "actions/conditions/pelvis_clearance.h"
+#include "common/cancellation_token.h"
 #include "experiments/examples/step_up_motion.h"
 #include "models/world/collision.h"
 
@@ -31,7 +32,7 @@ class StepUp : public Manoeuvre {
                                                const graph::Point& v1) const override;
   double ExpectedDuration(const graph::Edge& edge) const override;
   std::vector<Phase> Motion(const graph::Edge& edge,
-                            const std::function<bool()>& keep_going) const override;
+                            const CancellationToken& cancellation) const override;
   ManoeuvreBounds Bounds() const override;
 
  private:

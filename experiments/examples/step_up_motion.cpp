@@ -31,10 +31,10 @@ double StepUpMotion::ExpectedDuration(const PlanarPose& from) const {
 }
 
 std::vector<Phase> StepUpMotion::Generate(const PlanarPose& from, double z, double rise,
-                                          const std::function<bool()>& keep_going) const {
+                                          const CancellationToken& cancellation) const {
   Eigen::VectorXd guess = gait_->stance.q;
   guess.segment<2>(4) = from.position();
-  return MotionBuilder(*robot_).Build(Phases(from, z, rise), guess, keep_going);
+  return MotionBuilder(*robot_).Build(Phases(from, z, rise), guess, cancellation);
 }
 
 std::vector<MotionPhase> StepUpMotion::Phases(const PlanarPose& from, double z, double rise) const {

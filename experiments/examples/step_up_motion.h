@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
 
 namespace possibility::actions {
 
@@ -47,10 +47,10 @@ class StepUpMotion {
   double ExpectedDuration(const PlanarPose& from) const;
 
   /// Motion from `from` on ground of height `z` to distance() ahead on ground that is `rise` (m,
-  /// > 0) higher. `keep_going`: returns false to abandon the call.
-  /// @throws MotionError naming the limit that the robot would break; Abandoned.
+  /// > 0) higher. `cancellation` is asked before every phase.
+  /// @throws MotionError naming the limit that the robot would break; Cancelled.
   std::vector<Phase> Generate(const PlanarPose& from, double z, double rise,
-                              const std::function<bool()>& keep_going) const;
+                              const CancellationToken& cancellation) const;
 
  private:
   struct State;

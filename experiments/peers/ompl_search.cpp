@@ -21,11 +21,12 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
-#include <chrono>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
+
+#include "common/stopwatch.h"
 
 namespace possibility::experiments {
 namespace {
@@ -174,9 +175,9 @@ PeerSearch SolveWithOmpl(const std::string& planner, const PlanarQuery& query, s
       ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(time_limit),
                                         ob::exactSolnPlannerTerminationCondition(problem));
   PeerSearch search;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   search.found = solver->solve(end) == ob::PlannerStatus::EXACT_SOLUTION;
-  search.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  search.seconds = stopwatch.Seconds();
   if (search.found) search.path = PathOf(*problem);
   return search;
 }

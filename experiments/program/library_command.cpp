@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -13,6 +12,7 @@
 
 #include "actions/jump/jump_sweep.h"
 #include "actions/transition/transition_motion.h"
+#include "common/stopwatch.h"
 #include "experiments/report/jump_reach_plot.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/option_values.h"
@@ -51,18 +51,15 @@ std::vector<double> ParseHeights(const std::string& text) {
 /// Rewrites "jump 12 of 105 1:20 left" on stderr, if it is a terminal.
 class SweepProgress {
  public:
-  bool Show(int done, int all) const {
-    if (isatty(STDERR_FILENO) == 0) return true;
-    const double passed =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const int left = static_cast<int>(passed / done * (all - done));
+  void Show(int done, int all) const {
+    if (isatty(STDERR_FILENO) == 0) return;
+    const int left = static_cast<int>(stopwatch_.Seconds() / done * (all - done));
     PrintError("\rjump {} of {}  {}:{:02} left {}", done, all, left / 60, left % 60,
                done == all ? "\r\x1b[K" : "");
-    return true;
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
 };
 
 const models::Jump& OnlyJump(const models::RobotModel& robot) {
@@ -132,7 +129,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
           ? HardwareThreads()
           : static_cast<int>(ParseInteger("--threads", options.threads, 1, kMaxThreads));
   const SweepProgress progress;
-  sweep.keep_going = [&progress](int done, int all) { return progress.Show(done, all); };
+  sweep.progress = [&progress](int done, int all) { progress.Show(done, all); };
   const std::vector<actions::JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
   const actions::JumpReach reach = actions::ReachOf(entries);
   library.SaveReach(reach);

@@ -5,13 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/stopwatch.h"
 #include "experiments/regression/regression_comparison.h"
 #include "experiments/regression/regression_pages.h"
 #include "experiments/regression/regression_run.h"
@@ -135,8 +135,7 @@ class Progress {
 
   void Show(int done, const std::string& name) const {
     if (!is_terminal_) return;
-    const double elapsed =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double elapsed = stopwatch_.Seconds();
     const std::string left =
         done == 0 ? "" : fmt::format(", about {:.0f} s left", elapsed / done * (count_ - done));
     PrintError("\r\x1b[Kproblem {} of {}: {}{}", done + 1, count_, name, left);
@@ -145,7 +144,7 @@ class Progress {
  private:
   int count_;
   bool is_terminal_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
 };
 
 RegressionReport RunWithProgress(const std::vector<RegressionProblem>& problems,

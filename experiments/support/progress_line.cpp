@@ -28,9 +28,7 @@ std::string DescribeProgress(const actions::PlanProgress& progress, double elaps
 }
 
 ProgressLine::ProgressLine(double time_limit_s)
-    : is_terminal_(::isatty(STDERR_FILENO) == 1),
-      time_limit_s_(time_limit_s),
-      clock_(time_limit_s) {}
+    : is_terminal_(::isatty(STDERR_FILENO) == 1), time_limit_s_(time_limit_s) {}
 
 ProgressLine::~ProgressLine() {
   if (is_terminal_) std::fputs(kRestartLine, stderr);
@@ -38,7 +36,7 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::Show(const actions::PlanProgress& progress) {
   if (!is_terminal_) return;
-  const std::string line = DescribeProgress(progress, clock_.Elapsed(), time_limit_s_);
+  const std::string line = DescribeProgress(progress, stopwatch_.Seconds(), time_limit_s_);
   std::fputs((kRestartLine + line).c_str(), stderr);
   std::fflush(stderr);
 }

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "actions/planner/planner.h"
-#include "graph/deadline.h"
+#include "common/stopwatch.h"
 
 namespace possibility::experiments {
 
@@ -25,7 +25,7 @@ class ProgressLine {
  private:
   bool is_terminal_;
   double time_limit_s_;
-  graph::Deadline clock_;
+  Stopwatch stopwatch_;
 };
 
 }  // namespace possibility::experiments

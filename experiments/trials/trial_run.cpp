@@ -120,8 +120,7 @@ std::string DescribeTrials(std::size_t done, std::size_t all, double elapsed_s) 
   return line + fmt::format(", {}:{:02} left", seconds / 60, seconds % 60);
 }
 
-TrialProgressLine::TrialProgressLine()
-    : is_terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {}
+TrialProgressLine::TrialProgressLine() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 TrialProgressLine::~TrialProgressLine() {
   if (is_terminal_) std::fputs("\r\033[K", stderr);
@@ -129,8 +128,7 @@ TrialProgressLine::~TrialProgressLine() {
 
 void TrialProgressLine::Show(std::size_t done, std::size_t all) const {
   if (!is_terminal_) return;
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  PrintError("\r\033[K{}", DescribeTrials(done, all, elapsed.count()));
+  PrintError("\r\033[K{}", DescribeTrials(done, all, stopwatch_.Seconds()));
 }
 
 }  // namespace possibility::experiments

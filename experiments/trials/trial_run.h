@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "actions/planner/planner.h"
+#include "common/stopwatch.h"
 #include "experiments/trials/results_file.h"
 #include "experiments/trials/trial_record.h"
 #include "models/robot/robot_model.h"
@@ -56,7 +56,7 @@ class TrialProgressLine {
 
  private:
   bool is_terminal_;
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch stopwatch_;
 };
 
 /// Text of that line after `elapsed_s`.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "actions/route/lattice_explorer.h"
-#include "graph/deadline.h"
+#include "common/deadline.h"
 
 namespace possibility::actions {
 
@@ -11,7 +11,7 @@ namespace possibility::actions {
 inline std::vector<graph::PathEdge> FirstProposal(const RouteSpace& space,
                                                   const GroundedStance& start,
                                                   const std::vector<GroundedStance>& goals) {
-  const graph::Deadline deadline(600);
+  const Deadline deadline(600);
   const graph::ExplorerContext context{.deadline = &deadline};
   LatticeExplorer explorer(space, start, goals, context);
   for (;;) {

@@ -119,7 +119,7 @@ class Leap : public Manoeuvre {
     on_asked_("SpawnConfirmationJob");
     return std::make_unique<Job>(*this);
   }
-  std::vector<Phase> Motion(const graph::Edge&, const std::function<bool()>&) const override {
+  std::vector<Phase> Motion(const graph::Edge&, const CancellationToken&) const override {
     return make_motion_(*this);
   }
 

@@ -112,6 +112,21 @@ TEST(JobControl, CancelEndsAPauseAndIsFinal) {
   EXPECT_FALSE(control.Checkpoint());
 }
 
+TEST(JobControl, AskingItsTokenIsACheckpoint) {
+  int held = 0;
+  JobControl control([&] {
+    ++held;
+    control.Cancel();
+  });
+  const CancellationToken token = control.token();
+  control.Ration(3);
+  EXPECT_TRUE(token.Proceed());
+  EXPECT_TRUE(token.Proceed());
+  EXPECT_EQ(held, 0);
+  EXPECT_THROW(token.ThrowIfCancelled(), Cancelled);
+  EXPECT_EQ(held, 1);
+}
+
 TEST(JobControl, ASteeredRoutineIsPausedResumedAndCancelledThroughItsHandle) {
   JobControl control;
   test::SteeredRoutine routine;

@@ -214,7 +214,8 @@ TEST(BlockFloodTest, LimitsCutTheFloodShort) {
   EXPECT_EQ(flood_chess(256, {}), FloodEnd::kNothingLeft);
   EXPECT_EQ(flood_chess(256, {.most_judged = 1000}), FloodEnd::kCutShort);
   int asked = 0;
-  EXPECT_EQ(flood_chess(256, {.keep_going = [&] { return ++asked < 100; }}), FloodEnd::kCutShort);
+  EXPECT_EQ(flood_chess(256, {.cancellation = CancellationToken([&] { return ++asked < 100; })}),
+            FloodEnd::kCutShort);
   EXPECT_EQ(asked, 100);
   EXPECT_EQ(flood_chess(1e12, {}), FloodEnd::kCutShort) << "more cells than can be counted";
   EXPECT_THROW(CellQuadtrees(1, 256, 256, 1000, chess)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "common/cancellation_token.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/leap.h"
 
@@ -23,9 +24,9 @@ class DeclaredLeap : public Leap {
   DeclaredLeap(const PlanningContext& context, ManoeuvreBounds guessed, ManoeuvreBounds known)
       : Leap(context, Refutes, Slides), bounds_(std::move(guessed)), known_(std::move(known)) {}
   ManoeuvreBounds Bounds() const override { return bounds_; }
-  bool ReplaceGuesses(const std::function<bool()>& keep_going) override {
+  bool ReplaceGuesses(const CancellationToken& cancellation) override {
     ++times_asked;
-    if (!keep_going()) throw Abandoned();
+    cancellation.ThrowIfCancelled();
     const bool changes = !known_once_;
     known_once_ = true;
     bounds_ = known_;
@@ -50,8 +51,8 @@ ManoeuvreBounds Lands(bool across) {
 
 class FloodOracleTest : public testing::Test {
  protected:
-  RouteOracleAnswer Ask(const std::function<bool()>& keep_going = [] { return true; }) {
-    oracle_.emplace(DrcHubo1Locomotion(), (**context_).world, manoeuvres_, 0.1, keep_going);
+  RouteOracleAnswer Ask(const CancellationToken& cancellation = {}) {
+    oracle_.emplace(DrcHubo1Locomotion(), (**context_).world, manoeuvres_, 0.1, cancellation);
     return oracle_->Ask({0, {-1.2, 0, 0}, 0}, {{0, {1.2, 0, 0}, 0}});
   }
   std::shared_ptr<DeclaredLeap> AddLeap(const ManoeuvreBounds& guessed,
@@ -139,16 +140,16 @@ TEST_F(FloodOracleTest, GuessedBoundsThatBecomeUnknownAreAnsweredUnknown) {
 TEST_F(FloodOracleTest, TheAnswerIsUnknownIfTimeEndsBeforeGuessesAreReplaced) {
   const auto leap = AddLeap(Lands(false), Lands(false));
   int asked = 0, of_guesses = 0;
-  EXPECT_EQ(Ask([&] {
+  EXPECT_EQ(Ask(CancellationToken([&] {
               ++asked;
               if (leap->times_asked == 1 && of_guesses == 0) of_guesses = asked;
               return true;
-            }),
+            })),
             RouteOracleAnswer::kExhausted);
   ASSERT_GT(of_guesses, 100);
   for (const int limit : {0, 1, of_guesses / 2, of_guesses - 1, of_guesses}) {
     asked = 0;
-    EXPECT_EQ(Ask([&] { return ++asked <= limit; }),
+    EXPECT_EQ(Ask(CancellationToken([&] { return ++asked <= limit; })),
               limit == of_guesses ? RouteOracleAnswer::kExhausted : RouteOracleAnswer::kUnknown)
         << limit << " of " << of_guesses;
   }

@@ -236,9 +236,7 @@ TEST(JumpSolverTest, RefusesARootThatIsTooFast) {
 }
 
 TEST(JumpSolverTest, ACancelledSolveGivesNoJump) {
-  collocation::SolveControl control;
-  control.Cancel();
-  const JumpAnswer answer = Solver().Solve(kTask, &control);
+  const JumpAnswer answer = Solver().Solve(kTask, CancellationToken([] { return false; }));
   EXPECT_TRUE(answer.cancelled);
   EXPECT_FALSE(answer.jump);
 }

@@ -198,7 +198,7 @@ int TurnsOfJump(double distance, std::chrono::milliseconds pause) {
   graph::ConfirmationQueue queue({.checkpoints_per_turn = 100, .job_time_limit = 1000});
   queue.Insert(0, scene.jump().SpawnConfirmationJob(JumpScene::Edge(-0.2, distance)), 0);
   int turns = 1;
-  for (; !queue.RunTurn(graph::Deadline(1000)); ++turns) std::this_thread::sleep_for(pause);
+  for (; !queue.RunTurn(Deadline(1000)); ++turns) std::this_thread::sleep_for(pause);
   const std::vector<graph::JobResult> results = queue.DrainFinished();
   EXPECT_EQ(results.at(0).outcome, graph::JobOutcome::kConfirmed) << results.at(0).reason;
   return turns;

@@ -303,11 +303,11 @@ TEST(RolloutCheck, AFallIsFound) {
               drift.end_orientation > kRolloutOrientation);
 }
 
-TEST(RolloutCheck, AStoppedOrRefusedRolloutIsReportedInOneLine) {
+TEST(RolloutCheck, ACancelledOrRefusedRolloutIsReportedInOneLine) {
   const VerifierSubject& subject = ValidSubject();
   const models::GroundMap ground(subject.scenario.environment);
   RolloutCheckSettings settings;
-  settings.stop = [calls = 0]() mutable { return ++calls > 10; };
+  settings.cancellation = CancellationToken([calls = 0]() mutable { return ++calls <= 10; });
   const Segment& segment = subject.plan.segments[0];
   const RolloutDrift stopped = RollOutSegment(segment, subject.robot, ground, settings);
   EXPECT_FALSE(stopped.follows());

@@ -84,9 +84,9 @@ class ThrowingGait : public GaitMotion {
   ThrowingGait(const models::RobotModel& robot, const NominalStance& stance)
       : walking_(robot, stance) {}
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
-                            const std::function<bool()>& keep_going) const override {
+                            const CancellationToken& cancellation) const override {
     if (strides.size() > 2) throw std::runtime_error("out of ideas");
-    return walking_.Motion(strides, knot_spacing, keep_going);
+    return walking_.Motion(strides, knot_spacing, cancellation);
   }
   double ExpectedDuration(int strides) const override { return walking_.ExpectedDuration(strides); }
 

@@ -112,7 +112,7 @@ TEST(Quadruped, OnlyADoorTooNarrowForTheTrunkIsProvenInfeasible) {
   const auto ask = [](double width) {
     const LegScene scene(QuadrupedLocomotion(), DoorEnvironment(width));
     const std::vector<std::shared_ptr<Manoeuvre>> nothing_else;
-    return FloodOracle(QuadrupedLocomotion(), scene.world(), nothing_else, 0.1, [] { return true; })
+    return FloodOracle(QuadrupedLocomotion(), scene.world(), nothing_else, 0.1, {})
         .Ask({0, {-1.2, 0, 0}, 0}, {{0, {1.2, 0, 0}, 0}});
   };
   EXPECT_EQ(ask(1), RouteOracleAnswer::kUnknown);

@@ -181,7 +181,7 @@ TEST(SmallRoom, AStanceThatNoStrideCanLeaveIsExhausted) {
       const LegScene scene(walking, environment);
       EXPECT_EQ(scene.action(0).Examine(beside), StanceFault::kNone);
       const std::vector<std::shared_ptr<Manoeuvre>> nothing_else;
-      FloodOracle oracle(walking, scene.world(), nothing_else, 0.1, [] { return true; });
+      FloodOracle oracle(walking, scene.world(), nothing_else, 0.1, {});
       const auto answer = begins ? oracle.Ask(beside, {away}) : oracle.Ask(away, {beside});
       if (gap < 0.08) {
         EXPECT_EQ(answer, graph::RouteOracleAnswer::kExhausted);

@@ -144,10 +144,10 @@ TEST_F(TransitionTest, ATransitionToFewerContactsIsRefused) {
   }
 }
 
-TEST_F(TransitionTest, IsAbandonedWhenTimeIsUp) {
-  EXPECT_THROW(
-      TransitionMotion(DrcHubo1(), Sitting().walk, Sitting().crawl, {}, [] { return false; }),
-      Abandoned);
+TEST_F(TransitionTest, IsCancelledWhenTimeIsUp) {
+  EXPECT_THROW(TransitionMotion(DrcHubo1(), Sitting().walk, Sitting().crawl, {},
+                                CancellationToken([] { return false; })),
+               Cancelled);
 }
 
 }  // namespace

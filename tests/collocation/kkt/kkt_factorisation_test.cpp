@@ -291,7 +291,7 @@ TEST(KktFactorisation, RefusesNonFiniteNumbers) {
   EXPECT_EQ(x, VectorXd::Zero(sample.size));
 }
 
-TEST(KktFactorisation, IsUsableAfterAnInterruption) {
+TEST(KktFactorisation, IsUsableAfterCancellation) {
   std::mt19937 random(8);
   Shape shape;
   shape.num_primal = 400;
@@ -299,13 +299,10 @@ TEST(KktFactorisation, IsUsableAfterAnInterruption) {
   shape.dual_diagonal = 1e-3;
   const Sample sample = MakeSample(shape, &random);
   KktFactorisation kkt(sample.size, sample.num_dual, sample.rows, sample.columns);
-  struct Stop {};
   int calls = 0;
-  EXPECT_THROW(kkt.Factorise(sample.values.data(), 1e-8,
-                             [&] {
-                               if (++calls == 2) throw Stop();
-                             }),
-               Stop);
+  EXPECT_THROW(
+      kkt.Factorise(sample.values.data(), 1e-8, CancellationToken([&] { return ++calls < 2; })),
+      Cancelled);
   ASSERT_EQ(kkt.Factorise(sample.values.data(), 1e-8), KktStatus::kFactorised);
   EXPECT_EQ(kkt.num_negative(), CountNegative(sample.Dense()));
   const VectorXd b = VectorXd::Ones(sample.size);

@@ -315,7 +315,7 @@ TEST(Solver, OtherExceptionsOfTheProgramPassThrough) {
   Failing program(hs071.program, Failing::Where::kObjectiveThrowsLogic);
   EXPECT_THROW(Solve(&program, At(hs071.start)), std::logic_error);
   Textbook fine = Textbooks()[4];
-  EXPECT_THROW(Solve(&fine.program, At(fine.start), {}, nullptr,
+  EXPECT_THROW(Solve(&fine.program, At(fine.start), {}, {},
                      [](const SolverIteration&) { throw std::out_of_range("log"); }),
                std::out_of_range);
 }
@@ -383,7 +383,7 @@ TEST(Solver, LogsEveryIterationAndPrintsNothing) {
   std::vector<SolverIteration> logged;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  const SolverResult result = Solve(&hs071.program, At(hs071.start), {}, nullptr,
+  const SolverResult result = Solve(&hs071.program, At(hs071.start), {}, {},
                                     [&](const SolverIteration& it) { logged.push_back(it); });
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -147,9 +147,8 @@ TEST(OptimalControlTest, StartFromASolutionTakesFewerIterations) {
 
 TEST(OptimalControlTest, CancelledWhileTheProgramIsBuiltGivesNoTrajectory) {
   const auto problem = Smooth();
-  SolveControl control;
-  control.Cancel();
-  const OptimalControlResult result = SolveOptimalControl(*problem, {}, std::nullopt, &control);
+  const CancellationToken cancelled([] { return false; });
+  const OptimalControlResult result = SolveOptimalControl(*problem, {}, std::nullopt, cancelled);
   EXPECT_EQ(result.status, SolverStatus::kCancelled);
   EXPECT_EQ(result.message, "cancelled");
   EXPECT_TRUE(result.trajectory.phases.empty());
@@ -159,9 +158,10 @@ TEST(OptimalControlTest, CancelledWhileTheProgramIsBuiltGivesNoTrajectory) {
 
 TEST(OptimalControlTest, CancelledAfterAnIterationGivesItsTrajectory) {
   const auto problem = Smooth();
-  SolveControl control;
-  const OptimalControlResult result = SolveOptimalControl(
-      *problem, {}, std::nullopt, &control, [&](const SolverIteration&) { control.Cancel(); });
+  bool cancelled = false;
+  const OptimalControlResult result =
+      SolveOptimalControl(*problem, {}, std::nullopt, CancellationToken([&] { return !cancelled; }),
+                          [&](const SolverIteration&) { cancelled = true; });
   EXPECT_EQ(result.status, SolverStatus::kCancelled);
   EXPECT_EQ(result.trajectory.phases.size(), 1U);
   EXPECT_TRUE(std::isnan(result.mesh_error));

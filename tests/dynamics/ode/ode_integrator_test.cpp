@@ -240,16 +240,16 @@ TEST(OdeIntegrator, GuardThatStaysZeroNeverFires) {
             OdeEnd::kTime);
 }
 
-TEST(OdeIntegrator, TheStopCallbackEndsTheIntegration) {
+TEST(OdeIntegrator, CancellationEndsTheIntegration) {
   int asked = 0;
   OdeSettings settings = Accurate();
-  settings.stop = [&asked] { return ++asked > 10; };
+  settings.cancellation = CancellationToken([&asked] { return ++asked <= 10; });
   const OdeSolution solution = Integrate(Oscillator(1000), settings);
-  EXPECT_EQ(solution.end, OdeEnd::kStopped);
+  EXPECT_EQ(solution.end, OdeEnd::kCancelled);
   EXPECT_EQ(solution.statistics.steps, 10);
   EXPECT_EQ(solution.trajectory.end_time(), solution.time);
   EXPECT_NEAR(solution.state[0], std::cos(solution.time), 1e-9);
-  settings.stop = [] { return true; };
+  settings.cancellation = CancellationToken([] { return false; });
   EXPECT_EQ(Integrate(Oscillator(1000), settings).time, 0);
 }
 
@@ -348,7 +348,7 @@ TEST(OdeIntegrator, ExceptionsPassThrough) {
   };
   EXPECT_THROW(Integrate(Watching(Oscillator(3), {OdeGuard()}, guard)), Unusual);
   OdeSettings settings;
-  settings.stop = []() -> bool { throw Unusual{8}; };
+  settings.cancellation = CancellationToken([]() -> bool { throw Unusual{8}; });
   EXPECT_THROW(Integrate(Oscillator(3), settings), Unusual);
 }
 

@@ -278,15 +278,15 @@ TEST(HybridRollout, AGuardThatKeepsTheModeFiresOncePerCrossing) {
   }
 }
 
-TEST(HybridRollout, TheEndTimeOrTheStopCallbackEndsTheRollout) {
+TEST(HybridRollout, TheEndTimeOrCancellationEndsTheRollout) {
   HybridSettings settings = Accurate();
   const HybridRollout whole = RollOut(BouncingBall(1), Eigen::Vector2d(1, 0), 0, 2, settings);
   EXPECT_EQ(whole.end, HybridEnd::kTime);
   EXPECT_EQ(whole.time, 2);
   int asked = 0;
-  settings.integration.stop = [&asked] { return ++asked > 60; };
+  settings.integration.cancellation = CancellationToken([&asked] { return ++asked <= 60; });
   const HybridRollout stopped = RollOut(BouncingBall(1), Eigen::Vector2d(1, 0), 0, 1e6, settings);
-  EXPECT_EQ(stopped.end, HybridEnd::kStopped);
+  EXPECT_EQ(stopped.end, HybridEnd::kCancelled);
   EXPECT_EQ(stopped.statistics.steps, 60);
 }
 

@@ -409,13 +409,13 @@ TEST(RobotRollout, TheSameStartGivesTheSameResult) {
   EXPECT_EQ(first.events.size(), third.events.size());
 }
 
-TEST(RobotRollout, TheStopCallbackEndsTheRollout) {
+TEST(RobotRollout, CancellationEndsTheRollout) {
   const auto model = MultibodyModel::Spatial(Box());
   RobotRolloutSettings settings;
   int asked = 0;
-  settings.hybrid.integration.stop = [&asked] { return ++asked > 5; };
+  settings.hybrid.integration.cancellation = CancellationToken([&asked] { return ++asked <= 5; });
   RobotSimulator simulator(model, {}, {}, settings);
-  EXPECT_EQ(simulator.Run(BoxAt(1), VectorXd::Zero(6), 0, 100).end, RobotRolloutEnd::kStopped);
+  EXPECT_EQ(simulator.Run(BoxAt(1), VectorXd::Zero(6), 0, 100).end, RobotRolloutEnd::kCancelled);
 }
 
 TEST(RobotRollout, InvalidArgumentsAreRefused) {

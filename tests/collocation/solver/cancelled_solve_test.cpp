@@ -1,8 +1,7 @@
-#include "collocation/solver/solve_control.h"
-
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -29,20 +28,45 @@ PendulumChain ShortProgram() {
   return PendulumChain(settings);
 }
 
+/// A source that pauses and cancels a solve from other threads.
+class Steering {
+ public:
+  CancellationToken token() {
+    return CancellationToken([this] {
+      paused_.wait(true);
+      return !cancelled_;
+    });
+  }
+  void Pause() { paused_ = true; }
+  void Resume() {
+    paused_ = false;
+    paused_.notify_all();
+  }
+  void Cancel() {
+    cancelled_ = true;
+    Resume();
+  }
+
+ private:
+  std::atomic<bool> paused_ = false;
+  std::atomic<bool> cancelled_ = false;
+};
+
 double ThreadSeconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-TEST(SolveControl, ASolveCancelledBeforehandEndsAtOnce) {
+TEST(CancelledSolve, ASolveCancelledBeforehandEndsAtOnce) {
   for (const auto linear : {LinearSolver::kSparseLdlt, LinearSolver::kMumps}) {
     PendulumChain program = ShortProgram();
-    SolveControl control;
-    control.Cancel();
+    Steering steering;
+    steering.Cancel();
     SolverOptions options;
     options.linear_solver = linear;
-    const SolverResult result = Solve(&program, {program.Guess(), {}, {}, {}}, options, &control);
+    const SolverResult result =
+        Solve(&program, {program.Guess(), {}, {}, {}}, options, steering.token());
     EXPECT_EQ(result.status, SolverStatus::kCancelled);
     EXPECT_EQ(result.message, "cancelled");
     EXPECT_EQ(result.x, program.Guess());
@@ -50,17 +74,18 @@ TEST(SolveControl, ASolveCancelledBeforehandEndsAtOnce) {
   }
 }
 
-TEST(SolveControl, CancelEndsASolveSoon) {
+TEST(CancelledSolve, CancelEndsASolveSoon) {
   PendulumChain program = LongProgram();
   for (const int milliseconds : {0, 3, 30, 100, 300}) {
-    SolveControl control;
+    Steering steering;
     Clock::time_point told;
     std::jthread other([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
       told = Clock::now();
-      control.Cancel();
+      steering.Cancel();
     });
-    const SolverResult result = Solve(&program, {program.Guess(), {}, {}, {}}, {}, &control);
+    const SolverResult result =
+        Solve(&program, {program.Guess(), {}, {}, {}}, {}, steering.token());
     const Clock::time_point ended = Clock::now();
     other.join();
     EXPECT_EQ(result.status, SolverStatus::kCancelled) << result.message;
@@ -70,15 +95,15 @@ TEST(SolveControl, CancelEndsASolveSoon) {
   }
 }
 
-TEST(SolveControl, CancelEndsThePauseAndTheWaitForATurn) {
+TEST(CancelledSolve, CancelEndsThePauseAndTheWaitForATurn) {
   PendulumChain waiting_program = ShortProgram(), program = ShortProgram();
   SolverOptions options;
   options.linear_solver = LinearSolver::kMumps;
-  SolveControl paused, waiting;
+  Steering paused, waiting;
   std::atomic<int> iterations = 0;
   SolverResult first, second;
   std::jthread holder([&] {
-    first = Solve(&program, {program.Guess(), {}, {}, {}}, options, &paused,
+    first = Solve(&program, {program.Guess(), {}, {}, {}}, options, paused.token(),
                   [&](const SolverIteration&) {
                     paused.Pause();
                     ++iterations;
@@ -86,7 +111,8 @@ TEST(SolveControl, CancelEndsThePauseAndTheWaitForATurn) {
   });
   while (iterations == 0) std::this_thread::yield();
   std::jthread queued([&] {
-    second = Solve(&waiting_program, {waiting_program.Guess(), {}, {}, {}}, options, &waiting);
+    second =
+        Solve(&waiting_program, {waiting_program.Guess(), {}, {}, {}}, options, waiting.token());
   });
   waiting.Cancel();
   queued.join();
@@ -97,13 +123,13 @@ TEST(SolveControl, CancelEndsThePauseAndTheWaitForATurn) {
   EXPECT_EQ(iterations, 1);
 }
 
-TEST(SolveControl, APausedSolveSleepsAndResumesToTheSameAnswer) {
+TEST(CancelledSolve, APausedSolveSleepsAndResumesToTheSameAnswer) {
   PendulumChain program = ShortProgram();
   const SolverGuess guess{program.Guess(), {}, {}, {}};
   const SolverResult straight = Solve(&program, guess);
   ASSERT_TRUE(straight.succeeded()) << straight.message;
 
-  SolveControl control;
+  Steering steering;
   SolverOptions options;
   options.time_limit = 20;
   std::atomic<bool> is_paused = false;
@@ -111,14 +137,14 @@ TEST(SolveControl, APausedSolveSleepsAndResumesToTheSameAnswer) {
   std::jthread other([&] {
     while (!is_paused) std::this_thread::yield();
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
-    control.Resume();
+    steering.Resume();
   });
   const Clock::time_point start = Clock::now();
   const SolverResult result =
-      Solve(&program, guess, options, &control, [&](const SolverIteration& iteration) {
+      Solve(&program, guess, options, steering.token(), [&](const SolverIteration& iteration) {
         if (iteration.number == 5) {
           cpu_before = ThreadSeconds();
-          control.Pause();  // the solve sleeps at its next step
+          steering.Pause();  // the solve sleeps at its next step
           is_paused = true;
         }
         if (iteration.number == 6) cpu_after = ThreadSeconds();
@@ -132,19 +158,19 @@ TEST(SolveControl, APausedSolveSleepsAndResumesToTheSameAnswer) {
   EXPECT_LT(cpu_after - cpu_before, 0.2);  // an iteration takes about a millisecond
 }
 
-TEST(SolveControl, TheTimeLimitHoldsAndDoesNotCountPauses) {
+TEST(CancelledSolve, TheTimeLimitHoldsAndDoesNotCountPauses) {
   PendulumChain program = LongProgram();
   const SolverGuess guess{program.Guess(), {}, {}, {}};
   SolverOptions options;
   options.time_limit = 0.2;
-  SolveControl control;
-  control.Pause();
+  Steering steering;
+  steering.Pause();
   std::jthread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    control.Resume();
+    steering.Resume();
   });
   const Clock::time_point start = Clock::now();
-  const SolverResult result = Solve(&program, guess, options, &control);
+  const SolverResult result = Solve(&program, guess, options, steering.token());
   const double wall = Seconds(Clock::now() - start).count();
   EXPECT_EQ(result.status, SolverStatus::kTimeLimit) << result.message;
   EXPECT_GE(result.times.total, 0.2);

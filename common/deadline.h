@@ -1,9 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 
-namespace possibility::graph {
+#include "common/stopwatch.h"
+
+namespace possibility {
 
 /// A time limit that starts at construction. Cheap enough to query in every loop.
 class Deadline {
@@ -12,9 +13,7 @@ class Deadline {
   explicit Deadline(double limit) : limit_(limit) {}
 
   /// Time since construction, s.
-  double Elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  double Elapsed() const { return stopwatch_.Seconds(); }
 
   bool Passed() const { return Elapsed() >= limit_; }
 
@@ -22,8 +21,8 @@ class Deadline {
   double Remaining() const { return std::max(limit_ - Elapsed(), 0.0); }
 
  private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
   double limit_;
 };
 
-}  // namespace possibility::graph
+}  // namespace possibility
