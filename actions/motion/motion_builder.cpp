@@ -4,8 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace possibility::actions {
+namespace {
+
+/// The robot with a motor at every joint. What coupled joints need together is checked apart.
+std::shared_ptr<const dynamics::MultibodyModel> Uncoupled(models::RobotModel robot) {
+  for (models::Joint& joint : robot.joints) joint.mimic.reset();
+  return dynamics::MultibodyModel::Spatial(robot);
+}
+
+}  // namespace
 
 void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
                         const Eigen::VectorXd& v, double speed_margin, double t) {
@@ -26,7 +36,7 @@ void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& 
 }
 
 MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings)
-    : robot_(&robot), settings_(settings), solver_(robot) {}
+    : robot_(&robot), settings_(settings), solver_(robot), dynamics_(Uncoupled(robot)) {}
 
 std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
                                         const Eigen::VectorXd& guess,
@@ -73,8 +83,9 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase,
   force_settings.normal_reserve =
       settings_.normal_reserve * robot_->TotalMass() * dynamics::kGravity;
   force_settings.torque_margin = settings_.torque_margin;
+  dynamics_.SetState(state.q, state.v, state.a);
   const std::optional<dynamics::ContactForces> forces =
-      dynamics::DistributeContactForces(&solver_.kinematics(), state.a, points, force_settings);
+      dynamics::DistributeContactForces(&dynamics_, points, force_settings);
   if (!forces) {
     throw MotionError(fmt::format(
         "no contact forces within friction cones and torque limits realise the motion at {:.2f} s "

@@ -55,6 +55,7 @@ class MotionBuilder {
   const models::RobotModel* robot_;
   MotionSettings settings_;
   WholeBodySolver solver_;
+  dynamics::MultibodyDynamics dynamics_;  // every joint with a motor of its own
 };
 
 /// The same motion backwards in time. The same torques and forces realise it, quasi-static or not.

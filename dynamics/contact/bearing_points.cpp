@@ -68,7 +68,7 @@ class Selection {
     staying_ = std::max(at_rest_, contacts.staying);
   }
 
-  BearingPoints Run() {
+  BearingSelection Run() {
     std::vector<bool> bears(count_, true);
     std::vector<std::vector<bool>> tried;
     while (std::find(tried.begin(), tried.end(), bears) == tried.end()) {
@@ -112,7 +112,7 @@ class Selection {
   }
 
   /// Holds every point that would enter the ground, pulling or not.
-  BearingPoints Jam(std::vector<bool> bears) const {
+  BearingSelection Jam(std::vector<bool> bears) const {
     for (bool has_changed = true; has_changed;) {
       const VectorXd motion = AlongNormals(HoldingForces(Indices(bears)), Indices(bears));
       has_changed = false;
@@ -121,7 +121,7 @@ class Selection {
         bears[i] = has_changed = true;
       }
     }
-    BearingPoints result;
+    BearingSelection result;
     result.points = Indices(bears);
     const VectorXd forces = HoldingForces(result.points);
     for (size_t i = 0; i < result.points.size(); ++i) {
@@ -189,7 +189,7 @@ class Selection {
 
 }  // namespace
 
-BearingPoints SelectBearingPoints(const UnilateralContacts& contacts) {
+BearingSelection SelectBearingPoints(const UnilateralContacts& contacts) {
   Check(contacts);
   if (contacts.normals.empty()) return {};
   return Selection(contacts).Run();

@@ -15,7 +15,8 @@ struct UnilateralContacts {
   double staying = 0;
 };
 
-struct BearingPoints {
+/// Which points bear: indices into the points of UnilateralContacts.
+struct BearingSelection {
   std::vector<int> points;  ///< ascending
   /// Ascending, a subset of `points`: those that friction jams. If held they must pull; if released
   /// they would enter the ground. Only sliding, which is not simulated, could resolve this
@@ -32,6 +33,6 @@ struct BearingPoints {
 /// If this cycles and there are at most ten points, all subsets are tried. If no subset fits,
 /// points jam. Points at rest bear even if others could carry their share.
 /// @throws std::invalid_argument if sizes disagree or a number is not finite.
-BearingPoints SelectBearingPoints(const UnilateralContacts& contacts);
+BearingSelection SelectBearingPoints(const UnilateralContacts& contacts);
 
 }  // namespace possibility::dynamics

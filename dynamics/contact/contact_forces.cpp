@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "dynamics/contact/cone_forces.h"
-#include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::dynamics {
 
@@ -142,30 +141,6 @@ class ForceProblem {
 };
 
 }  // namespace
-
-std::optional<ContactForces> DistributeContactForces(TreeKinematics* kinematics,
-                                                     const Eigen::Ref<const VectorXd>& a,
-                                                     const std::vector<ContactPoint>& points,
-                                                     const ContactForceSettings& settings) {
-  const models::RobotModel& model = kinematics->model();
-  if (!a.allFinite()) {
-    throw std::invalid_argument(fmt::format("{}: acceleration a is not finite", kCaller));
-  }
-  CheckSettings(settings);
-  CheckContactPoints(kCaller, model.num_links(), points);
-  Balance balance;
-  kinematics->InverseDynamics(a, &balance.required);
-  balance.weight = kinematics->total_mass() * kGravity;
-  balance.jacobians.resize(3 * points.size(), model.nv());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    kinematics->PointJacobian(points[i].link, points[i].p_L,
-                              balance.jacobians.middleRows<3>(3 * i));
-  }
-  balance.efforts.resize(model.num_joints());
-  for (int i = 0; i < model.num_joints(); ++i) balance.efforts[i] = model.joints[i].effort;
-  CheckFinite(balance);
-  return ForceProblem(balance, points, settings).Solution();
-}
 
 std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics,
                                                      const std::vector<ContactPoint>& points,

@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "dynamics/tree/contact_point.h"
-#include "dynamics/tree/tree_kinematics.h"
+#include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::dynamics {
-
-class MultibodyDynamics;
 
 struct ContactForceSettings {
   double friction = 0.7;         ///< Coulomb; the cone is linearised from inside
@@ -33,21 +31,13 @@ struct ContactForces {
   double torque_utilisation = 0;
 };
 
-/// Forces in the friction cones and joint torques within limits that realise acceleration `a` at
-/// the state held by `kinematics` (SetPosition and SetVelocity done). They are the smallest in a
-/// weighted square norm, hence a smooth function of the state while the active set stays the same.
-/// None if no such forces exist. Without points: the torques of free flight, if a flying robot can
-/// have the acceleration `a`. Every joint is assumed to have its own motor.
-/// @throws std::invalid_argument if `a` has a wrong size or is not finite, a point names no link or
-/// is not finite, a normal is not a unit vector, or a setting is out of range.
-std::optional<ContactForces> DistributeContactForces(TreeKinematics* kinematics,
-                                                     const Eigen::Ref<const Eigen::VectorXd>& a,
-                                                     const std::vector<ContactPoint>& points,
-                                                     const ContactForceSettings& settings);
-
-/// The same in independent coordinates (joints that mimic others, planar models), at the state and
-/// acceleration set: torques and limits are those of MultibodyModel's independent joints.
-/// @throws std::invalid_argument as above.
+/// Forces in the friction cones and joint torques within limits that realise the acceleration at
+/// the state of `dynamics`. They are the smallest in a weighted square norm, hence a smooth
+/// function of the state while the active set stays the same. Torques and limits are those of
+/// MultibodyModel's independent joints. None if no such forces exist. Without points: the torques
+/// of free flight, if a flying robot can have that acceleration.
+/// @throws std::invalid_argument if the forces are not finite, a point names no link or is not
+/// finite, a normal is not a unit vector, or a setting is out of range.
 std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics,
                                                      const std::vector<ContactPoint>& points,
                                                      const ContactForceSettings& settings);

@@ -78,24 +78,25 @@ double ContactPatchBalance::FrictionUtilisation(const Matrix3Xd& forces, double 
   return tangential == 0 ? 0 : tangential / (friction * normal);
 }
 
-std::vector<ContactPatchBalance> MakePatches(const std::vector<PatchPoint>& points) {
+std::vector<ContactPatchBalance> MakePatches(const std::vector<HeldPoint>& points) {
   std::vector<ContactPatchBalance> patches;
   std::vector<int> links;
   for (size_t i = 0; i < points.size(); ++i) {
     size_t patch = 0;
-    while (patch < patches.size() && (links[patch] != points[i].link ||
-                                      !patches[patch].normal_W.isApprox(points[i].normal_W))) {
+    while (patch < patches.size() &&
+           (links[patch] != points[i].point.link ||
+            !patches[patch].normal_W.isApprox(points[i].point.normal_W))) {
       ++patch;
     }
     if (patch == patches.size()) {
-      patches.push_back({{}, points[i].normal_W, {}});
-      links.push_back(points[i].link);
+      patches.push_back({{}, points[i].point.normal_W, {}});
+      links.push_back(points[i].point.link);
     }
     patches[patch].points.push_back(static_cast<int>(i));
   }
   for (ContactPatchBalance& patch : patches) {
     Matrix3Xd places(3, patch.points.size());
-    for (size_t i = 0; i < patch.points.size(); ++i) places.col(i) = points[patch.points[i]].p_W;
+    for (size_t i = 0; i < patch.points.size(); ++i) places.col(i) = points[patch.points[i]].anchor;
     patch.edges = Edges(places, patch.normal_W);
   }
   return patches;

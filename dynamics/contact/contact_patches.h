@@ -3,14 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace possibility::dynamics {
+#include "dynamics/forward/forward_dynamics.h"
 
-/// A held point, for the balance of its patch.
-struct PatchPoint {
-  int link = 0;
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< unit, out of the ground
-};
+namespace possibility::dynamics {
 
 /// An edge of the polygon that a patch's points span, about which the patch may tip. Points of a
 /// rigid body may share a load in many ways; the moment of the normal forces about the edge is the
@@ -36,6 +31,7 @@ struct ContactPatchBalance {
   double FrictionUtilisation(const Eigen::Matrix3Xd& forces, double friction) const;
 };
 
-std::vector<ContactPatchBalance> MakePatches(const std::vector<PatchPoint>& points);
+/// The patches of held points at their anchors.
+std::vector<ContactPatchBalance> MakePatches(const std::vector<HeldPoint>& points);
 
 }  // namespace possibility::dynamics

@@ -50,15 +50,15 @@ enum class RobotRolloutEnd { kTime, kAtRest, kSlip, kCancelled, kZeno };
 /// A touchdown, a release, or both. The first event may be at the start, for the points that stand
 /// on the ground there. Indices are of contacts.
 struct RobotContactEvent {
-  double time = 0;                  ///< s
-  std::vector<int> touched;         ///< contacts that came down
-  std::vector<int> released;        ///< contacts that were held before and no longer are
-  std::vector<int> held;            ///< contacts held from now on
-  std::vector<int> jammed;          ///< subset of `held` that only friction keeps (BearingPoints)
-  Eigen::VectorXd v_before;         ///< nv
-  Eigen::VectorXd v_after;          ///< nv; equal to v_before without an impact
-  Eigen::Matrix3Xd impulses;        ///< 3 x contacts, N s, on the robot, world axes
-  double energy_lost = 0;           ///< J
+  double time = 0;            ///< s
+  std::vector<int> touched;   ///< contacts that came down
+  std::vector<int> released;  ///< contacts that were held before and no longer are
+  std::vector<int> held;      ///< contacts held from now on
+  std::vector<int> jammed;    ///< subset of `held` that only friction keeps (BearingSelection)
+  Eigen::VectorXd v_before;   ///< nv
+  Eigen::VectorXd v_after;    ///< nv; equal to v_before without an impact
+  Eigen::Matrix3Xd impulses;  ///< 3 x contacts, N s, on the robot, world axes
+  double energy_lost = 0;     ///< J
   double friction_utilisation = 0;  ///< greatest one of the impulses
 };
 

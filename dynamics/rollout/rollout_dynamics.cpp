@@ -47,12 +47,7 @@ std::vector<HeldPoint> RolloutDynamics::HeldWhereTheyAre(const std::vector<int>&
 }
 
 std::vector<ContactPatchBalance> RolloutDynamics::PatchesOf(const std::vector<int>& held) {
-  std::vector<PatchPoint> points;
-  for (const int contact : held) {
-    const ContactPoint& point = contacts_[contact].point;
-    points.push_back({point.link, dynamics()->Position(point), point.normal_W});
-  }
-  return MakePatches(points);
+  return MakePatches(HeldWhereTheyAre(held));
 }
 
 const Impact& RolloutDynamics::Hit(const std::vector<int>& contacts) {

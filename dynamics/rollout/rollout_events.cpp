@@ -132,7 +132,7 @@ void RolloutEvents::RecordFriction(const std::vector<int>& bearing, const Impact
 void RolloutEvents::SelectHeld(const std::vector<int>& touching, const VectorXd& state,
                                RobotContactEvent* event) {
   if (touching.empty()) return;
-  const BearingPoints bearing =
+  const BearingSelection bearing =
       SelectBearingPoints(robot_->UnilateralAccelerations(event->time, state, touching));
   event->held = Picked(touching, bearing.points);
   event->jammed = Picked(touching, bearing.jammed);

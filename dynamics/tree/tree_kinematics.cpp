@@ -37,7 +37,6 @@ TreeKinematics::TreeKinematics(const models::RobotModel& model) : model_(&model)
     const models::Inertial& inertial = model.links[i].inertial;
     link.mass = link.subtree_mass = inertial.mass;
     link.p_LC = inertial.p_LC;
-    link.I_LC = inertial.I_LC;
     if (i == 0) continue;
     const models::Joint& joint = model.joints[i - 1];
     if (joint.parent < 0 || joint.parent >= i) {
@@ -228,61 +227,6 @@ Vector3d TreeKinematics::CentreOfMassBias() const {
                                  link.angular.cross(link.angular.cross(link.to_com)));
   }
   return sum / total_mass();
-}
-
-Eigen::VectorXd TreeKinematics::InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a) {
-  Eigen::VectorXd forces(model_->nv());
-  InverseDynamics(a, &forces);
-  return forces;
-}
-
-void TreeKinematics::InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a,
-                                     Eigen::VectorXd* forces) {
-  CheckSize("a", a.size(), model_->nv());
-  forces->resize(model_->nv());
-  AccelerateLinks(a);
-  const int n = static_cast<int>(states_.size());
-  for (int i = 0; i < n; ++i) BalanceLink(i);
-  for (int i = n - 1; i > 0; --i) {
-    const LinkState& link = states_[i];
-    LinkState& parent = states_[constants_[i].parent];
-    (*forces)[5 + i] = link.axis.dot(constants_[i].prismatic ? link.force : link.moment);
-    parent.force += link.force;
-    parent.moment += link.moment + link.from_parent.cross(link.force);
-  }
-  forces->head<3>() = states_[0].moment;
-  forces->segment<3>(3) = states_[0].force;
-}
-
-void TreeKinematics::AccelerateLinks(const Eigen::Ref<const Eigen::VectorXd>& a) {
-  states_[0].angular_acceleration = a.head<3>();
-  // Gravity is an upward acceleration of everything (Featherstone 2008, section 5.3).
-  states_[0].linear_acceleration = a.segment<3>(3) + Vector3d(0, 0, kGravity);
-  for (std::size_t i = 1; i < states_.size(); ++i) {
-    const LinkState& parent = states_[constants_[i].parent];
-    LinkState& link = states_[i];
-    const Vector3d along = a[5 + static_cast<int>(i)] * link.axis;
-    link.angular_acceleration = parent.angular_acceleration + link.joint_angular_bias;
-    link.linear_acceleration = parent.linear_acceleration + link.joint_linear_bias +
-                               parent.angular_acceleration.cross(link.from_parent);
-    (constants_[i].prismatic ? link.linear_acceleration : link.angular_acceleration) += along;
-  }
-}
-
-void TreeKinematics::BalanceLink(int index) {
-  const LinkConstants& constants = constants_[index];
-  LinkState& link = states_[index];
-  const Matrix3d R = X_WL_[index].linear();
-  // Euler's equation in link axes, where the inertia is constant.
-  const Vector3d angular = R.transpose() * link.angular;
-  const Vector3d acceleration = R.transpose() * link.angular_acceleration;
-  const Vector3d momentum = constants.I_LC * angular;
-  const Vector3d moment = constants.I_LC * acceleration + angular.cross(momentum);
-  link.force =
-      constants.mass * (link.linear_acceleration + link.angular_acceleration.cross(link.to_com) +
-                        link.angular.cross(link.angular.cross(link.to_com)));
-  link.moment.noalias() = R * moment;
-  link.moment += link.to_com.cross(link.force);
 }
 
 void TreeKinematics::AddPointForce(int link, const Vector3d& p_L, const Vector3d& f_W,

@@ -8,11 +8,10 @@
 
 namespace possibility::dynamics {
 
-/// Recursive kinematics and inverse dynamics of a floating-base tree (the recursive Newton-Euler
-/// algorithm: Luh, Walker & Paul 1980; Featherstone 2008, chapter 5). Vectors are kept in world
-/// axes, moments and accelerations about each link's own origin (docs/dynamics.md). Nothing is
-/// allocated after construction except what a function returns. One workspace per thread; the
-/// model must outlive it. Conventions of q, v, a: models::RobotModel.
+/// Recursive kinematics of a floating-base tree (docs/dynamics.md). Vectors are kept in world axes,
+/// each link's about its own origin. Nothing is allocated after construction except what a function
+/// returns. One workspace per thread; the model must outlive it. Conventions of q, v, a:
+/// models::RobotModel.
 ///
 /// Generalised forces are dual to v: torque on the root about the root's origin, force on the
 /// root (both world axes), joint torques.
@@ -56,12 +55,6 @@ class TreeKinematics {
   void CentreOfMassJacobian(Eigen::MatrixXd* J) const;  ///< 3 x nv
   Eigen::Vector3d CentreOfMassBias() const;             ///< J-dot v
 
-  /// Generalised forces that realise `a` at the last position and velocity, gravity included:
-  /// M(q) a + c(q, v) + g(q). `a`: nv; returns nv.
-  Eigen::VectorXd InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a);
-  /// The same, written into `forces` (nv; resized if it has another size).
-  void InverseDynamics(const Eigen::Ref<const Eigen::VectorXd>& a, Eigen::VectorXd* forces);
-
   /// Adds J' f of a force `f_W` (world axes) acting at a link point to `generalised` (nv).
   void AddPointForce(int link, const Eigen::Vector3d& p_L, const Eigen::Vector3d& f_W,
                      Eigen::VectorXd* generalised) const;
@@ -81,7 +74,6 @@ class TreeKinematics {
     double mass = 0;
     double subtree_mass = 0;
     Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d I_LC = Eigen::Matrix3d::Zero();
   };
 
   /// World axes throughout.
@@ -100,17 +92,10 @@ class TreeKinematics {
     /// Acceleration at a = 0.
     Eigen::Vector3d angular_bias = Eigen::Vector3d::Zero();
     Eigen::Vector3d linear_bias = Eigen::Vector3d::Zero();
-    // Inverse dynamics: acceleration, then moment about the origin and force.
-    Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
-    Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
   };
 
   void PlaceLink(int link, double joint_position);
   void MoveLink(int link, double joint_rate);
-  void AccelerateLinks(const Eigen::Ref<const Eigen::VectorXd>& a);
-  void BalanceLink(int link);
 
   const models::RobotModel* model_;
   std::vector<Eigen::Isometry3d> X_WL_;

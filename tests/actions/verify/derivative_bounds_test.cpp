@@ -7,6 +7,7 @@
 #include "actions/verify/bounded_maximum.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/dynamics/newton_euler.h"
 
 namespace possibility::actions {
 namespace {
@@ -68,7 +69,7 @@ VectorXd Rest(const Motion& motion, const KnotInterpolant& interpolant, double t
   const Knot knot = interpolant.At(t);
   kinematics.SetPosition(knot.q);
   kinematics.SetVelocity(knot.v);
-  VectorXd rest = kinematics.InverseDynamics(knot.a);
+  VectorXd rest = dynamics::NewtonEuler(kinematics, knot.a);
   for (std::size_t i = 0; i < motion.points.size(); ++i) {
     kinematics.AddPointForce(motion.points[i].link, motion.points[i].p_L,
                              -knot.forces.col(static_cast<Eigen::Index>(i)), &rest);

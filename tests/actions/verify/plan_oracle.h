@@ -17,6 +17,7 @@
 #include "models/robot/robot_model.h"
 #include "models/world/collision.h"
 #include "models/world/scenario.h"
+#include "tests/dynamics/newton_euler.h"
 
 namespace possibility::actions::testing {
 
@@ -165,8 +166,8 @@ class PlanOracle {
     const Knot& knot = phase.knots.front();
     kinematics_.SetPosition(knot.q);
     kinematics_.SetVelocity(VectorXd::Zero(robot_.nv()));
-    VectorXd rest =
-        kinematics_.InverseDynamics(dv) - kinematics_.InverseDynamics(VectorXd::Zero(dv.size()));
+    VectorXd rest = dynamics::NewtonEuler(kinematics_, dv) -
+                    dynamics::NewtonEuler(kinematics_, VectorXd::Zero(dv.size()));
     const std::vector<BearingPoint> points = BearingPoints(robot_, phase);
     for (std::size_t i = 0; i < points.size(); ++i) {
       kinematics_.AddPointForce(points[i].link, points[i].p_L, -phase.impulses.col(i), &rest);
@@ -287,7 +288,7 @@ class PlanOracle {
   /// The motors must be able to supply the rest.
   void JudgeForces(Matrix3Xd forces, const std::vector<BearingPoint>& points, const VectorXd& a,
                    double noise, double t) {
-    const VectorXd wanted = kinematics_.InverseDynamics(a);
+    const VectorXd wanted = dynamics::NewtonEuler(kinematics_, a);
     const Vector3d origin = kinematics_.X_WL()[0].translation();
     Matrix3Xd arms(3, points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {

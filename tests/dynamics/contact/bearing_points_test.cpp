@@ -44,7 +44,7 @@ VectorXd Motion(double wx, double wy, double vx, double vz) {
 }
 
 TEST(BearingPoints, FlatFallBearsOnAllPoints) {
-  const BearingPoints bearing = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 0, -1)));
+  const BearingSelection bearing = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 0, -1)));
   EXPECT_EQ(bearing.points, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_TRUE(bearing.jammed.empty());
 }
@@ -56,7 +56,7 @@ TEST(BearingPoints, RisingBodyBearsOnNone) {
 }
 
 TEST(BearingPoints, TurningBodyBearsOnOneEdge) {
-  const BearingPoints bearing = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 20, 0, 1)));
+  const BearingSelection bearing = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 20, 0, 1)));
   EXPECT_EQ(bearing.points, (std::vector<int>{2, 3}));
 }
 
@@ -69,9 +69,9 @@ TEST(BearingPoints, PointsBelowTheStayingVelocityBear) {
 
 TEST(BearingPoints, ABodyPushedAlongBearsOnAllPointsOrItsFrontEdge) {
   // A tall body pushed along. Friction does not let it slide, so it turns over its front edge.
-  const BearingPoints tips = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 5, -1)));
+  const BearingSelection tips = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 5, -1)));
   EXPECT_EQ(tips.points, (std::vector<int>{2, 3}));
-  const BearingPoints stays = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 0.5, -1)));
+  const BearingSelection stays = SelectBearingPoints(Body(0.01, kCorners, Motion(0, 0, 0.5, -1)));
   EXPECT_EQ(stays.points.size(), 4);
 }
 
@@ -104,7 +104,7 @@ TEST(BearingPoints, RandomBodiesMeetTheConditionsOfContactOrAreJammed) {
     }
     const UnilateralContacts contacts =
         Body(Uniform(&random, 0.05, 1), offsets, RandomVector(&random, 6, 1));
-    const BearingPoints bearing = SelectBearingPoints(contacts);
+    const BearingSelection bearing = SelectBearingPoints(contacts);
     VectorXd forces;
     const VectorXd motion = Held(contacts, bearing.points, &forces);
     for (int i = 0; i < static_cast<int>(offsets.size()); ++i) {
@@ -132,7 +132,7 @@ TEST(BearingPoints, ARodIsJammedExactlyIfItsForcePulls) {
   const double lean = 0.9;
   const Vector3d tip(-std::sin(lean), 0, -std::cos(lean));
   const UnilateralContacts contacts = Body(0.05, {tip}, Motion(0, 0, 3, -0.5));
-  const BearingPoints bearing = SelectBearingPoints(contacts);
+  const BearingSelection bearing = SelectBearingPoints(contacts);
   ASSERT_EQ(bearing.points, std::vector<int>{0});
   VectorXd forces;
   Held(contacts, bearing.points, &forces);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "models/robot/robot_yaml.h"
+#include "tests/dynamics/newton_euler.h"
 #include "tests/dynamics/random_robot.h"
 
 namespace possibility::dynamics {
@@ -39,18 +40,21 @@ models::RobotModel BlockWithLimb(double effort) {
 VectorXd Identity(const models::RobotModel& model) { return VectorXd::Unit(model.nq(), 0); }
 
 struct Standing {
-  explicit Standing(const models::RobotModel& robot) : model(robot), kinematics(model) {
+  explicit Standing(const models::RobotModel& robot)
+      : model(robot), kinematics(model), dynamics(MultibodyModel::Spatial(model)) {
     kinematics.SetPosition(Identity(model));
     kinematics.SetVelocity(VectorXd::Zero(model.nv()));
   }
   std::optional<ContactForces> Forces(const VectorXd& a, const std::vector<ContactPoint>& points) {
-    return DistributeContactForces(&kinematics, a, points, settings);
+    dynamics.SetState(Identity(model), VectorXd::Zero(model.nv()), a);
+    return DistributeContactForces(&dynamics, points, settings);
   }
   std::optional<ContactForces> Forces(const std::vector<ContactPoint>& points) {
     return Forces(VectorXd::Zero(model.nv()), points);
   }
   models::RobotModel model;
   TreeKinematics kinematics;
+  MultibodyDynamics dynamics;
   ContactForceSettings settings;
 };
 
@@ -63,7 +67,7 @@ std::vector<ContactPoint> Rectangle(int link, double x0, double x1, double y0, d
 void ExpectValid(TreeKinematics* kinematics, const VectorXd& a,
                  const std::vector<ContactPoint>& points, const ContactForceSettings& settings,
                  const ContactForces& result) {
-  VectorXd residual = kinematics->InverseDynamics(a);
+  VectorXd residual = NewtonEuler(*kinematics, a);
   const double scale = 1 + residual.head<6>().norm() / 1000;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d f = result.forces.col(i);
@@ -217,8 +221,10 @@ TEST(ContactForces, FindsForcesWhereverTheyExist) {
   for (int trial = 0; trial < 300; ++trial) {
     models::RobotModel model = RandomTree(&random, 8);
     TreeKinematics kinematics(model);
-    kinematics.SetPosition(RandomConfiguration(&random, model));
-    kinematics.SetVelocity(RandomVector(&random, model.nv(), 1));
+    const VectorXd q = RandomConfiguration(&random, model);
+    const VectorXd v = RandomVector(&random, model.nv(), 1);
+    kinematics.SetPosition(q);
+    kinematics.SetVelocity(v);
     std::vector<ContactPoint> points;
     VectorXd loads = VectorXd::Zero(model.nv());
     ContactForceSettings settings;
@@ -239,17 +245,19 @@ TEST(ContactForces, FindsForcesWhereverTheyExist) {
     const int nv = model.nv();
     VectorXd a = RandomVector(&random, nv, 2);
     a.head<6>().setZero();
-    const VectorXd bias = kinematics.InverseDynamics(a);
+    const VectorXd bias = NewtonEuler(kinematics, a);
     Eigen::Matrix<double, 6, 6> M;
     for (int i = 0; i < 6; ++i) {
-      M.col(i) = (kinematics.InverseDynamics(a + VectorXd::Unit(nv, i)) - bias).head<6>();
+      M.col(i) = (NewtonEuler(kinematics, a + VectorXd::Unit(nv, i)) - bias).head<6>();
     }
     a.head<6>() = M.fullPivLu().solve((loads - bias).head<6>());
-    const VectorXd torques = (kinematics.InverseDynamics(a) - loads).tail(model.num_joints());
+    const VectorXd torques = (NewtonEuler(kinematics, a) - loads).tail(model.num_joints());
     for (int i = 0; i < model.num_joints(); ++i) {
       model.joints[i].effort = (std::abs(torques[i]) + 1e-3) / settings.torque_margin;
     }
-    const auto result = DistributeContactForces(&kinematics, a, points, settings);
+    MultibodyDynamics dynamics(MultibodyModel::Spatial(model));
+    dynamics.SetState(q, v, a);
+    const auto result = DistributeContactForces(&dynamics, points, settings);
     ASSERT_TRUE(result) << trial;
     ExpectValid(&kinematics, a, points, settings, *result);
     limited += result->torque_utilisation > 0.949999 || result->friction_utilisation > 0.83;
@@ -266,6 +274,8 @@ TEST(ContactForces, DrcHuboStandsOnBothFeetAndOnOne) {
   kinematics.SetPosition(q);
   kinematics.SetVelocity(VectorXd::Zero(robot.nv()));
   const VectorXd a = VectorXd::Zero(robot.nv());
+  MultibodyDynamics dynamics(MultibodyModel::Spatial(robot));
+  dynamics.SetState(q, VectorXd::Zero(robot.nv()));
   std::vector<ContactPoint> both;
   for (const models::GaitLimb& limb : walk.limbs) {
     const models::ContactPatch& patch = robot.contacts[limb.contact];
@@ -273,9 +283,9 @@ TEST(ContactForces, DrcHuboStandsOnBothFeetAndOnOne) {
     for (const Vector3d& p : patch.points) one.push_back({patch.link, p});
     both.insert(both.end(), one.begin(), one.end());
     // The com is between the feet, so neither alone can hold it.
-    EXPECT_FALSE(DistributeContactForces(&kinematics, a, one, {}));
+    EXPECT_FALSE(DistributeContactForces(&dynamics, one, {}));
   }
-  const auto result = DistributeContactForces(&kinematics, a, both, {});
+  const auto result = DistributeContactForces(&dynamics, both, {});
   ASSERT_TRUE(result);
   ExpectValid(&kinematics, a, both, {}, *result);
   EXPECT_NEAR(result->forces.row(2).sum(), robot.TotalMass() * kGravity, 1e-8);
@@ -288,7 +298,8 @@ TEST(ContactForces, DrcHuboStandsOnBothFeetAndOnOne) {
   const Vector3d com = kinematics.CentreOfMass();
   VectorXd shifted = a;
   shifted[4] = -(kinematics.Position(left.link, left.Centre()).y() - com.y()) * kGravity / com.z();
-  const auto swayed = DistributeContactForces(&kinematics, shifted, one, {});
+  dynamics.SetAcceleration(shifted);
+  const auto swayed = DistributeContactForces(&dynamics, one, {});
   ASSERT_TRUE(swayed);
   ExpectValid(&kinematics, shifted, one, {}, *swayed);
 }

@@ -16,11 +16,11 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-std::vector<PatchPoint> Rectangle(int link, double x, double y) {
-  std::vector<PatchPoint> points;
+std::vector<HeldPoint> Rectangle(int link, double x, double y) {
+  std::vector<HeldPoint> points;
   for (const double sx : {-1.0, 1.0}) {
     for (const double sy : {-1.0, 1.0}) {
-      points.push_back({link, {sx * x, sy * y, 0}, Vector3d::UnitZ()});
+      points.push_back({{.link = link}, {sx * x, sy * y, 0}});
     }
   }
   return points;
@@ -37,8 +37,8 @@ TEST(ContactPatches, RectangleHasFourEdges) {
 }
 
 TEST(ContactPatches, PointsOnALineTipAboutTheirEndsAndAPointLiftsOff) {
-  std::vector<PatchPoint> line;
-  for (const double x : {0.0, 1.0, 4.0}) line.push_back({0, {x, 2 * x, 0}, Vector3d::UnitZ()});
+  std::vector<HeldPoint> line;
+  for (const double x : {0.0, 1.0, 4.0}) line.push_back({{}, {x, 2 * x, 0}});
   const auto patches = MakePatches(line);
   ASSERT_EQ(patches[0].edges.size(), 2);
   EXPECT_LT((patches[0].edges[0].levers - Vector3d(0, 0.25, 1)).norm(), 1e-12);
@@ -51,9 +51,9 @@ TEST(ContactPatches, PointsOnALineTipAboutTheirEndsAndAPointLiftsOff) {
 }
 
 TEST(ContactPatches, PointsOfOtherLinksOrPlanesAreOtherPatches) {
-  std::vector<PatchPoint> points = Rectangle(0, 1, 1);
-  points[1].link = 1;
-  points[2].normal_W = Vector3d::UnitX();
+  std::vector<HeldPoint> points = Rectangle(0, 1, 1);
+  points[1].point.link = 1;
+  points[2].point.normal_W = Vector3d::UnitX();
   const auto patches = MakePatches(points);
   ASSERT_EQ(patches.size(), 3);
   EXPECT_EQ(patches[0].points, (std::vector<int>{0, 3}));
@@ -73,13 +73,13 @@ TEST(ContactPatches, FrictionUtilisationIsTheRatioToTheConesLimit) {
 
 /// Whether some normal forces >= 0 at the points have the resultant and moments of `forces`. A
 /// quadratic program decides, which knows nothing of edges.
-bool CanPush(const std::vector<PatchPoint>& points, const Matrix3Xd& forces) {
+bool CanPush(const std::vector<HeldPoint>& points, const Matrix3Xd& forces) {
   const int count = static_cast<int>(points.size());
   QuadraticProgram program;
   program.H.setIdentity(count, count);
   program.g.setZero(count);
   program.E.resize(3, count);
-  for (int i = 0; i < count; ++i) program.E.col(i) << 1, points[i].p_W.x(), points[i].p_W.y();
+  for (int i = 0; i < count; ++i) program.E.col(i) << 1, points[i].anchor.x(), points[i].anchor.y();
   program.e = program.E * forces.row(2).transpose();
   program.C = -Eigen::MatrixXd::Identity(count, count);
   program.d.setZero(count);
@@ -91,11 +91,11 @@ TEST(ContactPatches, MomentsArePositiveExactlyWhereThePointsNeedNotPull) {
   int can = 0, cannot = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const int count = 3 + trial % 5;
-    std::vector<PatchPoint> points;
+    std::vector<HeldPoint> points;
     for (int i = 0; i < count; ++i) {
       Vector3d p = RandomVector(&random, 3, 1);
       p.z() = 0.3;
-      points.push_back({2, p, Vector3d::UnitZ()});
+      points.push_back({{.link = 2}, p});
     }
     Matrix3Xd forces(3, count);
     for (double& f : forces.reshaped()) f = Uniform(&random, -0.6, 1.4);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -130,81 +129,6 @@ TEST(TreeKinematics, BiasesAreDerivativesOfVelocityAtZeroAcceleration) {
   }
 }
 
-/// Mechanical energy from link velocities alone.
-double Energy(const TreeKinematics& kinematics) {
-  double energy = 0;
-  for (int i = 0; i < kinematics.model().num_links(); ++i) {
-    const models::Inertial& inertial = kinematics.model().links[i].inertial;
-    const Vector3d v = kinematics.Velocity(i, inertial.p_LC);
-    const Vector3d w = kinematics.X_WL()[i].linear().transpose() * kinematics.AngularVelocity(i);
-    energy += inertial.mass * v.squaredNorm() / 2 + w.dot(inertial.I_LC * w) / 2 +
-              inertial.mass * kGravity * kinematics.Position(i, inertial.p_LC).z();
-  }
-  return energy;
-}
-
-TEST(TreeKinematics, PowerOfInverseDynamicsIsTheRateOfEnergy) {
-  for (int trial = 0; trial < kTrials; ++trial) {
-    RandomState s(trial);
-    s.SetAfter(kStep);
-    const double after = Energy(s.kinematics);
-    s.SetAfter(-kStep);
-    const double before = Energy(s.kinematics);
-    s.SetAfter(0);
-    const double power = s.kinematics.InverseDynamics(s.a).dot(s.v);
-    EXPECT_NEAR(power, (after - before) / (2 * kStep), 1e-6 * (1 + std::abs(power)) + 1e-3);
-  }
-}
-
-/// Angular momentum about a point fixed in the world.
-Vector3d AngularMomentum(const TreeKinematics& kinematics, const Vector3d& about) {
-  Vector3d momentum = Vector3d::Zero();
-  for (int i = 0; i < kinematics.model().num_links(); ++i) {
-    const models::Inertial& inertial = kinematics.model().links[i].inertial;
-    const Eigen::Matrix3d R = kinematics.X_WL()[i].linear();
-    momentum += R * inertial.I_LC * R.transpose() * kinematics.AngularVelocity(i) +
-                (kinematics.Position(i, inertial.p_LC) - about)
-                    .cross(inertial.mass * kinematics.Velocity(i, inertial.p_LC));
-  }
-  return momentum;
-}
-
-TEST(TreeKinematics, BaseRowsObeyNewtonAndEuler) {
-  for (int trial = 0; trial < kTrials; ++trial) {
-    RandomState s(trial);
-    s.SetAfter(kStep);
-    const Vector3d momentum_after = AngularMomentum(s.kinematics, s.q.segment<3>(4));
-    s.SetAfter(-kStep);
-    const Vector3d momentum_before = AngularMomentum(s.kinematics, s.q.segment<3>(4));
-    s.SetAfter(0);
-    const VectorXd forces = s.kinematics.InverseDynamics(s.a);
-    MatrixXd J_com;
-    s.kinematics.CentreOfMassJacobian(&J_com);
-    const Vector3d weight(0, 0, -kGravity * s.model.TotalMass());
-    const Vector3d expected =
-        s.model.TotalMass() * (J_com * s.a + s.kinematics.CentreOfMassBias()) - weight;
-    EXPECT_LT((forces.segment<3>(3) - expected).norm(), 1e-12 * expected.norm());
-    const Vector3d moment = (momentum_after - momentum_before) / (2 * kStep) -
-                            (s.kinematics.CentreOfMass() - s.q.segment<3>(4)).cross(weight);
-    EXPECT_LT((forces.head<3>() - moment).norm(), 1e-6 * (moment.norm() + expected.norm()));
-  }
-}
-
-TEST(TreeKinematics, MassMatrixIsSymmetricAndPositive) {
-  for (int trial = 0; trial < 10; ++trial) {
-    RandomState s(trial);
-    s.Set(s.q, s.v);
-    const int n = s.model.nv();
-    const VectorXd bias = s.kinematics.InverseDynamics(VectorXd::Zero(n));
-    MatrixXd M(n, n);
-    for (int i = 0; i < n; ++i) {
-      M.col(i) = s.kinematics.InverseDynamics(VectorXd::Unit(n, i)) - bias;
-    }
-    EXPECT_LT((M - M.transpose()).norm(), 1e-11 * (M.norm() + bias.norm()));
-    EXPECT_GT(M.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
-  }
-}
-
 TEST(TreeKinematics, PointForcesAreDualToVelocities) {
   for (int trial = 0; trial < kTrials; ++trial) {
     RandomState s(trial);
@@ -225,7 +149,6 @@ TEST(TreeKinematics, RefusesInvalidArguments) {
   s.q[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(s.kinematics.SetPosition(s.q), std::invalid_argument);
   EXPECT_THROW(s.kinematics.SetVelocity(VectorXd::Zero(10)), std::invalid_argument);
-  EXPECT_THROW(s.kinematics.InverseDynamics(VectorXd::Zero(8)), std::invalid_argument);
   s.model.joints[0].parent = 2;
   EXPECT_THROW(TreeKinematics{s.model}, std::invalid_argument);
 }

@@ -4,6 +4,7 @@
 
 #include "models/robot/robot_model.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/dynamics/newton_euler.h"
 
 namespace possibility::experiments {
 namespace {
@@ -16,7 +17,8 @@ VectorXd GeneralisedMomentum(const VectorXd& q, const VectorXd& v) {
   dynamics::TreeKinematics kinematics(actions::DrcHubo1());
   kinematics.SetPosition(q);
   kinematics.SetVelocity(VectorXd::Zero(v.size()));
-  return kinematics.InverseDynamics(v) - kinematics.InverseDynamics(VectorXd::Zero(v.size()));
+  return dynamics::NewtonEuler(kinematics, v) -
+         dynamics::NewtonEuler(kinematics, VectorXd::Zero(v.size()));
 }
 
 TEST(CentroidalState, MomentumIsTheMassMatrixTimesVelocity) {
