@@ -6,6 +6,7 @@
 
 #include "actions/conditions/blockers.h"
 #include "actions/conditions/exploration_pose.h"
+#include "actions/flood/checker_error.h"
 #include "models/shapes/upright_boxes.h"
 #include "models/world/collision.h"
 
@@ -14,9 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Boxes = std::vector<Eigen::AlignedBox3d>;
-
-/// The collision checker may err by 0.1 mm towards "not free"; a dead end must not, m.
-constexpr double kCheckerError = 0.0002;
 
 /// Largest distance of the first stride's frame from the stance, along the axes of both. C_S of a
 /// straight way tests the swept volume in that frame.

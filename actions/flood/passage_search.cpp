@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMostLeniency = 0.3;  // m
 /// Determines the leniency to 2 cm.
-constexpr int kHalvings = 4;
+constexpr int kPassageHalvings = 4;
 constexpr std::int64_t kMostJudged = 200'000;
 
 }  // namespace
@@ -30,7 +30,7 @@ std::optional<NarrowPassage> SearchPassage(const LocomotionModel& model, const W
   double closed = 0, open = kMostLeniency;
   std::vector<GroundedStance> way = way_with(open);
   if (way.empty()) return std::nullopt;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kPassageHalvings; ++i) {
     const double middle = (closed + open) / 2;
     std::vector<GroundedStance> narrower = way_with(middle);
     if (narrower.empty()) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "actions/conditions/blockers.h"
+#include "actions/flood/checker_error.h"
 #include "models/world/ground_map.h"
 
 namespace possibility::actions {
@@ -14,8 +15,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
-constexpr double kCheckerError = 0.0002;
 constexpr double kLeastRadius = 1e-4;  // m
 constexpr double kRounding = 1e-9;     // m
 constexpr double kGroundError = 1e-5;  // m, more than the error of a Clearance

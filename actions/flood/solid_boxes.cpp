@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 /// Largest tilt of an upright box, rad, and a margin for that tilt and rounding, m.
 constexpr double kMaxTilt = 1e-8;
-constexpr double kRounding = 1e-6;
+constexpr double kTouchingMargin = 1e-6;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ SolidBoxes::SolidBoxes(const models::Environment& environment) {
     Eigen::Isometry2d X_WB = Eigen::Isometry2d::Identity();
     X_WB.linear() = X_WO.linear().topLeftCorner<2, 2>();
     X_WB.translation() = X_WO.translation().head<2>();
-    const Vector3d half = obstacle.shape.size / 2 - Vector3d::Constant(kRounding);
+    const Vector3d half = obstacle.shape.size / 2 - Vector3d::Constant(kTouchingMargin);
     const double middle = X_WO.translation().z();
     boxes_.push_back({X_WB.inverse(), half.head<2>(), middle - half.z(), middle + half.z()});
     bounds.push_back(obstacle.shape.Bounds(X_WO));

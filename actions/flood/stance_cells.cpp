@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "actions/conditions/blockers.h"
+#include "actions/flood/checker_error.h"
 #include "actions/flood/flood_volumes.h"
 #include "actions/flood/launch_box.h"
 
@@ -17,9 +18,6 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-/// The collision checker may err by 0.1 mm towards "not free"; cells must not, m.
-constexpr double kCheckerError = 0.0002;
 
 /// Blocks of up to 2, 4 and 8 cells along an axis can be judged closed as a whole.
 constexpr int kSharedSizes[] = {2, 4, 8};

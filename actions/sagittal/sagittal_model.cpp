@@ -42,7 +42,7 @@ bool Bears(const models::Gait& gait, const std::string& patch, const models::Rob
   });
 }
 
-Eigen::AlignedBox3d Bounds(const models::Link& link) {
+Eigen::AlignedBox3d BoundsOf(const models::Link& link) {
   Eigen::AlignedBox3d box;
   for (const models::PosedShape& posed : link.shapes) box.extend(posed.shape.Bounds(posed.X_PS));
   return box;
@@ -214,7 +214,7 @@ void SagittalModel::FindGuards() {
     for (const ContactPoint& hand : hands_) links.insert(hand.link);
     return links;
   }();
-  const Eigen::AlignedBox3d trunk = Bounds(tree.links[0]);
+  const Eigen::AlignedBox3d trunk = BoundsOf(tree.links[0]);
   if (!trunk.isEmpty()) {
     for (const double x : {trunk.min().x(), trunk.max().x()}) {
       for (const double z : {trunk.min().z(), trunk.max().z()}) {
@@ -224,11 +224,11 @@ void SagittalModel::FindGuards() {
   }
   for (int link = 1; link < tree.num_links(); ++link) {
     if (bearing.contains(link)) continue;
-    guards_.push_back({{link, Vector3d::Zero()}, HousingRadius(Bounds(tree.links[link]))});
+    guards_.push_back({{link, Vector3d::Zero()}, HousingRadius(BoundsOf(tree.links[link]))});
   }
   // Guards the end of the forearm (the hand's origin) and the side of the hand opposite its peg.
   for (const ContactPoint& hand : hands_) {
-    const Eigen::AlignedBox3d box = Bounds(tree.links[hand.link]);
+    const Eigen::AlignedBox3d box = BoundsOf(tree.links[hand.link]);
     guards_.push_back({{hand.link, Vector3d::Zero()}, 0});
     if (box.isEmpty()) continue;
     const double thickness = std::max(-box.min().x(), box.max().x());
@@ -240,7 +240,7 @@ void SagittalModel::FindGuards() {
     if (wrist.parent == 0) continue;
     const Vector3d half = wrist.X_PJ.translation() / 2;
     middle_guards_.push_back(
-        {{wrist.parent, half}, HousingRadius(Bounds(tree.links[wrist.parent]))});
+        {{wrist.parent, half}, HousingRadius(BoundsOf(tree.links[wrist.parent]))});
   }
 }
 

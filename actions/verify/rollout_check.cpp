@@ -22,7 +22,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kHeight = 1.1e-3;  // m: a plan's points bear within 1 mm of their ground
+constexpr double kTouching = 1.1e-3;  // m: a plan's points bear within 1 mm of their ground
 constexpr double kEdge = 0.01;      // m: a rigid sole bears on an edge that it overlaps
 constexpr double kRest = 1e-3;      // m/s and rad/s
 
@@ -60,7 +60,7 @@ std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot
       const models::ContactPatch& patch = robot.contacts[bearing.patch];
       for (const int i : bearing.points) {
         const Vector3d p = kinematics.Position(patch.link, patch.points[i]);
-        const auto level = ground.LevelAt(p.head<2>(), p.z(), kHeight);
+        const auto level = ground.LevelAt(p.head<2>(), p.z(), kTouching);
         if (level) levels.insert(*level);
       }
     }
@@ -150,7 +150,7 @@ class Rollout {
 
   dynamics::RobotRolloutSettings SimulatorSettings() const {
     dynamics::RobotRolloutSettings settings;
-    settings.touching = kHeight;
+    settings.touching = kTouching;
     settings.hybrid.integration.relative_tolerance = settings_.tolerance;
     settings.hybrid.integration.absolute_tolerance = settings_.tolerance;
     settings.hybrid.integration.cancellation = settings_.cancellation;

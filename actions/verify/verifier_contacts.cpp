@@ -16,14 +16,14 @@ using Eigen::Vector3d;
 
 constexpr double kMotion = 1e-3;         // m, since the point was set down
 constexpr double kSlip = 2e-3;           // m/s
-constexpr double kHeight = 1e-3;         // m
+constexpr double kPointHeight = 1e-3;         // m
 constexpr double kEdgeTolerance = 1e-6;  // m
 constexpr double kLiftOffStep = 5e-3;    // s, between tests of a point that may leave the ground
 
 void CheckGround(const Vector3d& p, const BearingPoint& point, const models::RobotModel& robot,
                  const models::GroundMap& ground, const Instant& at, ViolationLog* log) {
   // LevelAt returns the highest level within reach, so abutting faces at one height form no seam.
-  if (ground.LevelAt(p.head<2>(), p.z(), kHeight)) return;
+  if (ground.LevelAt(p.head<2>(), p.z(), kPointHeight)) return;
   const std::vector<double>& levels = ground.levels();
   int nearest = -1;
   for (int level = 0; level < static_cast<int>(levels.size()); ++level) {
@@ -36,7 +36,7 @@ void CheckGround(const Vector3d& p, const BearingPoint& point, const models::Rob
     return;
   }
   const bool on_height = log->RequireAtMost(
-      ViolationKind::kContactGround, at, std::abs(levels[nearest] - p.z()), 0, kHeight, "m",
+      ViolationKind::kContactGround, at, std::abs(levels[nearest] - p.z()), 0, kPointHeight, "m",
       [&] { return NameOf(robot, point) + " above or below the nearest ground"; });
   if (!on_height) return;
   log->RequireAtLeast(ViolationKind::kContactGround, at, ground.Clearance(nearest, p.head<2>()), 0,
@@ -92,7 +92,7 @@ class Footprints {
   bool IsOffGround(const BearingPoint& point, const VerifierState& state) const {
     const Vector3d p = state.Position(point);
     const std::optional<int> level = ground_.LevelBelow(p.head<2>(), p.z());
-    return !level || p.z() - ground_.levels()[*level] > kHeight;
+    return !level || p.z() - ground_.levels()[*level] > kPointHeight;
   }
 
   /// Forgets the points that leave the ground in a phase that does not list them.

@@ -14,7 +14,7 @@ constexpr double kPoseTolerance = 1e-3;  // m and rad
 /// rad (m if prismatic): a posture's contacts may be 0.1 mm off the ground, which the limbs' joints
 /// compensate. Other solutions of inverse kinematics are much farther away.
 constexpr double kLimbTolerance = 0.02;
-constexpr double kRestSpeed = 1e-6;         // m/s and rad/s
+constexpr double kEndSpeed = 1e-6;         // m/s and rad/s
 constexpr double kRestAcceleration = 1e-3;  // m/s^2 and rad/s^2
 
 /// One end of the plan and the scenario's requirements there.
@@ -50,7 +50,7 @@ void CheckAction(const End& end, const models::RobotModel& robot, ViolationLog* 
 }
 
 void CheckRest(const End& end, ViolationLog* log) {
-  log->RequireAtMost(end.kind, end.at, end.knot->v.cwiseAbs().maxCoeff(), 0, kRestSpeed,
+  log->RequireAtMost(end.kind, end.at, end.knot->v.cwiseAbs().maxCoeff(), 0, kEndSpeed,
                      "rad/s or m/s", Named("speed, not at rest"));
   log->RequireAtMost(end.kind, end.at, end.knot->a.cwiseAbs().maxCoeff(), 0, kRestAcceleration,
                      "rad/s^2 or m/s^2", Named("acceleration, not at rest"));

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kEquationTolerance = 1e-6;  // of weight x 1 s (N s), or x 1 m (N m s)
-constexpr double kConeTolerance = 1e-6;      // of weight x 1 s
-constexpr double kRestSpeed = 1e-4;          // m/s, of the points after the impact
+constexpr double kImpulseConeTolerance = 1e-6;      // of weight x 1 s
+constexpr double kStuckSpeed = 1e-4;          // m/s, of the points after the impact
 constexpr double kEnergyTolerance = 1e-6;    // of weight x 1 m
 
 struct Impact {
@@ -59,7 +59,7 @@ void CheckEquation(const Impact& impact, const MatrixXd& mass, const models::Rob
 void CheckImpulse(const Vector3d& impulse, const BearingPoint& point,
                   const models::RobotModel& robot, double weight, const Instant& at,
                   ViolationLog* log) {
-  const double tolerance = kConeTolerance * weight;
+  const double tolerance = kImpulseConeTolerance * weight;
   log->RequireAtLeast(ViolationKind::kImpact, at, impulse.z(), 0, tolerance, "N s",
                       [&] { return NameOf(robot, point) + " impulse pulls on the ground"; });
   log->RequireAtMost(ViolationKind::kImpact, at, impulse.head<2>().norm(),
@@ -87,7 +87,7 @@ void CheckImpact(const Impact& impact, const models::RobotModel& robot, StateEva
     const BearingPoint& point = impact.contacts.points[i];
     CheckImpulse(impact.impulses.col(i), point, robot, weight, impact.at, log);
     log->RequireAtMost(ViolationKind::kImpact, impact.at, state.Velocity(point).norm(), 0,
-                       kRestSpeed, "m/s",
+                       kStuckSpeed, "m/s",
                        [&] { return NameOf(robot, point) + " not at rest after the impact"; });
   }
   const double before = 0.5 * impact.v_before.dot(mass * impact.v_before);

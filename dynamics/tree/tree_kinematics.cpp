@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using models::CrossMatrix;
 
-void CheckSize(const char* what, Eigen::Index actual, int expected) {
+void CheckLength(const char* what, Eigen::Index actual, int expected) {
   if (actual == expected) return;
   throw std::invalid_argument(std::string("TreeKinematics: ") + what + " has " +
                               std::to_string(actual) + " elements, expected " +
@@ -58,7 +58,7 @@ TreeKinematics::TreeKinematics(const models::RobotModel& model) : model_(&model)
 }
 
 void TreeKinematics::SetPosition(const Eigen::Ref<const Eigen::VectorXd>& q) {
-  CheckSize("q", q.size(), model_->nq());
+  CheckLength("q", q.size(), model_->nq());
   Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
   const double norm = orientation.norm();
   if (!(norm > 1e-100 && std::isfinite(norm))) {
@@ -98,7 +98,7 @@ void TreeKinematics::PlaceLink(int index, double joint_position) {
 }
 
 void TreeKinematics::SetVelocity(const Eigen::Ref<const Eigen::VectorXd>& v) {
-  CheckSize("v", v.size(), model_->nv());
+  CheckLength("v", v.size(), model_->nv());
   states_[0].angular = v.head<3>();
   states_[0].linear = v.segment<3>(3);
   const int n = static_cast<int>(states_.size());
@@ -157,8 +157,8 @@ void TreeKinematics::FrameJacobian(int link, const Vector3d& p_L, Eigen::MatrixX
 
 void TreeKinematics::PointJacobian(int link, const Vector3d& p_L,
                                    Eigen::Ref<Eigen::MatrixXd> J) const {
-  CheckSize("a Jacobian's row", J.cols(), model_->nv());
-  CheckSize("a Jacobian's column", J.rows(), 3);
+  CheckLength("a Jacobian's row", J.cols(), model_->nv());
+  CheckLength("a Jacobian's column", J.rows(), 3);
   const Vector3d p = Position(link, p_L);
   J.setZero();
   J.leftCols<3>() = -CrossMatrix(p - X_WL_[0].translation());
@@ -174,8 +174,8 @@ void TreeKinematics::PointJacobian(int link, const Vector3d& p_L,
 }
 
 void TreeKinematics::AngularJacobian(int link, Eigen::Ref<Eigen::MatrixXd> J) const {
-  CheckSize("a Jacobian's row", J.cols(), model_->nv());
-  CheckSize("a Jacobian's column", J.rows(), 3);
+  CheckLength("a Jacobian's row", J.cols(), model_->nv());
+  CheckLength("a Jacobian's column", J.rows(), 3);
   J.setZero();
   J.leftCols<3>().setIdentity();
   for (const int joint : supporting_joints_[link]) {
@@ -231,7 +231,7 @@ Vector3d TreeKinematics::CentreOfMassBias() const {
 
 void TreeKinematics::AddPointForce(int link, const Vector3d& p_L, const Vector3d& f_W,
                                    Eigen::VectorXd* generalised) const {
-  CheckSize("a generalised force", generalised->size(), model_->nv());
+  CheckLength("a generalised force", generalised->size(), model_->nv());
   const Vector3d p = Position(link, p_L);
   generalised->head<3>() += (p - X_WL_[0].translation()).cross(f_W);
   generalised->segment<3>(3) += f_W;

@@ -182,7 +182,7 @@ ProblemPtr HangingChain() {
 }
 
 /// A mass with a leg of stroke 0.3 m and force 0 to 3 m g; apex after push-off and flight.
-ProblemPtr Hopper() {
+ProblemPtr HopperProblem() {
   constexpr double kGravity = 9.80665;
   auto problem = std::make_unique<OptimalControlProblem>("hopper");
   Phase& push = problem->AddPhase("push", 2);
@@ -234,7 +234,7 @@ std::vector<RegressionProblem> ClosedFormProblems() {
       {"hanging_chain", "closed form (catenary of length 4)", exactly(5.06848011099342),
        &HangingChain, 40, 1e-7},
       {"hopper", "closed form: apex s (F/(m g) - 1) above take-off at s = 0.3", exactly(-0.9),
-       &Hopper, 10, 0, Trapezoidal()},
+       &HopperProblem, 10, 0, Trapezoidal()},
   };
 }
 

@@ -8,7 +8,7 @@
 namespace possibility::experiments {
 namespace {
 
-constexpr const char* kStyle =
+constexpr const char* kPageStyle =
     "body{font:15px/1.45 system-ui,\"DejaVu Sans\",Arial,sans-serif;color:#212529;margin:32px auto;"
     "max-width:1180px;padding:0 20px}\n"
     "h1{font-size:26px;margin:0 0 8px}h2{font-size:19px;margin:0 0 4px}\n"
@@ -47,7 +47,7 @@ std::string ExperimentPage(const std::string& title, const std::vector<PageSecti
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
       "<style>\n{1}</style></head>\n<body>\n<h1>{0}</h1>\n",
-      XmlText(title), kStyle);
+      XmlText(title), kPageStyle);
   for (const PageSection& section : sections) html += Html(section);
   return html + "</body></html>\n";
 }

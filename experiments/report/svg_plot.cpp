@@ -253,7 +253,7 @@ std::string Content(const Panel& panel, int number) {
       panel.bottom - panel.top + 6, clip, inside, legend);
 }
 
-constexpr const char* kStyle =
+constexpr const char* kPlotStyle =
     "<style>text{font-family:system-ui,\"DejaVu Sans\",Arial,sans-serif;fill:#343a40}"
     ".title{font-size:14px;font-weight:600;fill:#212529}.label{font-size:12px}"
     ".tick{font-size:11px;fill:#495057}.grid{stroke:#e4e7eb;stroke-width:1;fill:none}"
@@ -384,7 +384,7 @@ std::string SvgDocument(const std::vector<Plot>& plots) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n{2}<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n{3}</svg>\n",
-      width, height, kStyle, content);
+      width, height, kPlotStyle, content);
 }
 
 }  // namespace possibility::experiments

@@ -14,7 +14,7 @@ namespace possibility::models {
 namespace {
 
 /// A key, fit for a one-line message.
-std::string Printable(const std::string& key) {
+std::string QuotedKey(const std::string& key) {
   const nlohmann::json json(key.substr(0, 40));
   return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
@@ -30,7 +30,7 @@ class DuplicateKeyGuard {
     if (event == Event::object_end) keys_.pop_back();
     if (event == Event::key && !keys_.back().insert(parsed).second) {
       throw InputError(fmt::format("{}: key {} stands twice in one object, expected once",
-                                   file_->string(), Printable(parsed)));
+                                   file_->string(), QuotedKey(parsed)));
     }
     return true;
   }
@@ -63,7 +63,7 @@ void JsonCursor::ExpectFormat(std::string_view format) const {
   const JsonCursor cursor = (*this)["format"];
   const std::string found = cursor.String();
   if (found != format) {
-    cursor.Fail(fmt::format("{}, expected \"{}\"", Printable(found), format));
+    cursor.Fail(fmt::format("{}, expected \"{}\"", QuotedKey(found), format));
   }
 }
 
@@ -80,7 +80,7 @@ void JsonCursor::ExpectKeys(std::initializer_list<std::string_view> keys,
   };
   for (const auto& [key, ignored] : value_->items()) {
     if (!is_among(key, keys) && !is_among(key, optional)) {
-      Fail(fmt::format("unknown key {}, expected {}", Printable(key), fmt::join(keys, ", ")));
+      Fail(fmt::format("unknown key {}, expected {}", QuotedKey(key), fmt::join(keys, ", ")));
     }
   }
 }
