@@ -28,6 +28,18 @@ class GaitMotion {
   virtual std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                                     const CancellationToken& cancellation) const = 0;
 
+  /// Whether motions may lead round bends: `strides` of Motion then are those of several straight
+  /// ways, end to end. Otherwise the robot stops at every bend.
+  virtual bool Flows() const { return false; }
+
+  /// All motions along `strides` that Motion may return, now or for strides that are part of a
+  /// longer way; for swept volumes. Arguments and errors: as of Motion.
+  virtual std::vector<std::vector<Phase>> Variants(const std::vector<PlanarPose>& strides,
+                                                   double knot_spacing,
+                                                   const CancellationToken& cancellation) const {
+    return {Motion(strides, knot_spacing, cancellation)};
+  }
+
   /// Expected duration of a motion of `strides` strides straight ahead, s; 0 for none.
   virtual double ExpectedDuration(int strides) const = 0;
 };

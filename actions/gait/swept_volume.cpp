@@ -19,6 +19,9 @@ constexpr double kSamplingInterval = 0.04;
 /// Merging two slabs may add at most this fraction to their volume.
 constexpr double kMergeSlack = 0.03;
 
+/// Strides of a sampled way of a gait that flows: start, full speed, stop.
+constexpr int kStridesOnTheWay = 5;
+
 /// Zero displacement, and the corners, edge midpoints and face centres of the octahedron of allowed
 /// strides.
 std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& parameters) {
@@ -57,16 +60,36 @@ void VisitPoses(const models::RobotModel& robot, const std::vector<Phase>& motio
   }
 }
 
-SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& stance,
-                        const GaitMotion& gait, const PlanarPose& displacement,
-                        const CancellationToken& cancellation) {
+/// Equal strides, one after the other.
+std::vector<PlanarPose> Strides(const PlanarPose& displacement, int count) {
+  std::vector<PlanarPose> strides = {PlanarPose()};
+  for (int i = 0; i < count; ++i) strides.push_back(strides.back() * displacement);
+  return strides;
+}
+
+std::vector<PlanarPose> FramesOf(const std::vector<PlanarPose>& strides) {
+  std::vector<PlanarPose> frames;
+  for (size_t i = 0; i + 1 < strides.size(); ++i) {
+    frames.push_back(StrideFrame(strides[i], strides[i + 1]));
+  }
+  return frames;
+}
+
+SweptVolume SweepStrides(const models::RobotModel& robot, const NominalStance& stance,
+                         const GaitMotion& gait, const PlanarPose& displacement, int count,
+                         const CancellationToken& cancellation) {
   SweptVolume volume;
-  const PlanarPose start;
+  const std::vector<PlanarPose> strides = Strides(displacement, count);
+  const std::vector<PlanarPose> frames = FramesOf(strides);
+  dynamics::TreeKinematics nominal(robot);
+  nominal.SetPosition(stance.q);
   try {
-    VisitPoses(robot, gait.Motion({start, displacement}, kSamplingInterval, cancellation),
-               [&](const std::vector<Eigen::Isometry3d>& X_WL) {
-                 volume.Add(robot, X_WL, StrideFrame(start, displacement));
-               });
+    for (const std::vector<Phase>& motion :
+         gait.Variants(strides, kSamplingInterval, cancellation)) {
+      VisitPoses(robot, motion, [&](const std::vector<Eigen::Isometry3d>& X_WL) {
+        volume.Add(robot, X_WL, frames, nominal.X_WL());
+      });
+    }
   } catch (const MotionError& error) {
     throw InputError(fmt::format(
         "{}: gaits.{}.parameters: the stride ({:.3f} m, {:.3f} m, {:.3f} rad) is not possible: {}",
@@ -74,6 +97,18 @@ SweptVolume SweepStride(const models::RobotModel& robot, const NominalStance& st
         error.what()));
   }
   return volume;
+}
+
+/// The frame in which `p_F` is closest to `p_W`, both seen from above.
+std::size_t Nearest(const std::vector<PlanarPose>& frames, const Eigen::Vector3d& p_F,
+                    const Eigen::Vector3d& p_W) {
+  const auto distance = [&](const PlanarPose& frame) {
+    return (frame * Eigen::Vector2d(p_F.head<2>()) - p_W.head<2>()).squaredNorm();
+  };
+  return std::min_element(
+             frames.begin(), frames.end(),
+             [&](const PlanarPose& a, const PlanarPose& b) { return distance(a) < distance(b); }) -
+         frames.begin();
 }
 
 /// Whether the box around both is little larger than the two. Empty boxes add nothing.
@@ -85,21 +120,31 @@ bool AddsLittle(const AlignedBox3d& a, const AlignedBox3d& b) {
 }  // namespace
 
 void SweptVolume::Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
-                      const PlanarPose& frame) {
-  const Eigen::Isometry3d X_FW = frame.At(0).inverse();
+                      const std::vector<PlanarPose>& frames,
+                      const std::vector<Eigen::Isometry3d>& nominal_X_FL) {
+  std::vector<Eigen::Isometry3d> X_FW;
+  for (const PlanarPose& frame : frames) X_FW.push_back(frame.At(0).inverse());
   for (int link = 0; link < robot.num_links(); ++link) {
     for (const models::PosedShape& posed : robot.links[link].shapes) {
-      const AlignedBox3d bounds = posed.shape.Bounds(X_FW * X_WL[link] * posed.X_PS);
-      const int first = std::max(0, static_cast<int>(std::floor(bounds.min().z() / kSlabHeight)));
-      const int last = static_cast<int>(std::floor(bounds.max().z() / kSlabHeight));
-      if (last >= static_cast<int>(slabs_.size())) slabs_.resize(last + 1);
-      for (int slab = first; slab <= last; ++slab) {
-        AlignedBox3d part = bounds;
-        part.min().z() = std::max(part.min().z(), slab * kSlabHeight);
-        part.max().z() = std::min(part.max().z(), (slab + 1) * kSlabHeight);
-        slabs_[slab].extend(part);
-      }
+      const Eigen::Isometry3d X_WS = X_WL[link] * posed.X_PS;
+      const std::size_t frame =
+          frames.size() == 1
+              ? 0
+              : Nearest(frames, nominal_X_FL[link] * posed.X_PS.translation(), X_WS.translation());
+      Add(posed.shape.Bounds(X_FW[frame] * X_WS));
     }
+  }
+}
+
+void SweptVolume::Add(const AlignedBox3d& bounds) {
+  const int first = std::max(0, static_cast<int>(std::floor(bounds.min().z() / kSlabHeight)));
+  const int last = static_cast<int>(std::floor(bounds.max().z() / kSlabHeight));
+  if (last >= static_cast<int>(slabs_.size())) slabs_.resize(last + 1);
+  for (int slab = first; slab <= last; ++slab) {
+    AlignedBox3d part = bounds;
+    part.min().z() = std::max(part.min().z(), slab * kSlabHeight);
+    part.max().z() = std::min(part.max().z(), (slab + 1) * kSlabHeight);
+    slabs_[slab].extend(part);
   }
 }
 
@@ -152,14 +197,17 @@ GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stan
   std::vector<SweptVolume> volumes(kStrideClasses.size() + 1);
   std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
   for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
-    const SweptVolume swept = SweepStride(robot, stance, gait, displacement, cancellation);
+    SweptVolume swept = SweepStrides(robot, stance, gait, displacement, 1, cancellation);
+    if (gait.Flows()) {
+      swept.Add(SweepStrides(robot, stance, gait, displacement, kStridesOnTheWay, cancellation));
+    }
     for (size_t i = 0; i < kStrideClasses.size(); ++i) {
       if (Includes(kStrideClasses[i], displacement)) volumes[i].Add(swept);
     }
   }
   dynamics::TreeKinematics kinematics(robot);
   kinematics.SetPosition(stance.q);
-  volumes.back().Add(robot, kinematics.X_WL(), PlanarPose());
+  volumes.back().Add(robot, kinematics.X_WL(), {PlanarPose()}, {});
   margins.push_back(SweptVolume::kStandingMargin);
 
   std::vector<std::vector<AlignedBox3d>> boxes = SweptVolume::BoxesOf(volumes, margins);

@@ -24,9 +24,12 @@ class SweptVolume {
   static constexpr double kGroundGap = 0.001;
   static constexpr double kSlabHeight = 0.1;
 
-  /// Adds the links at the poses `X_WL`, expressed in `frame` on ground of height 0.
+  /// Adds the links at the poses `X_WL` on ground of height 0. Each shape counts in that of
+  /// `frames` (at least one) where it is closest to its pose in the nominal posture, `nominal_X_FL`
+  /// (unused if there is one frame): C_S tests the volume in all frames of a way.
   void Add(const models::RobotModel& robot, const std::vector<Eigen::Isometry3d>& X_WL,
-           const PlanarPose& frame);
+           const std::vector<PlanarPose>& frames,
+           const std::vector<Eigen::Isometry3d>& nominal_X_FL);
   void Add(const SweptVolume& other);
 
   /// Merges neighbouring slabs where that adds little volume, and adds the sampling margin.
@@ -38,6 +41,7 @@ class SweptVolume {
       const std::vector<SweptVolume>& volumes, const std::vector<double>& margins);
 
  private:
+  void Add(const Eigen::AlignedBox3d& bounds);
   Eigen::AlignedBox3d Grown(std::size_t slab, double margin) const;
 
   std::vector<Eigen::AlignedBox3d> slabs_;

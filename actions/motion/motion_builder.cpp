@@ -7,15 +7,11 @@
 #include <memory>
 
 namespace possibility::actions {
-namespace {
 
-/// The robot with a motor at every joint. What coupled joints need together is checked apart.
-std::shared_ptr<const dynamics::MultibodyModel> Uncoupled(models::RobotModel robot) {
+std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotModel robot) {
   for (models::Joint& joint : robot.joints) joint.mimic.reset();
   return dynamics::MultibodyModel::Spatial(robot);
 }
-
-}  // namespace
 
 void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
                         const Eigen::VectorXd& v, double speed_margin, double t) {
@@ -36,7 +32,7 @@ void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& 
 }
 
 MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings)
-    : robot_(&robot), settings_(settings), solver_(robot), dynamics_(Uncoupled(robot)) {}
+    : robot_(&robot), settings_(settings), solver_(robot), dynamics_(UncoupledModel(robot)) {}
 
 std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
                                         const Eigen::VectorXd& guess,

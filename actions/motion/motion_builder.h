@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "actions/motion/whole_body_task.h"
@@ -28,6 +29,9 @@ struct MotionSettings {
   double normal_reserve = 0.01;   ///< of the weight, least load of every bearing point
   double torque_margin = 0.95;    ///< fraction of each joint's effort limit
 };
+
+/// The robot with a motor at every joint. What coupled joints need together is checked apart.
+std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotModel robot);
 
 /// @throws MotionError naming the joint that leaves its position limits, or is faster than
 /// `speed_margin` of its speed limit, at time `t` of a phase.

@@ -10,7 +10,7 @@ SweptVolume SweepTransition(const models::RobotModel& robot, const TransitionMot
   for (const Phase& phase : transition.phases()) {
     for (const Knot& knot : phase.knots) {
       kinematics.SetPosition(knot.q);
-      volume.Add(robot, kinematics.X_WL(), PlanarPose());
+      volume.Add(robot, kinematics.X_WL(), {PlanarPose()}, {});
     }
   }
   return volume;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "actions/gait/foothold_plan.h"
+#include "actions/gait/gait_motion.h"
+#include "actions/gait/quasi_static_gait.h"
+#include "actions/motion/nominal_stance.h"
+#include "actions/motion/pattern_motion.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// Length and timing of a dynamic gait's steps.
+struct Pace {
+  StepBounds bounds;
+  StepTiming timing;
+  double speed() const {  ///< straight ahead, m/s
+    return bounds.forward / (timing.swing + timing.double_support);
+  }
+};
+
+/// A gait that flows: limbs swing in turn while the centre of mass falls from one support to the
+/// next (pattern_motion.h), without a rest from start to end. Its pace is the quickest of a family
+/// that keeps the robot's limits. Where no pace fits, the gait is quasi-static.
+class DynamicGait final : public GaitMotion {
+ public:
+  /// Fits the paces. `stance` must outlive this.
+  DynamicGait(const models::RobotModel& robot, const NominalStance& stance);
+
+  std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
+                            const CancellationToken& cancellation) const override;
+  bool Flows() const override { return true; }
+  std::vector<std::vector<Phase>> Variants(const std::vector<PlanarPose>& strides,
+                                           double knot_spacing,
+                                           const CancellationToken& cancellation) const override;
+  double ExpectedDuration(int strides) const override;
+
+  /// From quick to slow; empty if none fits.
+  const std::vector<Pace>& paces() const { return paces_; }
+
+  /// The motion at a pace. @throws MotionError naming the limit it would exceed; Cancelled.
+  std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
+                              const MotionSettings& settings,
+                              const CancellationToken& cancellation = {}) const;
+
+ private:
+  /// Whether the robot can repeat a step at this pace, with margins.
+  bool Fits(const Pace& pace, const PlanarPose& step) const;
+  /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
+  std::optional<Pace> Fitted(Pace pace) const;
+  /// @throws MotionError naming two links that come closer.
+  void RequireSelfClearance(const std::vector<Phase>& motion, double clearance) const;
+
+  const models::RobotModel* robot_;
+  const NominalStance* stance_;
+  QuasiStaticGait quasi_static_;
+  std::vector<std::vector<int>> groups_;
+  std::vector<Pace> paces_;
+};
+
+}  // namespace possibility::actions

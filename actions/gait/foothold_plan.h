@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "actions/motion/contact_schedule.h"
+#include "actions/motion/nominal_stance.h"
+#include "actions/motion/planar_pose.h"
+
+namespace possibility::actions {
+
+/// Greatest displacement between the stances of two groups of limbs: the octahedron with these
+/// semi-axes.
+struct StepBounds {
+  double forward = 0;  ///< m
+  double lateral = 0;  ///< m
+  double turn = 0;     ///< rad
+};
+
+/// Durations of a dynamic gait's intervals, s.
+struct StepTiming {
+  double swing = 0;           ///< of a group of limbs over `swing_length`; shorter swings take less
+  double swing_length = 0;    ///< m
+  double double_support = 0;  ///< between swings
+  double start = 0;           ///< before the first swing, and after the last one
+};
+
+/// Groups of limbs that swing together, in turn. Of two limbs each is a group. Four limbs form two
+/// pairs: those whose supports, each on its own, hold the nominal centre of mass best. Otherwise
+/// every limb is a group.
+std::vector<std::vector<int>> SwingGroups(const NominalStance& stance);
+
+/// One swing: the group of limbs, and the stance that they reach.
+struct Step {
+  int group = 0;
+  PlanarPose stance;
+};
+
+/// Steps along a way from all limbs in its first stance to all limbs in its last one. The ways of
+/// the groups alternate wherever they can; where feet would come too close to each other, one group
+/// closes up to the other. As few steps as the bounds allow, and as equal as that number allows.
+/// `way`: at least one stance; straight lines in between. Empty if it leads nowhere.
+std::vector<Step> PlanSteps(const NominalStance& stance,
+                            const std::vector<std::vector<int>>& groups,
+                            const std::vector<PlanarPose>& way, const StepBounds& bounds);
+
+/// The schedule of the steps on ground of height 0, from rest in `start`.
+ContactSchedule ScheduleOf(const NominalStance& stance, const std::vector<std::vector<int>>& groups,
+                           const PlanarPose& start, const std::vector<Step>& steps,
+                           const StepTiming& timing);
+
+}  // namespace possibility::actions

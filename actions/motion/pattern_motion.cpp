@@ -1,0 +1,295 @@
+#include "actions/motion/pattern_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "actions/motion/pendulum_spline.h"
+#include "actions/motion/planar_pose.h"
+#include "actions/motion/support_polygon.h"
+#include "actions/motion/whole_body_task.h"
+#include "dynamics/tree/multibody_dynamics.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+double Heading(const Isometry3d& X) { return std::atan2(X(1, 0), X(0, 0)); }
+
+/// What the tasks of an interval need, besides the centre of mass.
+struct Interval {
+  double start = 0;  ///< s
+  double duration = 0;
+  double yaw_from = 0;  ///< of the root
+  double yaw_to = 0;
+  Vector2d zmp_from = Vector2d::Zero();
+  Vector2d zmp_to = Vector2d::Zero();
+};
+
+/// The pattern of one schedule; shared by the tasks of its phases.
+class Pattern {
+ public:
+  Pattern(const models::RobotModel& robot, const NominalStance& stance,
+          const ContactSchedule& schedule, const PatternSettings& settings)
+      : robot_(robot), stance_(stance), schedule_(schedule), settings_(settings) {
+    CheckContactSchedule(schedule_);
+    ground_ = schedule_.intervals.front().bearing.front()->translation().z();
+    LayOutIntervals();
+    LayOutZmp();
+    const auto steps = static_cast<int>(std::ceil(schedule_.duration() / settings_.grid));
+    steps_ = std::max(steps, 2);
+    h_ = schedule_.duration() / steps_;
+    error_.setZero(2, steps_ + 1);
+  }
+
+  /// Solves the centre of mass, then corrects the zero moment point by the whole robot's.
+  void Solve(const CancellationToken& cancellation) {
+    stiffness_ = dynamics::kGravity / CentreOfMassHeight();
+    SolveCentreOfMass();
+    for (int pass = 0; pass < settings_.filter_passes; ++pass) {
+      Filter(cancellation);
+      SolveCentreOfMass();
+    }
+  }
+
+  int num_intervals() const { return static_cast<int>(intervals_.size()); }
+  double duration(int k) const { return intervals_[k].duration; }
+
+  std::vector<int> Contacts(int k) const {
+    std::vector<int> contacts;
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      if (schedule_.intervals[k].bearing[limb]) {
+        contacts.push_back(stance_.gait->limbs[limb].contact);
+      }
+    }
+    return contacts;
+  }
+
+  /// `t`: s since the interval began.
+  WholeBodyTask Task(int k, double t) const {
+    const Interval& interval = intervals_[k];
+    WholeBodyTask task;
+    task.root_yaw = Blend(interval.yaw_from, interval.yaw_to, RestToRest(t, interval.duration));
+    task.root_pitch = Constant(stance_.gait->posture.root_pitch);
+    task.root_height = Constant(stance_.gait->posture.root_height + ground_);
+    task.centre_of_mass = CentreOfMass(interval.start + t);
+    task.joints = ConstantVector<VectorXd>(stance_.q.tail(robot_.num_joints()));
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      task.limbs.push_back(TaskOf(k, static_cast<int>(limb), t));
+    }
+    return task;
+  }
+
+ private:
+  std::size_t NumLimbs() const { return stance_.gait->limbs.size(); }
+
+  /// The stance frame that a limb's patch stands in.
+  PlanarPose StanceOf(int limb, const Isometry3d& X) const {
+    const double yaw = Heading(X);
+    const Vector2d p = Vector2d(X.translation().head<2>()) -
+                       Eigen::Rotation2Dd(yaw) * Vector2d(stance_.patch_centres[limb].head<2>());
+    return {p.x(), p.y(), yaw};
+  }
+
+  /// Mean heading of the limbs, close to `near`.
+  template <typename PoseOf>
+  double MeanHeading(double near, const PoseOf& pose_of) const {
+    double sum = 0;
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      sum += WrapAngle(Heading(pose_of(static_cast<int>(limb))) - near);
+    }
+    return near + sum / static_cast<double>(NumLimbs());
+  }
+
+  void LayOutIntervals() {
+    double start = 0;
+    double yaw = Heading(*schedule_.intervals.front().bearing.front());
+    for (int k = 0; k < static_cast<int>(schedule_.intervals.size()); ++k) {
+      Interval interval;
+      interval.start = start;
+      interval.duration = schedule_.intervals[k].duration;
+      interval.yaw_from = yaw;
+      yaw = MeanHeading(yaw, [&](int limb) { return schedule_.After(k, limb); });
+      interval.yaw_to = yaw;
+      intervals_.push_back(interval);
+      start += interval.duration;
+    }
+  }
+
+  /// The centre of mass at rest over the limbs that bear in interval `k`.
+  Vector2d Balanced(int k) const {
+    Vector2d sum = Vector2d::Zero();
+    int count = 0;
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      const auto& bearing = schedule_.intervals[k].bearing[limb];
+      if (!bearing) continue;
+      sum += StanceOf(static_cast<int>(limb), *bearing) * stance_.centre_of_mass;
+      ++count;
+    }
+    return sum / count;
+  }
+
+  /// The point of the support of interval `k` closest to Balanced, within the margin.
+  Vector2d SupportedZmp(int k) const {
+    std::vector<Vector2d> points;
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      const auto& bearing = schedule_.intervals[k].bearing[limb];
+      if (!bearing) continue;
+      const PlanarPose at = StanceOf(static_cast<int>(limb), *bearing);
+      for (const Vector2d& p : stance_.bearing_points[limb]) points.push_back(at * p);
+    }
+    return SupportPolygon(points).Nearest(Balanced(k), settings_.zmp_margin);
+  }
+
+  bool AllBear(int k) const { return Contacts(k).size() == NumLimbs(); }
+
+  /// Fixed while a limb swings; from one support to the next while all bear.
+  void LayOutZmp() {
+    const int last = num_intervals() - 1;
+    for (int k = 0; k <= last; ++k) {
+      Interval& interval = intervals_[k];
+      if (!AllBear(k)) {
+        interval.zmp_from = interval.zmp_to = SupportedZmp(k);
+        continue;
+      }
+      interval.zmp_from = k == 0 ? Balanced(k) : SupportedZmp(k - 1);
+      interval.zmp_to = k == last ? Balanced(k) : SupportedZmp(k + 1);
+    }
+  }
+
+  int IntervalAt(double t) const {
+    int k = num_intervals() - 1;
+    while (k > 0 && t < intervals_[k].start) --k;
+    return k;
+  }
+
+  Vector2d ReferenceZmp(double t) const {
+    const Interval& interval = intervals_[IntervalAt(t)];
+    const ScalarSignal s = RestToRest(t - interval.start, interval.duration);
+    return interval.zmp_from + s.value * (interval.zmp_to - interval.zmp_from);
+  }
+
+  void SolveCentreOfMass() {
+    Eigen::Matrix2Xd zmp(2, steps_ + 1);
+    VectorXd first(steps_ + 1), last(steps_ + 1);
+    const Interval& start = intervals_.front();
+    const Interval& stop = intervals_.back();
+    for (int i = 0; i <= steps_; ++i) {
+      const double t = i * h_;
+      zmp.col(i) = ReferenceZmp(t) - error_.col(i);
+      first[i] = t < start.duration ? Bump(t, start.duration).value : 0;
+      last[i] = t > stop.start ? Bump(t - stop.start, stop.duration).value : 0;
+    }
+    const Vector2d from = start.zmp_from;
+    const Vector2d to = stop.zmp_to;
+    x_.emplace(zmp.row(0), from.x(), to.x(), h_, stiffness_, first, last);
+    y_.emplace(zmp.row(1), from.y(), to.y(), h_, stiffness_, first, last);
+  }
+
+  Signal<Vector2d> CentreOfMass(double t) const {
+    const ScalarSignal x = x_->At(t);
+    const ScalarSignal y = y_->At(t);
+    return {{x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration}};
+  }
+
+  double CentreOfMassHeight() const {
+    dynamics::TreeKinematics kinematics(robot_);
+    kinematics.SetPosition(stance_.q);
+    return kinematics.CentreOfMass().z();
+  }
+
+  /// The true zero moment point at every knot, minus the pendulum's.
+  void Filter(const CancellationToken& cancellation) {
+    WholeBodySolver solver(robot_);
+    dynamics::MultibodyDynamics dynamics(UncoupledModel(robot_));
+    VectorXd q = stance_.q;
+    q.segment<2>(4) = intervals_.front().zmp_from;
+    for (int i = 0; i <= steps_; ++i) {
+      cancellation.ThrowIfCancelled();
+      const double t = std::min(i * h_, schedule_.duration());
+      const int k = IntervalAt(t);
+      const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
+      q = state.q;
+      error_.col(i) = TrueZmp(state, &dynamics) - Vector2d(x_->Zmp(i), y_->Zmp(i));
+    }
+  }
+
+  /// Where the moment of all contact forces has no horizontal part.
+  Vector2d TrueZmp(const WholeBodyState& state, dynamics::MultibodyDynamics* dynamics) const {
+    dynamics->SetState(state.q, state.v, state.a);
+    const VectorXd& forces = dynamics->InverseDynamics();
+    const Vector3d moment = forces.head<3>();  // about the root's origin
+    const Vector3d force = forces.segment<3>(3);
+    const Vector3d root = state.q.segment<3>(4) - ground_ * Vector3d::UnitZ();
+    return {root.x() - (root.z() * force.x() + moment.y()) / force.z(),
+            root.y() + (moment.x() - root.z() * force.y()) / force.z()};
+  }
+
+  LimbTask TaskOf(int k, int limb, double t) const {
+    const Isometry3d& from = schedule_.Before(k, limb);
+    LimbTask task;
+    task.limb = &stance_.gait->limbs[limb];
+    task.orientation = stance_.patch_orientations[limb];
+    task.position = ConstantVector<Vector3d>(from.translation());
+    task.yaw = Constant(Heading(from));
+    if (!schedule_.intervals[k].bearing[limb]) Swing(k, limb, t, &task);
+    return task;
+  }
+
+  void Swing(int k, int limb, double t, LimbTask* task) const {
+    const Isometry3d& from = schedule_.Before(k, limb);
+    const Isometry3d& to = schedule_.After(k, limb);
+    // A swing may outlast changes of other limbs.
+    int first = k, last = k;
+    while (!schedule_.intervals[first - 1].bearing[limb]) --first;
+    while (!schedule_.intervals[last + 1].bearing[limb]) ++last;
+    const double begin = intervals_[first].start;
+    const double duration = intervals_[last].start + intervals_[last].duration - begin;
+    const double swung = intervals_[k].start + t - begin;
+    const ScalarSignal s = RestToRest(swung, duration);
+    const ScalarSignal lift = Bump(swung, duration);
+    task->position = BlendVector<Vector3d>(from.translation(), to.translation(), s);
+    task->position.value.z() += settings_.clearance * lift.value;
+    task->position.rate.z() += settings_.clearance * lift.rate;
+    task->position.acceleration.z() += settings_.clearance * lift.acceleration;
+    task->yaw = Blend(Heading(from), Heading(from) + WrapAngle(Heading(to) - Heading(from)), s);
+  }
+
+  const models::RobotModel& robot_;
+  NominalStance stance_;
+  ContactSchedule schedule_;
+  PatternSettings settings_;
+  double ground_ = 0;  ///< m
+  std::vector<Interval> intervals_;
+  int steps_ = 0;
+  double h_ = 0;          ///< s
+  double stiffness_ = 0;  ///< 1/s^2
+  Eigen::Matrix2Xd error_;
+  std::optional<PendulumSpline> x_, y_;
+};
+
+}  // namespace
+
+std::vector<MotionPhase> PatternPhases(const models::RobotModel& robot, const NominalStance& stance,
+                                       const ContactSchedule& schedule,
+                                       const PatternSettings& settings,
+                                       const CancellationToken& cancellation) {
+  const auto pattern = std::make_shared<Pattern>(robot, stance, schedule, settings);
+  pattern->Solve(cancellation);
+  std::vector<MotionPhase> phases;
+  for (int k = 0; k < pattern->num_intervals(); ++k) {
+    MotionPhase phase;
+    phase.duration = pattern->duration(k);
+    phase.contacts = pattern->Contacts(k);
+    phase.task = [pattern, k](double t) { return pattern->Task(k, t); };
+    phases.push_back(std::move(phase));
+  }
+  return phases;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "actions/motion/contact_schedule.h"
+#include "actions/motion/motion_builder.h"
+#include "actions/motion/nominal_stance.h"
+#include "common/cancellation_token.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+struct PatternSettings {
+  double clearance = 0.05;  ///< height of a swing in its middle, m
+  double zmp_margin =
+      0.05;               ///< wanted distance of the zero moment point from the support's edge, m
+  double grid = 0.02;     ///< s, at most, between knots of the centre of mass
+  int filter_passes = 2;  ///< corrections of the pendulum by the whole robot's dynamics
+};
+
+/// The whole body's motion of a contact schedule on level ground, without an optimiser: the centre
+/// of mass follows the linear inverted pendulum over a zero moment point inside the support, and a
+/// dynamic filter (Kajita et al. 2003) replaces the pendulum's error by that of the whole robot.
+/// From rest to rest in the nominal posture. docs/gaits.md has the formulas.
+/// `stance`: posture, and the limbs that `schedule` counts. The result keeps copies of all it needs
+/// but `stance`'s gait.
+/// @throws std::invalid_argument if the schedule is none; MotionError if a task is out of reach;
+/// Cancelled.
+std::vector<MotionPhase> PatternPhases(const models::RobotModel& robot, const NominalStance& stance,
+                                       const ContactSchedule& schedule,
+                                       const PatternSettings& settings,
+                                       const CancellationToken& cancellation = {});
+
+}  // namespace possibility::actions
