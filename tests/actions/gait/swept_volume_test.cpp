@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "models/input/input_error.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/dynamic_gaits.h"
 #include "tests/actions/quadruped.h"
 
 namespace possibility::actions {
@@ -76,6 +79,83 @@ TEST(SweptVolumeLong, HoldsRandomStridesOfEveryClass) {
   ExpectVolumesHoldRandomStrides(DrcHubo1Locomotion(), 300);
   ExpectVolumesHoldRandomStrides(QuadrupedLocomotion(), 300);
 }
+
+/// Whether the point lies in some box of some frame.
+bool IsInside(const Eigen::Vector3d& p_W, const std::vector<PlanarPose>& frames,
+              const std::vector<Eigen::AlignedBox3d>& boxes) {
+  return std::any_of(frames.begin(), frames.end(), [&](const PlanarPose& frame) {
+    Eigen::Vector3d p = frame.At(0).inverse() * p_W;
+    p.z() = std::max(p.z(), SweptVolume::kGroundGap);
+    return std::any_of(boxes.begin(), boxes.end(),
+                       [&p](const auto& box) { return box.contains(p); });
+  });
+}
+
+/// Expects that every link lies in the volumes of a way all through the motion. Checked on a cloud
+/// of surface points of each shape.
+void ExpectInside(const models::RobotModel& robot, const std::vector<Phase>& motion,
+                  const std::vector<PlanarPose>& frames,
+                  const std::vector<Eigen::AlignedBox3d>& boxes, std::mt19937* generator) {
+  std::normal_distribution<double> normal;
+  dynamics::TreeKinematics kinematics(robot);
+  for (const Phase& phase : motion) {
+    for (const Knot& knot : phase.knots) {
+      kinematics.SetPosition(knot.q);
+      for (int link = 0; link < robot.num_links(); ++link) {
+        for (const models::PosedShape& posed : robot.links[link].shapes) {
+          for (int i = 0; i < 4; ++i) {
+            const Eigen::Vector3d direction(normal(*generator), normal(*generator),
+                                            normal(*generator));
+            const Eigen::Vector3d p =
+                kinematics.X_WL()[link] * posed.X_PS * posed.shape.Support(direction);
+            ASSERT_TRUE(IsInside(p, frames, boxes))
+                << robot.links[link].name << " at " << p.transpose() << ", " << knot.t << " s";
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Ways of up to eight strides of one class, of any length.
+void ExpectVolumesHoldRandomWays(const std::string& name, int trials) {
+  const models::RobotModel& robot = DrcHubo1();
+  const FlowingGait& gait = DrcHubo1Flowing(name);
+  const GaitVolumes volumes = SweepGait(robot, gait.stance(), gait.motion());
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> count(1, 8);
+  for (int trial = 0; trial < trials && !testing::Test::HasFailure(); ++trial) {
+    const StrideClass strides = kStrideClasses[trial % kStrideClasses.size()];
+    const PlanarPose stride = RandomStride(strides, gait.parameters(), &generator);
+    const double n = count(generator);
+    const std::vector<PlanarPose> way =
+        PlanStrides(gait.parameters(), {}, {n * stride.x, n * stride.y, n * stride.yaw});
+    std::vector<PlanarPose> frames;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+      frames.push_back(StrideFrame(way[i], way[i + 1]));
+    }
+    SCOPED_TRACE(testing::Message() << name << ", trial " << trial << ": " << way.back().x << ", "
+                                    << way.back().y << ", " << way.back().yaw);
+    ExpectInside(robot, gait.motion().Motion(way, 0.03, {}), frames, volumes.sweep(strides),
+                 &generator);
+  }
+}
+
+class FlowingSweptVolumeTest : public testing::TestWithParam<std::string> {};
+class FlowingSweptVolumeLong : public testing::TestWithParam<std::string> {};
+
+TEST_P(FlowingSweptVolumeTest, HoldsRandomWaysOfEveryClass) {
+  ExpectVolumesHoldRandomWays(GetParam(), 60);
+}
+TEST_P(FlowingSweptVolumeLong, HoldsRandomWaysOfEveryClass) {
+  ExpectVolumesHoldRandomWays(GetParam(), 500);
+}
+
+const auto kGaitName = [](const auto& info) { return info.param; };
+INSTANTIATE_TEST_SUITE_P(Gaits, FlowingSweptVolumeTest, testing::Values("walk", "crawl"),
+                         kGaitName);
+INSTANTIATE_TEST_SUITE_P(Gaits, FlowingSweptVolumeLong, testing::Values("walk", "crawl"),
+                         kGaitName);
 
 /// The farthest poses, relative to a stance of the gait, that the frame of a stride of the class
 /// may have.

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actions/gait/dynamic_gait.h"
+#include "actions/gait/stride.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+
+/// A gait of a robot that flows, with its stance.
+class FlowingGait {
+ public:
+  FlowingGait(const models::RobotModel& robot, const std::string& name)
+      : stance_(SolveNominalStance(robot, robot.GaitNamed(name))), motion_(robot, stance_) {}
+  FlowingGait(const FlowingGait&) = delete;
+
+  const NominalStance& stance() const { return stance_; }
+  const models::GaitParameters& parameters() const { return stance_.gait->parameters; }
+  const DynamicGait& motion() const { return motion_; }
+
+ private:
+  NominalStance stance_;
+  DynamicGait motion_;
+};
+
+/// Fitted once per test program.
+inline const FlowingGait& DrcHubo1Flowing(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<FlowingGait>> gaits;
+  std::unique_ptr<FlowingGait>& gait = gaits[name];
+  if (!gait) gait = std::make_unique<FlowingGait>(DrcHubo1(), name);
+  return *gait;
+}
+
+/// The stances of a gait's strides through `stances`.
+inline std::vector<PlanarPose> StridesThrough(const models::GaitParameters& parameters,
+                                              const std::vector<PlanarPose>& stances) {
+  std::vector<PlanarPose> strides = {stances.front()};
+  for (const PlanarPose& stance : stances) {
+    const std::vector<PlanarPose> line = PlanStrides(parameters, strides.back(), stance);
+    strides.insert(strides.end(), line.begin() + 1, line.end());
+  }
+  return strides;
+}
+
+}  // namespace possibility::actions

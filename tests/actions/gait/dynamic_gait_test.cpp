@@ -1,0 +1,167 @@
+#include "actions/gait/dynamic_gait.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "actions/verify/verifier.h"
+#include "tests/actions/dynamic_gaits.h"
+#include "tests/actions/standing_plan.h"
+
+namespace possibility::actions {
+namespace {
+
+constexpr double kKnotSpacing = 0.1;
+
+/// What the verifier says of a motion between two stances on a flat floor; empty if accepted.
+std::string FaultsOf(const std::vector<Phase>& motion, const std::string& gait,
+                     const PlanarPose& from, const PlanarPose& to) {
+  const models::RobotModel& robot = DrcHubo1();
+  models::Scenario scenario = testing::FlatScenario();
+  constexpr double kHalf = 12;  // m
+  scenario.environment.obstacles.front().shape = models::Shape::Box({2 * kHalf, 2 * kHalf, 0.1});
+  scenario.environment.bounds =
+      Eigen::AlignedBox2d(Eigen::Vector2d(-kHalf, -kHalf), Eigen::Vector2d(kHalf, kHalf));
+  scenario.actions = {gait};
+  scenario.start = {gait, from.x, from.y, 0, from.yaw};
+  scenario.goals = {{gait, to.x, to.y, 0, to.yaw}};
+  Plan plan;
+  plan.robot_file = robot.file;
+  plan.robot_hash = robot.content_hash;
+  plan.scenario_file = scenario.file;
+  plan.scenario_hash = scenario.content_hash;
+  for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
+  plan.segments.push_back({gait, motion});
+  const VerificationReport report = Verify(plan, robot, scenario);
+  std::string faults;
+  for (const Violation& violation : report.violations) {
+    faults += fmt::format("{}: {} {} at {} s, limit {}\n", ToString(violation.kind),
+                          violation.quantity, violation.value, violation.time, violation.limit);
+  }
+  return faults;
+}
+
+double Duration(const std::vector<Phase>& motion) { return motion.back().knots.back().t; }
+
+/// The motion along one way is accepted by the verifier and no slower than expected.
+struct SpeedCase {
+  std::string name;
+  std::string gait;
+  PlanarPose way;
+  double distance = 0;  ///< m or rad
+  double speed = 0;     ///< least mean speed from rest to rest, m/s or rad/s
+};
+
+void PrintTo(const SpeedCase& speed_case, std::ostream* stream) { *stream << speed_case.name; }
+
+class DynamicGaitSpeed : public ::testing::TestWithParam<SpeedCase> {};
+
+TEST_P(DynamicGaitSpeed, IsReachedFromRestToRestAndVerified) {
+  const SpeedCase& given = GetParam();
+  const FlowingGait& gait = DrcHubo1Flowing(given.gait);
+  const std::vector<Phase> motion =
+      gait.motion().Motion(StridesThrough(gait.parameters(), {{}, given.way}), kKnotSpacing, {});
+  const double speed = given.distance / Duration(motion);
+  RecordProperty("mm_or_mrad_per_s", static_cast<int>(1000 * speed));
+  EXPECT_GT(speed, given.speed);
+  EXPECT_EQ(FaultsOf(motion, given.gait, {}, given.way), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, DynamicGaitSpeed,
+                         ::testing::Values(SpeedCase{"walk_ahead", "walk", {5, 0, 0}, 5, 0.45},
+                                           SpeedCase{"crawl_ahead", "crawl", {5, 0, 0}, 5, 0.3},
+                                           SpeedCase{"walk_turn",
+                                                     "walk",
+                                                     {0, 0, std::numbers::pi},
+                                                     std::numbers::pi,
+                                                     30 * std::numbers::pi / 180},
+                                           SpeedCase{"walk_aside", "walk", {0, 2, 0}, 2, 0.15}),
+                         [](const auto& info) { return info.param.name; });
+
+class DynamicGaitTest : public ::testing::TestWithParam<std::string> {
+ protected:
+  double Random() { return std::uniform_real_distribution<double>(-1, 1)(generator_); }
+
+  /// Up to three straight ways of strides with turns on the way, end to end.
+  std::vector<PlanarPose> RandomWay() {
+    std::vector<PlanarPose> stances = {{Random(), Random(), 3 * Random()}};
+    const auto ways = 1 + generator_() % 3;
+    for (std::size_t i = 0; i < ways; ++i) {
+      stances.push_back(stances.back() *
+                        PlanarPose{0.8 * Random(), 0.3 * Random(), 0.8 * Random()});
+    }
+    return StridesThrough(gait_.parameters(), stances);
+  }
+
+  const FlowingGait& gait_ = DrcHubo1Flowing(GetParam());
+  std::mt19937 generator_{11};
+};
+
+TEST_P(DynamicGaitTest, RandomWaysVerify) {
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::vector<PlanarPose> way = RandomWay();
+    const std::vector<Phase> motion = gait_.motion().Motion(way, kKnotSpacing, {});
+    EXPECT_EQ(FaultsOf(motion, GetParam(), way.front(), way.back()), "") << trial;
+  }
+}
+
+TEST_P(DynamicGaitTest, SameStridesGiveTheSameMotion) {
+  const std::vector<PlanarPose> way = RandomWay();
+  const std::vector<Phase> motion = gait_.motion().Motion(way, kKnotSpacing, {});
+  const FlowingGait other(DrcHubo1(), GetParam());
+  const std::vector<Phase> again = other.motion().Motion(way, kKnotSpacing, {});
+  ASSERT_EQ(motion.size(), again.size());
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    ASSERT_EQ(motion[i].knots.size(), again[i].knots.size());
+    for (std::size_t k = 0; k < motion[i].knots.size(); ++k) {
+      EXPECT_EQ(motion[i].knots[k].q, again[i].knots[k].q);
+    }
+  }
+}
+
+TEST_P(DynamicGaitTest, PacesAreFromQuickToSlow) {
+  const std::vector<Pace>& paces = gait_.motion().paces();
+  ASSERT_FALSE(paces.empty());
+  for (std::size_t i = 0; i + 1 < paces.size(); ++i) {
+    EXPECT_GT(paces[i].speed(), paces[i + 1].speed());
+  }
+}
+
+TEST_P(DynamicGaitTest, ExpectedDurationOfFurtherStridesAheadIsThatOfTheMotion) {
+  const auto duration = [&](int strides) {
+    const PlanarPose goal{strides * gait_.parameters().forward, 0, 0};
+    return Duration(
+        gait_.motion().Motion(StridesThrough(gait_.parameters(), {{}, goal}), kKnotSpacing, {}));
+  };
+  const double further = duration(24) - duration(12);
+  EXPECT_NEAR(gait_.motion().ExpectedDuration(24) - gait_.motion().ExpectedDuration(12), further,
+              0.05 * further);
+  EXPECT_EQ(gait_.motion().ExpectedDuration(0), 0);
+}
+
+TEST_P(DynamicGaitTest, SlowJointsLeaveTheQuasiStaticGait) {
+  models::RobotModel robot = DrcHubo1();
+  for (models::Joint& joint : robot.joints) joint.velocity *= 0.25;
+  const FlowingGait slow(robot, GetParam());
+  EXPECT_TRUE(slow.motion().paces().empty());
+  const QuasiStaticGait quasi_static(robot, slow.stance());
+  const std::vector<PlanarPose> way = {{}, {0.05, 0, 0}};
+  EXPECT_EQ(slow.motion().ExpectedDuration(3), quasi_static.ExpectedDuration(3));
+  const std::vector<Phase> motion = slow.motion().Motion(way, kKnotSpacing, {});
+  const std::vector<Phase> expected = quasi_static.Motion(way, kKnotSpacing, {});
+  ASSERT_EQ(motion.size(), expected.size());
+  EXPECT_EQ(Duration(motion), Duration(expected));
+  EXPECT_EQ(motion.back().knots.back().q, expected.back().knots.back().q);
+}
+
+INSTANTIATE_TEST_SUITE_P(Gaits, DynamicGaitTest, ::testing::Values("walk", "crawl"),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace possibility::actions
