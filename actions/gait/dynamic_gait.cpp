@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "models/world/collision.h"
@@ -50,6 +51,38 @@ std::vector<Pace> Candidates(const models::GaitParameters& parameters) {
   std::stable_sort(paces.begin(), paces.end(),
                    [](const Pace& a, const Pace& b) { return a.speed() > b.speed(); });
   return paces;
+}
+
+/// Ways differ if a stride moves or turns the stance by more, m and rad.
+constexpr double kBend = 1e-6;
+
+/// Whether the way bends between two strides.
+bool Bends(const PlanarPose& a, const PlanarPose& b, const PlanarPose& c) {
+  const Eigen::Vector2d before = b.position() - a.position();
+  const Eigen::Vector2d after = c.position() - b.position();
+  const double turn = WrapAngle(c.yaw - b.yaw) - WrapAngle(b.yaw - a.yaw);
+  return (after - before).norm() > kBend || std::abs(turn) > kBend;
+}
+
+/// Steps that bring all limbs together in every bend, so that no limb cuts a corner: each swing
+/// stays inside the swept volume of one straight way.
+std::vector<Step> StepsAlong(const NominalStance& stance,
+                             const std::vector<std::vector<int>>& groups,
+                             const std::vector<PlanarPose>& strides, const StepBounds& bounds) {
+  std::vector<Step> steps;
+  std::vector<PlanarPose> line;
+  for (std::size_t i = 0; i < strides.size(); ++i) {
+    line.push_back(strides[i]);
+    const bool is_end =
+        i + 1 == strides.size() || (i > 0 && Bends(strides[i - 1], strides[i], strides[i + 1]));
+    if (!is_end || line.size() < 2) continue;
+    const std::vector<Step> more = PlanSteps(stance, groups, line, bounds);
+    if (more.empty()) throw MotionError("no footholds along the way");
+    steps.insert(steps.end(), more.begin(), more.end());
+    line = {strides[i]};
+  }
+  if (steps.empty()) throw MotionError("no footholds along the way");
+  return steps;
 }
 
 std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
@@ -111,8 +144,7 @@ std::optional<Pace> DynamicGait::Fitted(Pace pace) const {
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                                          const MotionSettings& settings,
                                          const CancellationToken& cancellation) const {
-  const std::vector<Step> steps = PlanSteps(*stance_, groups_, strides, pace.bounds);
-  if (steps.empty()) throw MotionError("no footholds along the way");
+  const std::vector<Step> steps = StepsAlong(*stance_, groups_, strides, pace.bounds);
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
@@ -145,43 +177,46 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double 
   }
 }
 
-std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
-                                       const CancellationToken& cancellation) const {
+std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, double knot_spacing,
+                                     const CancellationToken& cancellation) const {
   MotionSettings settings;
   settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
   settings.minimum_intervals = kLeastIntervals;
+  std::string fault = "no pace fits";
   for (const Pace& pace : paces_) {
     try {
       return MotionAt(pace, strides, settings, cancellation);
-    } catch (const MotionError&) {
-      // A slower pace may fit.
+    } catch (const MotionError& error) {
+      fault = error.what();
     }
   }
-  return quasi_static_.Motion(strides, knot_spacing, cancellation);
+  throw MotionError(fault);
+}
+
+std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
+                                       const CancellationToken& cancellation) const {
+  try {
+    return Flow(strides, knot_spacing, cancellation);
+  } catch (const MotionError&) {
+    return quasi_static_.Motion(strides, knot_spacing, cancellation);
+  }
 }
 
 std::vector<std::vector<Phase>> DynamicGait::Variants(const std::vector<PlanarPose>& strides,
                                                       double knot_spacing,
                                                       const CancellationToken& cancellation) const {
-  std::vector<std::vector<Phase>> variants;
+  // The volumes of quasi-static motions are unions of their strides'. A slow pace has shorter steps
+  // than the quickest one.
+  if (strides.size() == 2) return {quasi_static_.Motion(strides, knot_spacing, cancellation)};
+  if (paces_.empty()) return {};
   MotionSettings settings;
   settings.knot_spacing = knot_spacing;
   settings.minimum_intervals = 2;
-  // The volumes of longer motions at a slow pace and of quasi-static ones are unions of their
-  // strides': they are slow enough to stay over their feet.
-  const bool is_stride = strides.size() == 2;
-  for (const Pace& pace : paces_) {
-    if (!is_stride && &pace != &paces_.front()) continue;
-    try {
-      variants.push_back(MotionAt(pace, strides, settings, cancellation));
-    } catch (const MotionError&) {
-      // Motion does not return it either.
-    }
+  try {
+    return {MotionAt(paces_.front(), strides, settings, cancellation)};
+  } catch (const MotionError&) {
+    return {};  // Motion does not return it either.
   }
-  if (is_stride) {
-    variants.push_back(quasi_static_.Motion(strides, knot_spacing, cancellation));
-  }
-  return variants;
 }
 
 double DynamicGait::ExpectedDuration(int strides) const {

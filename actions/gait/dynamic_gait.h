@@ -31,7 +31,9 @@ class DynamicGait final : public GaitMotion {
 
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                             const CancellationToken& cancellation) const override;
-  bool Flows() const override { return true; }
+  bool Flows() const override { return !paces_.empty(); }
+  std::vector<Phase> Flow(const std::vector<PlanarPose>& strides, double knot_spacing,
+                          const CancellationToken& cancellation) const override;
   std::vector<std::vector<Phase>> Variants(const std::vector<PlanarPose>& strides,
                                            double knot_spacing,
                                            const CancellationToken& cancellation) const override;

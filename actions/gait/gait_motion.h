@@ -28,9 +28,16 @@ class GaitMotion {
   virtual std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                                     const CancellationToken& cancellation) const = 0;
 
-  /// Whether motions may lead round bends: `strides` of Motion then are those of several straight
-  /// ways, end to end. Otherwise the robot stops at every bend.
+  /// Whether Flow may succeed.
   virtual bool Flows() const { return false; }
+
+  /// Motion along several straight ways, end to end, without a rest where they meet. `strides`: of
+  /// PlanStrides for each way, their common stances once. Otherwise as Motion.
+  virtual std::vector<Phase> Flow(const std::vector<PlanarPose>& /*strides*/,
+                                  double /*knot_spacing*/,
+                                  const CancellationToken& /*cancellation*/) const {
+    throw MotionError("the gait rests where straight ways meet");
+  }
 
   /// All motions along `strides` that Motion may return, now or for strides that are part of a
   /// longer way; for swept volumes. Arguments and errors: as of Motion.

@@ -39,6 +39,11 @@ std::vector<PlanarPose> ExtremeDisplacements(const models::GaitParameters& param
   return displacements;
 }
 
+/// Mixed strides use a share of every bound: flowing motions of them stay inside those of the axes.
+bool IsAlongOneAxis(const PlanarPose& displacement) {
+  return (displacement.x != 0) + (displacement.y != 0) + (displacement.yaw != 0) == 1;
+}
+
 /// Checks self-collision at every knot and passes each knot's link poses to `visit`.
 template <typename Visitor>
 void VisitPoses(const models::RobotModel& robot, const std::vector<Phase>& motion,
@@ -198,7 +203,7 @@ GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stan
   std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
   for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
     SweptVolume swept = SweepStrides(robot, stance, gait, displacement, 1, cancellation);
-    if (gait.Flows()) {
+    if (gait.Flows() && IsAlongOneAxis(displacement)) {
       swept.Add(SweepStrides(robot, stance, gait, displacement, kStridesOnTheWay, cancellation));
     }
     for (size_t i = 0; i < kStrideClasses.size(); ++i) {

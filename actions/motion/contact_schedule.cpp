@@ -52,8 +52,9 @@ const Eigen::Isometry3d& ContactSchedule::After(int k, int limb) const {
 }
 
 void CheckContactSchedule(const ContactSchedule& schedule) {
-  if (schedule.intervals.empty()) Fail("no intervals");
+  if (schedule.intervals.size() < 2) Fail("fewer than two intervals");
   const std::size_t limbs = schedule.intervals.front().bearing.size();
+  if (limbs == 0) Fail("no limbs");
   for (std::size_t k = 0; k < schedule.intervals.size(); ++k) {
     CheckInterval(schedule.intervals[k], k, limbs);
     if (k == 0) continue;

@@ -27,8 +27,9 @@ struct ContactSchedule {
   const Eigen::Isometry3d& After(int k, int limb) const;
 };
 
-/// @throws std::invalid_argument unless the schedule is as described above: at least one interval,
-/// one entry per limb in each, positive durations, limbs that stay where they bear.
+/// @throws std::invalid_argument unless the schedule is as described above: at least two intervals,
+/// one entry per limb in each, at least one limb, positive durations, limbs that stay where they
+/// bear.
 void CheckContactSchedule(const ContactSchedule& schedule);
 
 }  // namespace possibility::actions

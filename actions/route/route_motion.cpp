@@ -11,6 +11,7 @@
 
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/route/gait_run.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::actions {
@@ -113,41 +114,80 @@ std::vector<Phase> PhasesOf(const LocomotionModel& model, const RouteLeg& leg,
   return Shifted(GaitPhases(model, local, cancellation), {leg.from.x, leg.from.y, leg.z});
 }
 
-/// Distributes legs to workers; the first failure in route order wins.
-class LegQueue {
+/// Motions of `count` legs from `first` on, times of each from 0: one flow if there is one, else
+/// that of each half.
+void GenerateRun(const LocomotionModel& model, const Route& route, int first, int count,
+                 const CancellationToken& cancellation, std::vector<std::vector<Phase>>* motions) {
+  if (count == 1) {
+    try {
+      (*motions)[first] = GenerateLeg(model, route[first], cancellation);
+    } catch (const MotionError& error) {
+      throw LegError(first, error.what());
+    }
+    return;
+  }
+  try {
+    std::vector<std::vector<Phase>> legs = FlowAlong(model, route, first, count, cancellation);
+    RequireStance(model, route[first].gait, route[first].from, route[first].z,
+                  legs.front().front().knots.front(), "begins");
+    const RouteLeg& last = route[first + count - 1];
+    RequireStance(model, last.gait, last.to, last.z_to, legs.back().back().knots.back(), "ends");
+    std::move(legs.begin(), legs.end(), motions->begin() + first);
+    return;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception&) {
+    // The robot rests where the halves meet.
+  }
+  GenerateRun(model, route, first, count / 2, cancellation, motions);
+  GenerateRun(model, route, first + count / 2, count - count / 2, cancellation, motions);
+}
+
+/// Distributes runs of legs to workers; the first failure in route order wins.
+class RunQueue {
  public:
-  LegQueue(const LocomotionModel& model, const Route& route, const CancellationToken& cancellation,
+  RunQueue(const LocomotionModel& model, const Route& route, const CancellationToken& cancellation,
            const std::function<void(double)>& progress)
       : model_(model),
         route_(route),
         cancellation_(cancellation),
         progress_(progress),
-        motions_(route.size()),
-        errors_(route.size()) {}
+        motions_(route.size()) {
+    for (int leg = 0; leg < static_cast<int>(route.size()); leg += runs_.back().count) {
+      runs_.push_back({leg, RunLength(model, route, leg), std::nullopt});
+    }
+  }
 
   void Work() {
     const CancellationToken own([this] { return Proceed(); });
-    for (size_t leg = next_++; leg < route_.size() && !cancelled_; leg = next_++) {
+    for (size_t i = next_++; i < runs_.size() && !cancelled_; i = next_++) {
+      Run& run = runs_[i];
       try {
-        motions_[leg] = GenerateLeg(model_, route_[leg], own);
-      } catch (const MotionError& error) {
-        errors_[leg] = error.what();
+        GenerateRun(model_, route_, run.first, run.count, own, &motions_);
+      } catch (const LegError& error) {
+        run.error = error;
       } catch (const Cancelled&) {
         cancelled_ = true;
       }
-      ++done_;
+      done_ += run.count;
     }
   }
 
   std::vector<std::vector<Phase>> TakeMotions() {
     if (cancelled_) throw Cancelled();
-    for (size_t leg = 0; leg < errors_.size(); ++leg) {
-      if (errors_[leg]) throw LegError(static_cast<int>(leg), *errors_[leg]);
+    for (const Run& run : runs_) {
+      if (run.error) throw *run.error;
     }
     return std::move(motions_);
   }
 
  private:
+  struct Run {
+    int first = 0;
+    int count = 1;
+    std::optional<LegError> error;
+  };
+
   /// Reports progress as often as a leg asks: legs may take long.
   bool Proceed() const {
     const double fraction = static_cast<double>(done_) / static_cast<double>(route_.size());
@@ -160,7 +200,7 @@ class LegQueue {
   const CancellationToken& cancellation_;
   const std::function<void(double)>& progress_;
   std::vector<std::vector<Phase>> motions_;
-  std::vector<std::optional<std::string>> errors_;
+  std::vector<Run> runs_;
   std::atomic<size_t> next_ = 0;
   std::atomic<size_t> done_ = 0;
   std::atomic<bool> cancelled_ = false;
@@ -186,7 +226,7 @@ std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg
 std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
                                     const CancellationToken& cancellation,
                                     const std::function<void(double)>& progress) {
-  LegQueue queue(model, route, cancellation, progress);
+  RunQueue queue(model, route, cancellation, progress);
   {
     std::vector<std::jthread> workers;
     for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {

@@ -52,7 +52,8 @@ struct Violation {
   std::string unit;  ///< empty if the violation has no measure
 };
 
-/// Result of simulating a stretch of motion with flight or impacts.
+/// Result of simulating a dynamic stretch of motion: with flight, impacts, or contacts that change
+/// while the robot moves.
 struct StretchRollout {
   int segment = 0;       ///< index of the first
   int last_segment = 0;  ///< index
@@ -81,7 +82,7 @@ struct VerifierSettings {
   /// Called as often, from any thread, with the fraction done. May be empty.
   std::function<void(double)> progress;
   double resolution = 0.005;  ///< s, largest sample time; fast motions are sampled more densely
-  /// Also simulates stretches with flight or impacts: seconds for each.
+  /// Also simulates dynamic stretches: seconds for each.
   bool simulates = true;
   int threads = 1;  ///< samples are independent; the report does not depend on it
 };
@@ -89,7 +90,7 @@ struct VerifierSettings {
 /// Verifies from the plan, the robot and the scenario alone that the plan can be executed. Never
 /// uses the planner's constraint functions: has its own sampling, exact geometry and Simbody
 /// inverse dynamics. If the plan's structure is broken, or the robot or scenario does not fit its
-/// sizes, it checks only kFileMismatch and kStructure. Simulates stretches with flight or impacts
+/// sizes, it checks only kFileMismatch and kStructure. Simulates dynamic stretches
 /// if there is no other violation.
 /// @throws std::invalid_argument if the resolution or the number of threads is not positive;
 ///   InputError if the scenario names an action for which the robot has no gait.

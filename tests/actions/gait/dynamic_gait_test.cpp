@@ -21,7 +21,7 @@ constexpr double kKnotSpacing = 0.1;
 
 /// What the verifier says of a motion between two stances on a flat floor; empty if accepted.
 std::string FaultsOf(const std::vector<Phase>& motion, const std::string& gait,
-                     const PlanarPose& from, const PlanarPose& to) {
+                     const PlanarPose& from, const PlanarPose& to, bool simulates = false) {
   const models::RobotModel& robot = DrcHubo1();
   models::Scenario scenario = testing::FlatScenario();
   constexpr double kHalf = 12;  // m
@@ -38,7 +38,9 @@ std::string FaultsOf(const std::vector<Phase>& motion, const std::string& gait,
   plan.scenario_hash = scenario.content_hash;
   for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
   plan.segments.push_back({gait, motion});
-  const VerificationReport report = Verify(plan, robot, scenario);
+  VerifierSettings settings;
+  settings.simulates = simulates;
+  const VerificationReport report = Verify(plan, robot, scenario, settings);
   std::string faults;
   for (const Violation& violation : report.violations) {
     faults += fmt::format("{}: {} {} at {} s, limit {}\n", ToString(violation.kind),
@@ -109,6 +111,13 @@ TEST_P(DynamicGaitTest, RandomWaysVerify) {
     const std::vector<Phase> motion = gait_.motion().Motion(way, kKnotSpacing, {});
     EXPECT_EQ(FaultsOf(motion, GetParam(), way.front(), way.back()), "") << trial;
   }
+}
+
+TEST_P(DynamicGaitTest, SimulationFollowsTheMotion) {
+  const PlanarPose end{0.5, 0.1, 0.2};
+  const std::vector<Phase> motion =
+      gait_.motion().Motion(StridesThrough(gait_.parameters(), {{}, end}), kKnotSpacing, {});
+  EXPECT_EQ(FaultsOf(motion, GetParam(), {}, end, true), "");
 }
 
 TEST_P(DynamicGaitTest, SameStridesGiveTheSameMotion) {

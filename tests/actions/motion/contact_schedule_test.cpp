@@ -54,7 +54,7 @@ TEST(ContactScheduleTest, BearingLimbIsBeforeAndAfterWhereItBears) {
 TEST(ContactScheduleTest, AsDescribedIsAccepted) { EXPECT_EQ(FaultOf(TwoSteps()), "no error"); }
 
 TEST(ContactScheduleTest, WithoutIntervalsIsRefused) {
-  EXPECT_EQ(FaultOf({}), "contact schedule: no intervals");
+  EXPECT_EQ(FaultOf({}), "contact schedule: fewer than two intervals");
 }
 
 TEST(ContactScheduleTest, DurationThatIsNotPositiveIsRefusedByInterval) {

@@ -1,0 +1,115 @@
+#include "actions/route/gait_run.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "actions/gait/stride.h"
+#include "actions/motion/phase_sequence.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Radius that makes a length of a heading, m.
+constexpr double kHeadingRadius = 0.3;
+
+/// Heights of one run differ by less, m.
+constexpr double kSameHeight = 1e-9;
+
+bool IsStraightWay(const LocomotionModel& model, const RouteLeg& leg) {
+  if (leg.manoeuvre != nullptr || leg.transition >= 0) return false;
+  return StrideCount(model.gaits[leg.gait]->gait.parameters, leg.from, leg.to) > 0;
+}
+
+PlanarPose Seen(const PlanarPose& pose, const PlanarPose& origin) {
+  return {pose.x - origin.x, pose.y - origin.y, pose.yaw};
+}
+
+/// Strides of all legs, as if the run began at the origin: tolerances must not depend on the place.
+std::vector<PlanarPose> StridesOf(const LocomotionModel& model, const Route& route, int first,
+                                  int count) {
+  const PlanarPose& origin = route[first].from;
+  std::vector<PlanarPose> strides = {Seen(origin, origin)};
+  for (int i = first; i < first + count; ++i) {
+    const std::vector<PlanarPose> more =
+        PlanStrides(model.gaits[route[i].gait]->gait.parameters, Seen(route[i].from, origin),
+                    Seen(route[i].to, origin));
+    strides.insert(strides.end(), more.begin() + 1, more.end());
+  }
+  return strides;
+}
+
+/// How far the root is from its pose in a stance, m.
+double Offset(const NominalStance& stance, const PlanarPose& pose, const Knot& knot) {
+  const Eigen::Isometry3d X_WR = stance.RootPose(pose, 0);
+  const Eigen::Quaterniond turn(knot.q[0], knot.q[1], knot.q[2], knot.q[3]);
+  return (X_WR.translation() - knot.q.segment<3>(4)).head<2>().norm() +
+         kHeadingRadius * turn.angularDistance(Eigen::Quaterniond(X_WR.linear()));
+}
+
+/// Index of the first phase of each leg after the first, and the number of phases. Every leg gets a
+/// phase.
+std::vector<int> Cuts(const LocomotionModel& model, const Route& route, int first, int count,
+                      const std::vector<Phase>& motion) {
+  const NominalStance& stance = model.gaits[route[first].gait]->stance;
+  const int phases = static_cast<int>(motion.size());
+  if (phases < count) throw MotionError("the motion has fewer phases than straight ways");
+  std::vector<int> cuts;
+  for (int leg = 0; leg + 1 < count; ++leg) {
+    const PlanarPose end = Seen(route[first + leg].to, route[first].from);
+    const int least = (cuts.empty() ? 0 : cuts.back()) + 1;
+    int best = least;
+    double closest = std::numeric_limits<double>::infinity();
+    for (int cut = least; cut <= phases - (count - 1 - leg); ++cut) {
+      const double offset = Offset(stance, end, motion[cut - 1].knots.back());
+      if (offset >= closest) continue;
+      closest = offset;
+      best = cut;
+    }
+    cuts.push_back(best);
+  }
+  cuts.push_back(phases);
+  return cuts;
+}
+
+}  // namespace
+
+int RunLength(const LocomotionModel& model, const Route& route, int first) {
+  const RouteLeg& begin = route[first];
+  if (!IsStraightWay(model, begin) || !model.gaits[begin.gait]->motion->Flows()) return 1;
+  int count = 1;
+  while (first + count < static_cast<int>(route.size())) {
+    const RouteLeg& next = route[first + count];
+    if (!IsStraightWay(model, next) || next.gait != begin.gait ||
+        std::abs(next.z - begin.z) > kSameHeight) {
+      break;
+    }
+    ++count;
+  }
+  return count;
+}
+
+std::vector<std::vector<Phase>> FlowAlong(const LocomotionModel& model, const Route& route,
+                                          int first, int count,
+                                          const CancellationToken& cancellation) {
+  std::vector<Phase> motion = model.gaits[route[first].gait]->motion->Flow(
+      StridesOf(model, route, first, count), MotionSettings().knot_spacing, cancellation);
+  const Vector3d place(route[first].from.x, route[first].from.y, route[first].z);
+  std::vector<std::vector<Phase>> legs(count);
+  int phase = 0;
+  int leg = 0;
+  for (const int cut : Cuts(model, route, first, count, motion)) {
+    const double start = motion[phase].knots.front().t;
+    for (; phase < cut; ++phase) {
+      for (Knot& knot : motion[phase].knots) knot.q.segment<3>(4) += place;
+      legs[leg].push_back(std::move(motion[phase]));
+    }
+    ShiftTime(-start, &legs[leg++]);
+  }
+  return legs;
+}
+
+}  // namespace possibility::actions
