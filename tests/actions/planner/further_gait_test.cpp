@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "actions/gait/dynamic_gait.h"
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/planner/planner.h"
 #include "models/input/input_error.h"
@@ -68,6 +69,31 @@ TEST(FurtherGaitTest, AQuickerGaitOfTheSameStanceTakesTheRoute) {
   const PlanResult slow = PlanTraversal(DrcHubo1(), walking, PlanRequest());
   ASSERT_EQ(slow.status, PlanStatus::kFound) << slow.explanation;
   EXPECT_LT(DurationOf(quick), DurationOf(slow));
+}
+
+/// Walking that flows, round bends too.
+GaitFactory Flowing() {
+  GaitFactory flowing = Brisk();
+  flowing.parameters = DrcHubo1().GaitNamed("walk").parameters;
+  flowing.make = [](const models::RobotModel& robot, const NominalStance& stance) {
+    return std::make_unique<DynamicGait>(robot, stance);
+  };
+  return flowing;
+}
+
+TEST(FurtherGaitTest, ADynamicGaitTakesTheRouteAndIsSimulated) {
+  models::Scenario near = Hall();
+  near.start.x = 0;
+  near.goals.front().yaw = 0.8;
+  const PlanResult flowing = Plan(near, Flowing());
+  ASSERT_EQ(flowing.status, PlanStatus::kFound) << flowing.explanation;
+  EXPECT_TRUE(flowing.verification.accepted());
+  EXPECT_FALSE(flowing.verification.rollouts.empty());
+  EXPECT_TRUE(Uses(flowing, "brisk"));
+  near.actions = {"walk"};
+  const PlanResult walking = PlanTraversal(DrcHubo1(), near, PlanRequest());
+  ASSERT_EQ(walking.status, PlanStatus::kFound) << walking.explanation;
+  EXPECT_LT(DurationOf(flowing), 0.3 * DurationOf(walking));
 }
 
 TEST(FurtherGaitTest, ASlowerGaitOfTheSameStanceIsNotUsed) {
