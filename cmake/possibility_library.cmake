@@ -31,13 +31,13 @@ set(possibility_precompiled_headers
     <string_view> <thread> <tuple> <unordered_map> <utility> <variant> <vector>
     <Eigen/Cholesky> <Eigen/Core> <Eigen/Geometry>)
 
-# possibility_precompile(<target> <header>...): nothing but the headers above, <fmt/format.h> and
-# <header>..., compiled for all targets that reuse them.
+# possibility_precompile(<target>): the headers above and <fmt/format.h>, compiled for all targets that
+# reuse them.
 function(possibility_precompile target)
   file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "")
   add_library(${target} STATIC ${PROJECT_BINARY_DIR}/precompiled.cpp)
   target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt)
-  target_precompile_headers(${target} PRIVATE ${possibility_precompiled_headers} <fmt/format.h> ${ARGN})
+  target_precompile_headers(${target} PRIVATE ${possibility_precompiled_headers} <fmt/format.h>)
   possibility_compile_options(${target})
 endfunction()
 
@@ -75,10 +75,7 @@ function(possibility_part folder)
   list(TRANSFORM links REPLACE "^([a-z]+)/([a-z]+)$" "possibility::\\1_\\2")
   list(TRANSFORM links REPLACE "^(common|graph)$" "possibility::\\1")
   target_link_libraries(possibility_${target} PUBLIC Eigen3::Eigen fmt::fmt Threads::Threads ${links})
-  if(NOT possibility_reused_headers)
-    set(possibility_reused_headers possibility_precompiled)
-  endif()
-  target_precompile_headers(possibility_${target} REUSE_FROM ${possibility_reused_headers})
+  target_precompile_headers(possibility_${target} REUSE_FROM possibility_precompiled)
 endfunction()
 
 # possibility_room(<folder> <link>...): the same, installed.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "actions/sagittal/motion_identity.h"
 #include "collocation/study/stored_solution_reader.h"
@@ -15,6 +14,7 @@
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 #include "models/input/json_cursor.h"
+#include "models/input/json_text.h"
 
 namespace possibility::actions {
 namespace {
@@ -133,7 +133,7 @@ void JumpLibrary::SaveReach(const JumpReach& reach) const {
     rows.push_back({row.height, row.shortest, row.farthest});
   }
   const nlohmann::json document = {{"format", kFormat}, {"identity", identity_}, {"reach", rows}};
-  models::WriteAtomically(folder_ / kReachFile, document.dump(1) + "\n");
+  models::WriteAtomically(folder_ / kReachFile, models::JsonText(document, 1) + "\n");
 }
 
 void JumpLibrary::ReadReach() {

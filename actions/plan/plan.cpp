@@ -1,5 +1,7 @@
 #include "actions/plan/plan.h"
 
+#include <algorithm>
+
 namespace possibility::actions {
 namespace {
 
@@ -23,6 +25,15 @@ const Knot* LastKnot(const Plan& plan) {
 }
 
 }  // namespace
+
+bool HasFlightOrImpact(const Phase& phase) {
+  return phase.contacts.empty() || phase.impulses.cols() > 0;
+}
+
+bool HasFlightOrImpact(const Segment& segment) {
+  return std::any_of(segment.phases.begin(), segment.phases.end(),
+                     [](const Phase& phase) { return HasFlightOrImpact(phase); });
+}
 
 double Plan::duration() const {
   const Knot* first = FirstKnot(*this);

@@ -45,6 +45,10 @@ struct Segment {
   std::array<int, 2> vertices = {-1, -1};
 };
 
+/// Whether the robot flies or hits the ground.
+bool HasFlightOrImpact(const Phase& phase);
+bool HasFlightOrImpact(const Segment& segment);
+
 /// The explored graph Gamma_PG without its refuted edges; for reports and pictures.
 struct ExploredGraph {
   struct Vertex {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -16,6 +15,7 @@
 #include "models/input/action_name.h"
 #include "models/input/input_error.h"
 #include "models/input/json_cursor.h"
+#include "models/input/json_text.h"
 
 namespace possibility::actions {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "actions/plan/plan_series.h"
 #include "models/input/atomic_file.h"
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 
 namespace possibility::actions {
 namespace {

@@ -23,8 +23,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kTouching = 1.1e-3;  // m: a plan's points bear within 1 mm of their ground
-constexpr double kEdge = 0.01;      // m: a rigid sole bears on an edge that it overlaps
-constexpr double kRest = 1e-3;      // m/s and rad/s
+constexpr double kEdge = 0.01;        // m: a rigid sole bears on an edge that it overlaps
+constexpr double kRest = 1e-3;        // m/s and rad/s
 
 /// The knots of a segment as one function of time.
 class Track {
@@ -219,13 +219,6 @@ class Rollout {
 bool RolloutDrift::follows() const {
   return failure.empty() && end_position <= kRolloutPosition &&
          end_orientation <= kRolloutOrientation && (!ends_at_rest || end_speed <= kRolloutSpeed);
-}
-
-bool IsDynamic(const Phase& phase) { return phase.contacts.empty() || phase.impulses.cols() > 0; }
-
-bool IsDynamic(const Segment& segment) {
-  return std::any_of(segment.phases.begin(), segment.phases.end(),
-                     [](const Phase& phase) { return IsDynamic(phase); });
 }
 
 RolloutDrift RollOutSegment(const Segment& segment, const models::RobotModel& robot,

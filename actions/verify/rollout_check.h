@@ -42,10 +42,6 @@ inline constexpr double kRolloutPosition = 0.05;    // m
 inline constexpr double kRolloutOrientation = 0.1;  // rad
 inline constexpr double kRolloutSpeed = 0.05;       // m/s and rad/s
 
-/// Whether a phase has flight or an impact.
-bool IsDynamic(const Phase& phase);
-bool IsDynamic(const Segment& segment);
-
 /// Simulates the robot from the initial state of `segment`, with the plan's torques and joint
 /// feedback alone (the root's pose is not fed back), on ground at the heights at which the plan
 /// bears. The simulation decides about contacts, not the plan. Errors are reported in

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+
+#include "models/input/json_text.h"
 
 namespace possibility::actions {
 namespace {
@@ -101,7 +102,7 @@ std::string FormatJson(const VerificationReport& report) {
   }
   if (!report.rollouts.empty()) json["rollout"] = nlohmann::ordered_json::array();
   for (const StretchRollout& rollout : report.rollouts) json["rollout"].push_back(ToJson(rollout));
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return models::JsonText(json);
 }
 
 }  // namespace possibility::actions

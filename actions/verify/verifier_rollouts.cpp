@@ -66,8 +66,9 @@ std::vector<DynamicStretch> DynamicStretches(const Plan& plan) {
     while (end != phases.cend() && !StandsBetween(*(end - 1)->phase, *end->phase)) ++end;
     // Contacts that change while the robot moves make a gait dynamic.
     const bool is_dynamic =
-        end - begin > 1 ||
-        std::any_of(begin, end, [](const PlacedPhase& placed) { return IsDynamic(*placed.phase); });
+        end - begin > 1 || std::any_of(begin, end, [](const PlacedPhase& placed) {
+          return HasFlightOrImpact(*placed.phase);
+        });
     if (is_dynamic) stretches.push_back(Stretch(begin, end));
     begin = end;
   }

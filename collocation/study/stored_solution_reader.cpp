@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "models/input/file_contents.h"
 #include "models/input/json_cursor.h"
+#include "models/input/json_text.h"
 
 namespace possibility::collocation {
 namespace {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "models/input/atomic_file.h"
+#include "models/input/json_text.h"
 
 namespace possibility::collocation {
 namespace {
@@ -83,8 +83,7 @@ Json ToJson(const StoredSolution& solution) {
 }  // namespace
 
 void WriteSolution(const std::filesystem::path& file, const StoredSolution& solution) {
-  const std::string text =
-      ToJson(solution).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = models::JsonText(ToJson(solution)) + "\n";
   models::WriteAtomically(file, text);
 }
 

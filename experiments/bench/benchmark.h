@@ -1,12 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/support/statistics.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +15,7 @@
 #include "experiments/support/option_values.h"
 #include "experiments/support/standard_streams.h"
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 #include "models/input/nearest_name.h"
 #include "models/robot/robot_yaml.h"
 
@@ -79,7 +79,7 @@ ExitCode RunBench(const BenchOptions& options) {
   const BenchmarkReport report =
       found->second(options, models::LoadRobotModel(options.robot), &ShowRound);
   if (options.json) {
-    PrintOut("{}\n", report.Json().dump());
+    PrintOut("{}\n", models::JsonText(report.Json()));
   } else {
     PrintOut("{}", report.Text());
   }
@@ -89,16 +89,14 @@ ExitCode RunBench(const BenchOptions& options) {
 }  // namespace
 
 Command AddBenchCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("bench", "Measures speed, against peers in the same run.");
+  CommandOptions command(program, "bench", "Measures speed, against peers in the same run.");
   auto options = std::make_shared<BenchOptions>();
-  app->add_option("SUBJECT", options->subject, "collocation, confirmation, dynamics or graph")
-      ->required();
-  app->add_option("--robot", options->robot, "Robot YAML")->capture_default_str();
-  app->add_option("--scenarios", options->scenarios, "graph: folder of the paper's scenarios")
-      ->capture_default_str();
-  app->add_option("--seeds", options->seeds, "graph: searches of each planner (default 20)");
-  app->add_flag("--json", options->json, "One JSON object on stdout, nothing else");
-  return {app, [options] { return RunBench(*options); }};
+  command.AddRequired("SUBJECT", &options->subject, "collocation, confirmation, dynamics or graph");
+  command.AddOptional("--robot", &options->robot, "Robot YAML");
+  command.AddOptional("--scenarios", &options->scenarios, "graph: folder of the paper's scenarios");
+  command.AddOptional("--seeds", &options->seeds, "graph: searches of each planner (default 20)");
+  command.AddFlag("--json", &options->json, "One JSON object on stdout, nothing else");
+  return {command, [options] { return RunBench(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -2,9 +2,7 @@
 
 #include <functional>
 
-namespace CLI {
-class App;
-}
+#include "experiments/support/command_options.h"
 
 namespace possibility::experiments {
 
@@ -19,7 +17,7 @@ enum ExitCode : int {
 
 /// A command of the program: its part of the command line, and its execution after parsing.
 struct Command {
-  CLI::App* options = nullptr;
+  CommandOptions options;
   /// @throws InputError for bad input.
   std::function<ExitCode()> run;
 };

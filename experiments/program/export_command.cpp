@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -63,12 +62,12 @@ ExitCode RunExport(const ExportOptions& options) {
 }  // namespace
 
 Command AddExportCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("export", "Writes a plan's numbers as CSV tables.");
+  CommandOptions command(program, "export", "Writes a plan's numbers as CSV tables.");
   auto options = std::make_shared<ExportOptions>();
-  app->add_option("PLAN", options->plan, "plan.json or its folder")->required();
-  app->add_option("--csv", options->csv, "Folder for the tables")->required();
-  app->add_option("--step", options->step, "s between rows (default: the plan's knots)");
-  return {app, [options] { return RunExport(*options); }};
+  command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
+  command.AddRequired("--csv", &options->csv, "Folder for the tables");
+  command.AddOptional("--step", &options->step, "s between rows (default: the plan's knots)");
+  return {command, [options] { return RunExport(*options); }};
 }
 
 }  // namespace possibility::experiments

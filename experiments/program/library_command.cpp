@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "actions/jump/jump_sweep.h"
@@ -19,6 +17,7 @@
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 #include "models/robot/robot_yaml.h"
 
 namespace possibility::experiments {
@@ -100,7 +99,7 @@ void PrintJson(const std::vector<actions::JumpSweepEntry>& entries,
   for (const actions::JumpReach::Row& row : reach.rows) {
     table.push_back({row.height, row.shortest, row.farthest});
   }
-  PrintOut("{}\n", nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}.dump());
+  PrintOut("{}\n", models::JsonText(nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}));
 }
 
 void SaveTransitions(const models::RobotModel& robot, const std::string& folder) {
@@ -146,16 +145,15 @@ ExitCode RunLibrary(const LibraryOptions& options) {
 }  // namespace
 
 Command AddLibraryCommand(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("library", "Solves a robot's jumps and transitions for later plans.");
+  CommandOptions command(program, "library",
+                         "Solves a robot's jumps and transitions for later plans.");
   auto options = std::make_shared<LibraryOptions>();
-  app->add_option("ROBOT", options->robot, "Robot YAML")->required();
-  app->add_option("--out", options->out, "Folder of the library")->required();
-  app->add_option("--heights", options->heights, "Heights of landing grounds, m")
-      ->capture_default_str();
-  app->add_option("--threads", options->threads, "Solves at a time; default: all cores");
-  app->add_flag("--json", options->json, "Print one JSON object");
-  return {app, [options] { return RunLibrary(*options); }};
+  command.AddRequired("ROBOT", &options->robot, "Robot YAML");
+  command.AddRequired("--out", &options->out, "Folder of the library");
+  command.AddOptional("--heights", &options->heights, "Heights of landing grounds, m");
+  command.AddOptional("--threads", &options->threads, "Solves at a time; default: all cores");
+  command.AddFlag("--json", &options->json, "Print one JSON object");
+  return {command, [options] { return RunLibrary(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -87,13 +86,13 @@ ExitCode RunMerge(const MergeOptions& options) {
 }  // namespace
 
 Command AddMergeCommand(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("merge", "Puts the parts of a table or sweep (--shard) together.");
+  CommandOptions command(program, "merge",
+                         "Puts the parts of a table or sweep (--shard) together.");
   auto options = std::make_shared<MergeOptions>();
-  app->add_option("DIR", options->folders, "Folders of the parts")->required();
-  app->add_option("--out", options->out, "Folder for the whole")->required();
-  app->add_flag("--json", options->json, "Print one JSON object");
-  return {app, [options] { return RunMerge(*options); }};
+  command.AddRequired("DIR", &options->folders, "Folders of the parts");
+  command.AddRequired("--out", &options->out, "Folder for the whole");
+  command.AddFlag("--json", &options->json, "Print one JSON object");
+  return {command, [options] { return RunMerge(*options); }};
 }
 
 }  // namespace possibility::experiments

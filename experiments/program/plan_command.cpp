@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -32,7 +31,6 @@
 namespace possibility::experiments {
 namespace {
 
-/// Numbers are read as text: CLI11 would wrap a negative seed around and truncate "1.5".
 struct PlanOptions {
   std::string scenario;
   std::string out;
@@ -139,22 +137,22 @@ ExitCode RunPlan(const PlanOptions& options) {
 }  // namespace
 
 Command AddPlanCommand(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("plan", "Plans, verifies and writes plan.json and a page.");
+  CommandOptions command(program, "plan", "Plans, verifies and writes plan.json and a page.");
   auto options = std::make_shared<PlanOptions>();
-  app->add_option("SCENARIO", options->scenario, "Scenario YAML")->required();
-  app->add_option("--out", options->out, "Folder for the plan (default: out/<scenario name>)");
-  app->add_option("--seed", options->seed, "Random seed (default: the scenario's)");
-  app->add_option("--threads", options->threads, "1 to 256 (default: all this machine has)");
-  app->add_option("--time-limit", options->time_limit, "s (default: the scenario's)");
-  app->add_option("--actions", options->actions, "Of the scenario's only these, e.g. walk,crawl");
-  app->add_option("--library", options->library,
-                  "Folder of solved jumps (default: jumps, beside the robot)");
-  app->add_option("--preset", options->preset, "Planner: default, or paper (as it prints it)");
-  app->add_option("--explorers", options->explorers,
-                  "Only these: straight, lattice, random, shortcuts (default: the preset's)");
-  app->add_flag("--json", options->json, "Print one JSON object");
-  return {app, [options] { return RunPlan(*options); }};
+  command.AddRequired("SCENARIO", &options->scenario, "Scenario YAML");
+  command.AddOptional("--out", &options->out, "Folder for the plan (default: out/<scenario name>)");
+  command.AddOptional("--seed", &options->seed, "Random seed (default: the scenario's)");
+  command.AddOptional("--threads", &options->threads, "1 to 256 (default: all this machine has)");
+  command.AddOptional("--time-limit", &options->time_limit, "s (default: the scenario's)");
+  command.AddOptional("--actions", &options->actions,
+                      "Of the scenario's only these, e.g. walk,crawl");
+  command.AddOptional("--library", &options->library,
+                      "Folder of solved jumps (default: jumps, beside the robot)");
+  command.AddOptional("--preset", &options->preset, "Planner: default, or paper (as it prints it)");
+  command.AddOptional("--explorers", &options->explorers,
+                      "Only these: straight, lattice, random, shortcuts (default: the preset's)");
+  command.AddFlag("--json", &options->json, "Print one JSON object");
+  return {command, [options] { return RunPlan(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -14,7 +13,6 @@
 #include "actions/plan/plan.h"
 #include "experiments/program/bench_command.h"
 #include "experiments/program/command.h"
-#include "experiments/program/empty_values.h"
 #include "experiments/program/export_command.h"
 #include "experiments/program/library_command.h"
 #include "experiments/program/merge_command.h"
@@ -27,6 +25,7 @@
 #include "experiments/support/run_environment.h"
 #include "experiments/support/standard_streams.h"
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -52,7 +51,7 @@ ExitCode Fail(ExitCode code, const std::string& message, bool json) {
   if (!json) return code;
   const nlohmann::ordered_json object = {{"status", "error"}, {"error", line}};
   try {
-    PrintOut("{}\n", object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    PrintOut("{}\n", models::JsonText(object));
   } catch (const InputError&) {
     // Standard output may be what failed.
   }
@@ -65,7 +64,6 @@ ExitCode RunCommand(int argc, char** argv) {
   program.set_version_flag("--version", &Version, "Print the versions of program and plan files");
   std::vector<Command> commands;
   for (const auto add : kCommands) commands.push_back(add(program));
-  RefuseEmptyValues(&program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -75,7 +73,7 @@ ExitCode RunCommand(int argc, char** argv) {
     return kDone;
   }
   const auto chosen = std::find_if(commands.begin(), commands.end(), [](const Command& command) {
-    return command.options->parsed();
+    return command.options.IsChosen();
   });
   return chosen->run();
 }

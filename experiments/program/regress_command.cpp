@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 #include "models/input/nearest_name.h"
 #include "models/robot/robot_model.h"
 #include "models/robot/robot_yaml.h"
@@ -163,7 +163,7 @@ void Print(const RegressionReport& report, const std::optional<RegressionCompari
   }
   nlohmann::ordered_json json = report.Json();
   if (comparison) json["comparison"] = comparison->Json();
-  PrintOut("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  PrintOut("{}\n", models::JsonText(json));
 }
 
 ExitCode Verdict(const RegressionReport& report,
@@ -188,8 +188,7 @@ ExitCode RunRegress(const RegressOptions& options) {
 
   const RegressionReport report = RunWithProgress(problems, run_options);
   if (!options.out.empty()) {
-    WriteOutput(options.out,
-                report.Json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    WriteOutput(options.out, models::JsonText(report.Json(), 2) + "\n");
   }
   if (!options.plots.empty()) WriteRegressionPages(report, options.plots);
   std::optional<RegressionComparison> comparison;
@@ -203,25 +202,26 @@ ExitCode RunRegress(const RegressOptions& options) {
 }  // namespace
 
 Command AddRegressCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand(
-      "regress", "Solves optimal-control problems whose answers are known, to see what changed.");
+  CommandOptions command(
+      program, "regress",
+      "Solves optimal-control problems whose answers are known, to see what changed.");
   auto options = std::make_shared<RegressOptions>();
-  app->add_option("--out", options->out, "File for the results, JSON");
-  app->add_option("--against", options->against, "File of an earlier run: what got worse since?");
-  app->add_option("--plots", options->plots,
-                  "Folder for pictures of the solutions, SVG, and a page with all of them");
-  app->add_option("--problem", options->problems, "Names and commas (default: all)");
-  app->add_option("--robot", options->robot, "For the robot's problems")->capture_default_str();
-  app->add_option(
-      "--scheme", options->scheme,
+  command.AddOptional("--out", &options->out, "File for the results, JSON");
+  command.AddOptional("--against", &options->against,
+                      "File of an earlier run: what got worse since?");
+  command.AddOptional("--plots", &options->plots,
+                      "Folder for pictures of the solutions, SVG, and a page with all of them");
+  command.AddOptional("--problem", &options->problems, "Names and commas (default: all)");
+  command.AddOptional("--robot", &options->robot, "For the robot's problems");
+  command.AddOptional(
+      "--scheme", &options->scheme,
       "trapezoidal, hermite_simpson or hermite_simpson_compressed (default: each problem's own)");
-  app->add_option("--intervals", options->intervals,
-                  "Per phase to begin with, 1 to 10000 (default: each problem's own)");
-  app->add_option("--linear-solver", options->linear_solver, "ldlt or mumps")
-      ->capture_default_str();
-  app->add_option("--hessian", options->hessian, "exact or limited_memory")->capture_default_str();
-  app->add_flag("--json", options->json, "Print one JSON object");
-  return {app, [options] { return RunRegress(*options); }};
+  command.AddOptional("--intervals", &options->intervals,
+                      "Per phase to begin with, 1 to 10000 (default: each problem's own)");
+  command.AddOptional("--linear-solver", &options->linear_solver, "ldlt or mumps");
+  command.AddOptional("--hessian", &options->hessian, "exact or limited_memory");
+  command.AddFlag("--json", &options->json, "Print one JSON object");
+  return {command, [options] { return RunRegress(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cctype>
 #include <filesystem>
 #include <memory>
@@ -115,16 +114,14 @@ ExitCode RunSweep(const SweepOptions& options) {
 }  // namespace
 
 Command AddSweepCommand(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("sweep", "Success and time over a parameter of a scenario.");
+  CommandOptions command(program, "sweep", "Success and time over a parameter of a scenario.");
   auto options = std::make_shared<SweepOptions>();
-  app->add_option("TEMPLATE", options->scenario_template, "Scenario YAML with ${placeholders}")
-      ->required();
-  app->add_option("--parameter", options->parameter, "Name in the placeholders")->required();
-  app->add_option("--values", options->values, "FIRST:LAST:STEP, or numbers and commas")
-      ->required();
-  AddExperimentOptions(&options->experiment, app);
-  return {app, [options] { return RunSweep(*options); }};
+  command.AddRequired("TEMPLATE", &options->scenario_template,
+                      "Scenario YAML with ${placeholders}");
+  command.AddRequired("--parameter", &options->parameter, "Name in the placeholders");
+  command.AddRequired("--values", &options->values, "FIRST:LAST:STEP, or numbers and commas");
+  AddExperimentOptions(&options->experiment, &command);
+  return {command, [options] { return RunSweep(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -125,14 +124,13 @@ ExitCode RunTable(const TableOptions& options) {
 }  // namespace
 
 Command AddTableCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("table", "The paper's Table 1, ours beside it.");
+  CommandOptions command(program, "table", "The paper's Table 1, ours beside it.");
   auto options = std::make_shared<TableOptions>();
-  AddExperimentOptions(&options->experiment, app);
-  app->add_option("--scenario", options->scenario, "Only rows of this scenario, or one row");
-  app->add_option("--scenarios", options->scenarios, "Folder of the scenarios")
-      ->capture_default_str();
-  app->add_flag("--twins", options->twins, "The scenarios without a way through as well");
-  return {app, [options] { return RunTable(*options); }};
+  AddExperimentOptions(&options->experiment, &command);
+  command.AddOptional("--scenario", &options->scenario, "Only rows of this scenario, or one row");
+  command.AddOptional("--scenarios", &options->scenarios, "Folder of the scenarios");
+  command.AddFlag("--twins", &options->twins, "The scenarios without a way through as well");
+  return {command, [options] { return RunTable(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -40,13 +39,13 @@ ExitCode RunVerify(const VerifyOptions& options) {
 }  // namespace
 
 Command AddVerifyCommand(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("verify", "Checks a plan from first principles.");
+  CommandOptions command(program, "verify", "Checks a plan from first principles.");
   auto options = std::make_shared<VerifyOptions>();
-  app->add_option("PLAN", options->plan, "plan.json or its folder")->required();
-  app->add_option("--robot", options->robot, "Robot YAML (default: the scenario's)");
-  app->add_option("--scenario", options->scenario, "Scenario YAML (default: the plan's)");
-  app->add_flag("--json", options->json, "Print one JSON object");
-  return {app, [options] { return RunVerify(*options); }};
+  command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
+  command.AddOptional("--robot", &options->robot, "Robot YAML (default: the scenario's)");
+  command.AddOptional("--scenario", &options->scenario, "Scenario YAML (default: the plan's)");
+  command.AddFlag("--json", &options->json, "Print one JSON object");
+  return {command, [options] { return RunVerify(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -79,15 +78,14 @@ ExitCode RunView(const ViewOptions& options) {
 }  // namespace
 
 Command AddViewCommand(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("view", "Writes a page that plays a plan or a jump in a browser.");
+  CommandOptions command(program, "view",
+                         "Writes a page that plays a plan or a jump in a browser.");
   auto options = std::make_shared<ViewOptions>();
-  app->add_option("FILE", options->file, "plan.json or its folder, or a jump of a library")
-      ->required();
-  app->add_option("--robot", options->robot,
-                  "Robot YAML of a jump (default: the one beside its folder jumps)");
-  app->add_option("--out", options->out, "The page (default: beside FILE, ending in .html)");
-  return {app, [options] { return RunView(*options); }};
+  command.AddRequired("FILE", &options->file, "plan.json or its folder, or a jump of a library");
+  command.AddOptional("--robot", &options->robot,
+                      "Robot YAML of a jump (default: the one beside its folder jumps)");
+  command.AddOptional("--out", &options->out, "The page (default: beside FILE, ending in .html)");
+  return {command, [options] { return RunView(*options); }};
 }
 
 }  // namespace possibility::experiments

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -196,9 +197,7 @@ class EntryComparison {
 /// Notes each changed member of environment and options.
 void NoteSettings(const json& old_run, const json& new_run, const char* part,
                   std::vector<RegressionDifference>* differences) {
-  const auto dump = [](const json& value) {
-    return value.dump(-1, ' ', false, json::error_handler_t::replace);
-  };
+  const auto dump = [](const json& value) { return models::JsonText(value); };
   const auto members = [part](const json& run) {
     const auto found = run.find(part);
     return found != run.end() && found->is_object() ? *found : json::object();

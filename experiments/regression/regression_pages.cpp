@@ -9,6 +9,7 @@
 #include "experiments/report/svg_plot.h"
 #include "experiments/report/trajectory_plot.h"
 #include "experiments/support/output_file.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -79,7 +80,7 @@ std::string Summary(const RegressionReport& report) {
       "<h1>Regression suite</h1>\n<p>{} of {} problems within the tolerance of a known optimum; "
       "{:.2f} s. Options: {}</p>\n",
       report.problems.size() - failures, report.problems.size(), seconds,
-      XmlText(report.options.Json().dump()));
+      XmlText(models::JsonText(report.options.Json())));
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/problems/regression_problems.h"
 #include "experiments/support/run_environment.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
-
 #include "actions/verify/verification_report.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -127,7 +126,7 @@ std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& file
   }
   json["plan"] = files.plan.string();
   json["page"] = files.page.string();
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return models::JsonText(json);
 }
 
 }  // namespace possibility::experiments

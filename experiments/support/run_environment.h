@@ -1,7 +1,8 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -91,19 +90,18 @@ void RemoveUnfinished(const fs::path& folder) {
 
 }  // namespace
 
-void AddExperimentOptions(ExperimentOptions* options, CLI::App* app) {
-  app->add_option("--trials", options->trials, "Trials per row and preset")->capture_default_str();
-  app->add_option("--out", options->out, "Folder for results and reports");
-  app->add_option("--preset", options->preset, "Planner: default, paper or both")
-      ->capture_default_str();
-  app->add_option("--threads", options->threads,
-                  "Trials at a time, 1 to 256 (default: all this machine has)");
-  app->add_option("--seed", options->seed, "Seed of the first trial; the others follow it")
-      ->capture_default_str();
-  app->add_option("--shard", options->shard,
-                  "k/n: only part k of n, from 0 (default: the task of a Slurm job array)");
-  app->add_option("--time-limit", options->time_limit, "s per trial (default: the scenario's)");
-  app->add_flag("--json", options->json, "Print one JSON object");
+void AddExperimentOptions(ExperimentOptions* options, CommandOptions* command) {
+  command->AddOptional("--trials", &options->trials, "Trials per row and preset");
+  command->AddOptional("--out", &options->out, "Folder for results and reports");
+  command->AddOptional("--preset", &options->preset, "Planner: default, paper or both");
+  command->AddOptional("--threads", &options->threads,
+                       "Trials at a time, 1 to 256 (default: all this machine has)");
+  command->AddOptional("--seed", &options->seed, "Seed of the first trial; the others follow it");
+  command->AddOptional("--shard", &options->shard,
+                       "k/n: only part k of n, from 0 (default: the task of a Slurm job array)");
+  command->AddOptional("--time-limit", &options->time_limit,
+                       "s per trial (default: the scenario's)");
+  command->AddFlag("--json", &options->json, "Print one JSON object");
 }
 
 ExperimentSettings ParseExperimentOptions(const ExperimentOptions& options,

@@ -9,18 +9,15 @@
 #include <vector>
 
 #include "actions/planner/planner_switches.h"
+#include "experiments/support/command_options.h"
 #include "experiments/trials/shard.h"
 #include "experiments/trials/trial_record.h"
 #include "models/robot/robot_model.h"
 #include "models/world/scenario.h"
 
-namespace CLI {
-class App;
-}
-
 namespace possibility::experiments {
 
-/// Options common to all experiments, as text (CLI11 would wrap negative numbers around).
+/// Options common to all experiments, as text.
 struct ExperimentOptions {
   std::string trials = "50";
   std::string out;
@@ -31,7 +28,7 @@ struct ExperimentOptions {
   std::string time_limit;
   bool json = false;
 };
-void AddExperimentOptions(ExperimentOptions* options, CLI::App* app);
+void AddExperimentOptions(ExperimentOptions* options, CommandOptions* command);
 
 struct ExperimentSettings {
   int trials = 50;  ///< per row and preset

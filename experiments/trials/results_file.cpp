@@ -13,13 +13,12 @@
 #include "experiments/support/output_file.h"
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
 
-std::string Line(const TrialRecord& record) {
-  return record.Json().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-}
+std::string Line(const TrialRecord& record) { return models::JsonText(record.Json()) + '\n'; }
 
 /// Whether `path` still is the file that `descriptor` was opened from.
 bool IsFile(const std::filesystem::path& path, int descriptor) {

@@ -13,6 +13,7 @@
 #include "experiments/support/output_file.h"
 #include "experiments/trials/plan_gallery.h"
 #include "experiments/trials/trial_groups.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -238,7 +239,7 @@ std::string SweepReport::Markdown() const {
 
 void SweepReport::Write(const std::filesystem::path& folder) const {
   const std::vector<TrialGroup> groups = GroupTrials(trials);
-  WriteOutput(folder / "summary.json", Summary().dump(2) + "\n");
+  WriteOutput(folder / "summary.json", models::JsonText(Summary(), 2) + "\n");
   WriteOutput(folder / "sweep.csv", Csv());
   WriteOutput(folder / "sweep.md", Markdown());
   const std::string success = SvgDocument({SuccessPlotOf(groups)});

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "experiments/trials/trial_record.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

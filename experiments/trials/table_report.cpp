@@ -16,6 +16,7 @@
 #include "experiments/trials/table_rows.h"
 #include "experiments/trials/trial_groups.h"
 #include "experiments/trials/trial_plots.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -220,7 +221,7 @@ std::string TableReport::Markdown() const {
 
 void TableReport::Write(const std::filesystem::path& folder) const {
   const std::vector<TrialGroup> groups = GroupTrials(trials);
-  WriteOutput(folder / "summary.json", Summary().dump(2) + "\n");
+  WriteOutput(folder / "summary.json", models::JsonText(Summary(), 2) + "\n");
   WriteOutput(folder / "table.md", Markdown());
   std::vector<PageSection> sections = {
       {"Ours and the paper's", Notes(trials), SideBySide(groups).Html(), {}, false}};

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/support/statistics.h"
 #include "experiments/trials/trial_record.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

@@ -3,12 +3,12 @@
 #include <compare>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "actions/plan/plan.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

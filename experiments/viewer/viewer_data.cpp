@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "dynamics/tree/tree_kinematics.h"
@@ -14,6 +13,7 @@
 #include "experiments/report/plan_summary.h"
 #include "experiments/viewer/viewer_motion.h"
 #include "experiments/viewer/viewer_packing.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {
@@ -175,7 +175,7 @@ Json ActionColorsJson(const actions::Plan& plan) {
 /// No '<' or '&', so that nothing inside can end the element; text that is not UTF-8 is replaced.
 std::string ScriptSafe(const Json& json) {
   std::string safe;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+  for (const char c : models::AsciiJsonText(json)) {
     if (c == '<' || c == '>' || c == '&') {
       safe += fmt::format("\\u{:04x}", static_cast<int>(c));
     } else {

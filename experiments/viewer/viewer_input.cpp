@@ -1,8 +1,7 @@
 #include "experiments/viewer/viewer_input.h"
 
-#include <nlohmann/json.hpp>
-
 #include "models/input/file_contents.h"
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 namespace {

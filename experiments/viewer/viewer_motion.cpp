@@ -35,7 +35,7 @@ Json MotionPacker::Add(const actions::Segment& segment) {
   const std::vector<std::string> names = PhaseNames(robot_, segment);
   Json phases = Json::array();
   for (std::size_t i = 0; i < segment.phases.size(); ++i) {
-    phases.push_back(AddPhase(segment.phases[i], IsDynamic(segment)));
+    phases.push_back(AddPhase(segment.phases[i], HasFlightOrImpact(segment)));
     phases.back()["name"] = names[i];
   }
   return {{"action", segment.action}, {"phases", phases}};

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "actions/plan/plan.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "experiments/viewer/viewer_packing.h"
+#include "models/input/json_text.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::experiments {

@@ -3,9 +3,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "models/input/json_text.h"
 
 namespace possibility::experiments {
 

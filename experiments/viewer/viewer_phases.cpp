@@ -87,10 +87,4 @@ std::vector<std::string> PhaseNames(const models::RobotModel& robot,
   return names;
 }
 
-bool IsDynamic(const actions::Segment& segment) {
-  return Flies(segment) ||
-         std::any_of(segment.phases.begin(), segment.phases.end(),
-                     [](const actions::Phase& phase) { return phase.impulses.cols() > 0; });
-}
-
 }  // namespace possibility::experiments

@@ -18,7 +18,4 @@ namespace possibility::experiments {
 std::vector<std::string> PhaseNames(const models::RobotModel& robot,
                                     const actions::Segment& segment);
 
-/// Whether the segment has flight or an impact.
-bool IsDynamic(const actions::Segment& segment);
-
 }  // namespace possibility::experiments

@@ -15,8 +15,8 @@ namespace {
 
 /// A key, fit for a one-line message.
 std::string QuotedKey(const std::string& key) {
-  const nlohmann::json json(key.substr(0, 40));
-  return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  const nlohmann::ordered_json json(key.substr(0, 40));
+  return AsciiJsonText(json);
 }
 
 /// Rejects duplicate keys of an object.

@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+#include "models/input/json_text.h"
 
 namespace possibility::models {
 

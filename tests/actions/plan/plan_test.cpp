@@ -425,5 +425,13 @@ TEST_F(PlanFile, NeverCrashesOnMutatedValues) {
   }
 }
 
+TEST(HasFlightOrImpactTest, IsTrueWithoutContactsOrWithImpulses) {
+  Segment segment{"walk", {Phase{{"left_sole"}, {}}}};
+  EXPECT_FALSE(HasFlightOrImpact(segment));
+  segment.phases[0].impulses.resize(3, 4);
+  EXPECT_TRUE(HasFlightOrImpact(segment));
+  EXPECT_TRUE(HasFlightOrImpact({"jump", {Phase{{"left_sole"}, {}}, Phase{}}}));
+}
+
 }  // namespace
 }  // namespace possibility::actions

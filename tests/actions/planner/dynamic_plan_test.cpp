@@ -320,14 +320,6 @@ TEST(RolloutCheck, ACancelledOrRefusedRolloutIsReportedInOneLine) {
   EXPECT_EQ(refused.failure.find('\n'), std::string::npos) << refused.failure;
 }
 
-TEST(RolloutCheck, SegmentsWithAnImpactOrAFlightAreDynamic) {
-  Segment segment{"walk", {Phase{{"left_sole"}, {}}}};
-  EXPECT_FALSE(IsDynamic(segment));
-  segment.phases[0].impulses.resize(3, 4);
-  EXPECT_TRUE(IsDynamic(segment));
-  EXPECT_TRUE(IsDynamic({"jump", {Phase{{"left_sole"}, {}}, Phase{}}}));
-}
-
 /// The plinth ends between the feet. The foot over it bears on it, the other foot on the floor.
 TEST(RolloutCheck, EachFootBearsOnTheGroundUnderIt) {
   const models::RobotModel& robot = ValidSubject().robot;

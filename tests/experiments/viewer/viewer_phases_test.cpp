@@ -45,14 +45,5 @@ TEST(PhaseNames, WithSeveralLimbsOffTheGroundNameTheStanceLimb) {
 
 TEST(PhaseNames, RefuseUnknownContacts) { EXPECT_THROW(NamesOf({{"third_foot"}}), InputError); }
 
-TEST(IsDynamic, IsTrueWhenTheRobotFliesOrHitsTheGround) {
-  actions::Segment segment{"any", {{{"sole"}, {}}, {{"sole", "peg"}, {}}}};
-  EXPECT_FALSE(IsDynamic(segment));
-  segment.phases[1].impulses.setZero(3, 5);
-  EXPECT_TRUE(IsDynamic(segment));
-  segment.phases[1] = {{}, {}};
-  EXPECT_TRUE(IsDynamic(segment));
-}
-
 }  // namespace
 }  // namespace possibility::experiments
