@@ -151,9 +151,12 @@ class Rollout {
   dynamics::RobotRolloutSettings SimulatorSettings() const {
     dynamics::RobotRolloutSettings settings;
     settings.touching = kTouching;
-    settings.hybrid.integration.relative_tolerance = settings_.tolerance;
-    settings.hybrid.integration.absolute_tolerance = settings_.tolerance;
-    settings.hybrid.integration.cancellation = settings_.cancellation;
+    dynamics::OdeSettings& integration = settings.hybrid.integration;
+    integration.relative_tolerance = settings_.tolerance;
+    integration.absolute_tolerances.resize(model_->nq() + model_->nv());
+    integration.absolute_tolerances << VectorXd::Constant(model_->nq(), settings_.tolerance),
+        VectorXd::Constant(model_->nv(), settings_.velocity_tolerance);
+    integration.cancellation = settings_.cancellation;
     settings.hybrid.end_at_zeno = true;
     return settings;
   }

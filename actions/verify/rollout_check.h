@@ -12,11 +12,12 @@ namespace possibility::actions {
 struct RolloutCheckSettings {
   /// rad or m: joint error at which feedback alone would demand the full effort.
   double full_effort_error = 0.02;
-  double damping_time = 0.03;      ///< s, damping over stiffness
-  double settling_time = 0.5;      ///< s, hold time of the last posture if the motion ends at rest
-  double sample_time = 0.005;      ///< s, between compared states
-  double tolerance = 1e-8;         ///< of the integrator, relative and absolute
-  CancellationToken cancellation;  ///< asked before every step
+  double damping_time = 0.03;  ///< s, damping over stiffness
+  double settling_time = 0.5;  ///< s, hold time of the last posture if the motion ends at rest
+  double sample_time = 0.005;  ///< s, between compared states
+  double tolerance = 1e-8;     ///< of the integrator: relative, and absolute of configurations
+  double velocity_tolerance = 1e-5;  ///< of the integrator: absolute, m/s and rad/s
+  CancellationToken cancellation;    ///< asked before every step
 };
 
 /// Deviation of a simulation from its reference motion.

@@ -77,7 +77,31 @@ const VectorXd& ForwardDynamics::Free(const Eigen::Ref<const VectorXd>& forces) 
   CheckForces(forces);
   Factor();
   AccelerateFreely(forces);
+  has_points_ = false;
   return free_;
+}
+
+ConstrainedResponse ForwardDynamics::Response() {
+  RequireState();
+  Factor();
+  const Eigen::Index nv = model().nv();
+  ConstrainedResponse response;
+  response.to_forces.resize(nv, nv);
+  VectorXd column(nv);
+  for (Eigen::Index i = 0; i < nv; ++i) {
+    column = VectorXd::Unit(nv, i);
+    mass_factor_.Solve(&column);
+    response.to_forces.col(i) = column;
+  }
+  response.to_drift.setZero(nv, nv);
+  if (!has_points_) return response;
+  // With Z = M^-1 J' and the Gram matrix G = J Z: M^-1 - Z G^+ Z', and Z G^+ J.
+  MatrixXd Z = half_solved_;
+  for (Eigen::Index i = 0; i < Z.cols(); ++i) mass_factor_.SolveLower(Z.col(i));
+  const MatrixXd shares = gram_.SolveRoughly(Z.transpose());
+  response.to_drift.noalias() = Z * (shares * dynamics_.MassMatrix());
+  response.to_forces.noalias() -= Z * shares;
+  return response;
 }
 
 const ConstrainedMotion& ForwardDynamics::Held(const Eigen::Ref<const VectorXd>& forces,
@@ -115,6 +139,7 @@ const ConstrainedMotion& ForwardDynamics::Held(const Eigen::Ref<const VectorXd>&
     }
   }
   SolveMultipliers(points, scale, "m/s^2");
+  has_points_ = true;
   motion_.acceleration = free_ + change_;
   motion_.forces = Eigen::Map<const Eigen::Matrix3Xd>(multipliers_.data(), 3, points.size());
   return motion_;
@@ -124,6 +149,7 @@ const Impact& ForwardDynamics::Hit(const std::vector<ContactPoint>& points) {
   RequireState();
   for (std::size_t i = 0; i < points.size(); ++i) CheckPoint(i, points[i]);
   Factor();
+  has_points_ = false;
   half_solved_.resize(model().nv(), 3 * points.size());
   required_.resize(3 * points.size());
   double scale = 0;

@@ -50,6 +50,11 @@ void GramSolver::Solve(const Eigen::Ref<const VectorXd>& r, double tolerance, Ve
   if (size > tolerance) SolveOrthogonally(r, x, residual);
 }
 
+MatrixXd GramSolver::SolveRoughly(const Eigen::Ref<const MatrixXd>& R) const {
+  if (R.rows() == 0) return R;
+  return regularised_.solve(R);
+}
+
 /// Uses Y P = Q [T 0; 0 0] Z. Keeps directions whose squares are lost to rounding in the Gram
 /// matrix.
 void GramSolver::SolveOrthogonally(const Eigen::Ref<const VectorXd>& r, VectorXd* x,

@@ -16,6 +16,10 @@ class GramSolver {
   void Solve(const Eigen::Ref<const Eigen::VectorXd>& r, double tolerance, Eigen::VectorXd* x,
              Eigen::VectorXd* residual) const;
 
+  /// About (Y'Y)^+ R for a matrix R (m x k) whose columns are in the range of Y': accurate to 1e-7
+  /// of the result in well-determined directions.
+  Eigen::MatrixXd SolveRoughly(const Eigen::Ref<const Eigen::MatrixXd>& R) const;
+
  private:
   void SolveOrthogonally(const Eigen::Ref<const Eigen::VectorXd>& r, Eigen::VectorXd* x,
                          Eigen::VectorXd* residual) const;

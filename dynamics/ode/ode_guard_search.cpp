@@ -99,7 +99,8 @@ double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
   // Neighbouring pieces agree only to the local error, so this one may begin beyond zero.
   if (at_low <= 0) return low;
   const double resolution =
-      4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+      std::max(settings_.guard_resolution, 4 * std::numeric_limits<double>::epsilon() *
+                                               std::max(std::abs(low), std::abs(high)));
   bool moved_low = false, moved_high = false;
   for (int iteration = 1; high - low > resolution && at_high != 0; ++iteration) {
     const double share = iteration % 3 == 0 ? 0.5 : at_low / (at_low - at_high);
@@ -122,14 +123,19 @@ double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
   return high;
 }
 
+int GuardSearch::Samples(double length) const {
+  if (!std::isfinite(settings_.max_step)) return settings_.guard_samples;
+  const double share = std::min(1.0, length / settings_.max_step);
+  return std::max(1, static_cast<int>(std::ceil(share * settings_.guard_samples)));
+}
+
 std::optional<GuardCrossing> GuardSearch::Search(const OdePiece& piece, double begin) {
   if (problem_.guards.empty()) return std::nullopt;
   const double length = piece.end - begin;
+  const int samples = Samples(length);
   double from = begin;
-  for (int sample = 1; sample <= settings_.guard_samples; ++sample) {
-    const double to = sample == settings_.guard_samples
-                          ? piece.end
-                          : begin + length * sample / settings_.guard_samples;
+  for (int sample = 1; sample <= samples; ++sample) {
+    const double to = sample == samples ? piece.end : begin + length * sample / samples;
     const std::vector<Bracket> brackets = Brackets(piece, from, to);
     if (!brackets.empty()) {
       std::vector<double> roots;

@@ -29,6 +29,8 @@ class GuardSearch {
   long evaluations() const { return evaluations_; }
 
  private:
+  /// Number of evaluations in a step.
+  int Samples(double length) const;
   struct Bracket {
     int guard = 0;
     double side = 0;

@@ -1,11 +1,10 @@
-// The only file that includes SUNDIALS (docs/dynamics.md: the SUNDIALS seam).
+// Only this file and dense_linear_solver include SUNDIALS (docs/dynamics.md: the SUNDIALS seam).
 #include "dynamics/ode/ode_integrator.h"
 
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
@@ -19,6 +18,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "dynamics/ode/dense_linear_solver.h"
 #include "dynamics/ode/ode_guard_search.h"
 
 namespace possibility::dynamics {
@@ -155,6 +155,7 @@ class Stepper {
     Check(CVodeGetNumSteps(cvode_.get(), &statistics.steps));
     Check(CVodeGetNumErrTestFails(cvode_.get(), &statistics.error_test_failures));
     statistics.rate_evaluations = rate_evaluations_;
+    if (linear_) Check(CVodeGetNumJacEvals(cvode_.get(), &statistics.jacobian_evaluations));
     return statistics;
   }
 
@@ -223,9 +224,10 @@ class Stepper {
     const Eigen::Index size = problem_.start.size();
     matrix_.reset(SUNDenseMatrix(size, size, context_.get()));
     if (!matrix_) throw std::bad_alloc();
-    linear_.reset(SUNLinSol_Dense(state_.get(), matrix_.get(), context_.get()));
+    linear_.reset(MakeDenseLinearSolver(context_.get()));
     if (!linear_) throw std::bad_alloc();
     Check(CVodeSetLinearSolver(cvode_.get(), linear_.get(), matrix_.get()));
+    if (problem_.jacobian) Check(CVodeSetJacFn(cvode_.get(), &EvaluateJacobian));
   }
 
   void Check(int flag) {
@@ -243,7 +245,7 @@ class Stepper {
     Fail(why);
   }
 
-  // These three are called from C: no exception may pass through it.
+  // These are called from C: no exception may pass through it.
   static int EvaluateRate(double time, N_Vector state, N_Vector rate, void* self) noexcept {
     return static_cast<Stepper*>(self)->Evaluate(time, state, rate);
   }
@@ -259,6 +261,24 @@ class Stepper {
       not_finite_ = bad;
       not_finite_time_ = time;
       return kRecoverable;
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return kUnrecoverable;
+    }
+  }
+
+  static int EvaluateJacobian(double time, N_Vector state, N_Vector /*rate*/, SUNMatrix jacobian,
+                              void* self, N_Vector, N_Vector, N_Vector) noexcept {
+    return static_cast<Stepper*>(self)->Differentiate(time, state, jacobian);
+  }
+
+  int Differentiate(double time, N_Vector state, SUNMatrix jacobian) noexcept {
+    constexpr int kUnrecoverable = -1, kRecoverable = 1;
+    try {
+      const Eigen::Index size = problem_.start.size();
+      Eigen::Map<Eigen::MatrixXd> values(SUNDenseMatrix_Data(jacobian), size, size);
+      problem_.jacobian(time, AsVector(state), values);
+      return values.allFinite() ? 0 : kRecoverable;
     } catch (...) {
       thrown_ = std::current_exception();
       return kUnrecoverable;

@@ -21,6 +21,11 @@ using OdeRate = std::function<void(double t, const Eigen::Ref<const Eigen::Vecto
 using OdeGuardFunction = std::function<void(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                                             Eigen::Ref<Eigen::VectorXd> values)>;
 
+/// Writes an approximation of the derivative of the rate with respect to the state (n x n) at time
+/// t (s) and state x (n). It decides how fast the integrator converges, not to what.
+using OdeJacobian = std::function<void(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
+                                       Eigen::Ref<Eigen::MatrixXd> jacobian)>;
+
 enum class GuardDirection { kFalling, kRising, kBoth };
 
 struct OdeGuard {
@@ -32,11 +37,12 @@ struct OdeGuard {
 
 enum class OdeMethod {
   kAdams,  ///< orders 1 to 12, fixed-point iteration: non-stiff systems
-  kBdf     ///< orders 1 to 5, Newton iteration with a dense Jacobian by differences: stiff systems
+  kBdf     ///< orders 1 to 5, Newton iteration with a dense Jacobian: stiff systems
 };
 
 struct OdeProblem {
   OdeRate rate;
+  OdeJacobian jacobian;  ///< for kBdf; empty: by differences, n evaluations of the rate each
   double start_time = 0;
   double end_time = 0;
   Eigen::VectorXd start;          ///< n
@@ -52,11 +58,13 @@ struct OdeSettings {
   Eigen::VectorXd absolute_tolerances;
   double max_step = std::numeric_limits<double>::infinity();  ///< s
   int max_steps = 100'000;
-  /// Guards are evaluated this many times in each step. Two crossings closer than max_step /
-  /// guard_samples may be missed.
+  /// Guards are evaluated this many times in a step of max_step, and less often in a shorter one,
+  /// at least once. Two crossings closer than max_step / guard_samples may be missed.
   int guard_samples = 2;
   /// |guard| up to this counts as zero at the start.
   double guard_zero = 1e-11;
+  /// s: the time of a crossing is found to within this, or rounding if that is more.
+  double guard_resolution = 0;
   /// s: guards that cross within this time after the first fire together with it.
   double simultaneous = 1e-9;
   /// Asked before every step (OdeEnd::kCancelled).
@@ -67,7 +75,8 @@ enum class OdeEnd { kTime, kGuard, kCancelled };
 
 struct OdeStatistics {
   long steps = 0;
-  long rate_evaluations = 0;  ///< including those for Jacobians
+  long rate_evaluations = 0;  ///< including those for Jacobians by differences
+  long jacobian_evaluations = 0;
   long guard_evaluations = 0;
   long error_test_failures = 0;
 };
@@ -98,8 +107,8 @@ class POSSIBILITY_ODE_API OdeError : public std::runtime_error {
 /// Integrates with CVODE (SUNDIALS: Hindmarsh et al. 2005), whose local error estimates stay within
 /// the tolerances, until the end time, a guard or cancellation. Reentrant.
 /// @throws std::invalid_argument for invalid sizes, tolerances or numbers; OdeError if the
-/// integrator gives up or a guard is not finite. Exceptions of `rate`, `guard_values` and
-/// `cancellation` pass through.
+/// integrator gives up or a guard is not finite. Exceptions of `rate`, `jacobian`, `guard_values`
+/// and `cancellation` pass through.
 POSSIBILITY_ODE_API OdeSolution Integrate(const OdeProblem& problem,
                                           const OdeSettings& settings = {});
 

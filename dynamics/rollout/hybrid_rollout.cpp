@@ -57,6 +57,7 @@ class Runner {
     OdeProblem problem;
     problem.rate = mode_->rate;
     problem.start_time = rollout_.time;
+    problem.jacobian = mode_->jacobian;
     problem.end_time = end_time_;
     problem.start = rollout_.state;
     problem.guards = mode_->guards;
@@ -121,6 +122,7 @@ class Runner {
   void AddStatistics(const OdeStatistics& statistics) {
     rollout_.statistics.steps += statistics.steps;
     rollout_.statistics.rate_evaluations += statistics.rate_evaluations;
+    rollout_.statistics.jacobian_evaluations += statistics.jacobian_evaluations;
     rollout_.statistics.guard_evaluations += statistics.guard_evaluations;
     rollout_.statistics.error_test_failures += statistics.error_test_failures;
   }

@@ -74,6 +74,11 @@ const VectorXd& JointTorques::Evaluate(double t, const Eigen::Ref<const VectorXd
   return torques_;
 }
 
+VectorXd JointTorques::Active(const VectorXd& gains) const {
+  if (gains.size() == 0) return VectorXd::Zero(limits_.size());
+  return (torques_.array().abs() < limits_.array()).select(gains, 0);
+}
+
 /// The robot as one rigid body (joints locked) at rest on its support: base acceleration a and
 /// forces f of least norm with M_bb a + g_b = J_b' f, J_b a = 0; then the joint rows of
 /// M (a, 0) + g - J' f.

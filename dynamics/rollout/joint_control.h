@@ -44,7 +44,12 @@ class JointTorques {
                                   const Eigen::Ref<const Eigen::VectorXd>& v, bool is_supported,
                                   MultibodyDynamics* dynamics);
 
+  /// Gains of the last Evaluate: those of the control, zero where the torque is at its limit.
+  Eigen::VectorXd Stiffness() const { return Active(control_.stiffness); }
+  Eigen::VectorXd Damping() const { return Active(control_.damping); }
+
  private:
+  Eigen::VectorXd Active(const Eigen::VectorXd& gains) const;
   void AddGravityCompensation(MultibodyDynamics* dynamics);
 
   JointControl control_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +19,9 @@ namespace {
 
 using Eigen::Matrix3Xd;
 using Eigen::VectorXd;
+
+/// s: utilisations are recorded this far apart at least.
+constexpr double kUtilisationInterval = 1e-3;
 
 [[noreturn]] void Reject(const std::string& what) {
   throw std::invalid_argument("RobotSimulator: " + what);
@@ -54,6 +58,7 @@ RobotRolloutSettings::RobotRolloutSettings() {
   hybrid.integration.relative_tolerance = 1e-8;
   hybrid.integration.absolute_tolerance = 1e-8;
   hybrid.integration.max_step = 0.02;
+  hybrid.integration.guard_resolution = 1e-11;
 }
 
 VectorXd RobotRollout::Configuration(double t) const {
@@ -139,8 +144,11 @@ class RobotSimulator::Impl {
     if (hybrid.end == HybridEnd::kCancelled) rollout_.end = RobotRolloutEnd::kCancelled;
     if (hybrid.end == HybridEnd::kZeno) rollout_.end = RobotRolloutEnd::kZeno;
     for (const HybridSegment& segment : hybrid.segments) {
+      double recorded = -std::numeric_limits<double>::infinity();
       for (const double t : segment.trajectory.StepTimes()) {
+        if (t - recorded < kUtilisationInterval) continue;
         RecordUtilisation(t, segment.trajectory.State(t), modes_.StanceOf(segment));
+        recorded = t;
       }
     }
   }

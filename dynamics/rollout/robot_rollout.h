@@ -76,8 +76,8 @@ struct RobotRollout {
   Eigen::VectorXd q, v;
   std::vector<RobotContactEvent> events;
   /// By contact: greatest (tangential / normal force) / friction of the resultant of its patch (the
-  /// held points of its link on its plane) at the ends of the integration steps. Impacts are in the
-  /// events. Torsion about the normal is not included.
+  /// held points of its link on its plane) at the ends of integration steps, 1 ms apart or more.
+  /// Impacts are in the events. Torsion about the normal is not included.
   Eigen::VectorXd friction_utilisation;
   /// By joint: greatest |torque| over effort limit, at the same times; 0 for joints without a
   /// limit.

@@ -5,6 +5,7 @@
 namespace possibility::dynamics {
 
 using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 RolloutDynamics::RolloutDynamics(std::shared_ptr<const MultibodyModel> model,
@@ -106,6 +107,36 @@ VectorXd RolloutDynamics::Accelerate(double t, const Eigen::Ref<const VectorXd>&
   const ConstrainedMotion& motion = forward_.Held(joint_forces, stance.points);
   if (forces != nullptr) *forces = motion.forces;
   return motion.acceleration;
+}
+
+void RolloutDynamics::DifferentiateRate(double t, const Eigen::Ref<const VectorXd>& state,
+                                        const RolloutStance& stance,
+                                        Eigen::Ref<MatrixXd> jacobian) {
+  Accelerate(t, state, stance, nullptr);
+  const int joints = model().num_joints();
+  const ConstrainedResponse response = forward_.Response();
+  const double rate = 1 / forward_.settings().drift_time;
+  MatrixXd to_position = -rate * rate * response.to_drift;
+  MatrixXd to_velocity = -2 * rate * response.to_drift;
+  const auto to_torques = response.to_forces.rightCols(joints);
+  to_position.rightCols(joints) -= to_torques * torques_.Stiffness().asDiagonal();
+  to_velocity.rightCols(joints) -= to_torques * torques_.Damping().asDiagonal();
+
+  MatrixXd rates(nq(), nv());  // of the configuration, per velocity
+  for (int i = 0; i < nv(); ++i) {
+    rates.col(i) = model().ConfigurationRate(state.head(nq()), VectorXd::Unit(nv(), i));
+  }
+  jacobian.setZero();
+  jacobian.topRightCorner(nq(), nv()) = rates;
+  jacobian.bottomRightCorner(nv(), nv()) = to_velocity;
+  auto by_position = jacobian.bottomLeftCorner(nv(), nq());
+  if (nq() == nv()) {
+    by_position = to_position;
+    return;
+  }
+  // The columns of the rates of a unit quaternion are orthogonal and of length 1/2.
+  by_position.leftCols(4) = 4 * to_position.leftCols(3) * rates.topLeftCorner(4, 3).transpose();
+  by_position.rightCols(nv() - 3) = to_position.rightCols(nv() - 3);
 }
 
 RobotMotion RolloutDynamics::MotionAt(double t, const VectorXd& state,

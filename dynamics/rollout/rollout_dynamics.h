@@ -52,6 +52,10 @@ class RolloutDynamics {
   /// Acceleration at a state of a stance, nv. `forces`: 3 x held; may be null.
   Eigen::VectorXd Accelerate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                              const RolloutStance& stance, Eigen::Matrix3Xd* forces);
+  /// The stiff part of the derivative of the state's rate with respect to the state: velocities,
+  /// joint feedback and the feedback of drift; without bias forces and gravity.
+  void DifferentiateRate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+                         const RolloutStance& stance, Eigen::Ref<Eigen::MatrixXd> jacobian);
   RobotMotion MotionAt(double t, const Eigen::VectorXd& state, const RolloutStance& stance);
   /// Torques of the last Accelerate or MotionAt; num_joints.
   auto joint_torques() const { return generalised_.tail(model().num_joints()); }

@@ -24,6 +24,9 @@ std::shared_ptr<const HybridMode> RolloutModes::Make(RolloutStance made) {
     rate.tail(nv) = robot_->Accelerate(t, state, *stance, nullptr);
     rate.head(nq) = robot_->model().ConfigurationRate(state.head(nq), state.tail(nv));
   };
+  mode->jacobian = [this, stance](double t, const auto& state, auto jacobian) {
+    robot_->DifferentiateRate(t, state, *stance, jacobian);
+  };
   for (int i = 0; i < guards->size(); ++i) {
     mode->guards.push_back(guards->Watched(i));
     mode->guard_names.push_back(guards->NameOf(i));

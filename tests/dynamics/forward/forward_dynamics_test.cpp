@@ -186,6 +186,39 @@ TEST(ForwardDynamics, BothSolesOfDrcHuboHoldWithLeastForces) {
   }
 }
 
+TEST(ForwardDynamics, ResponseIsTheDerivativeOfTheHeldMotion) {
+  std::mt19937 random(8);
+  const models::RobotModel robot = DrcHubo();
+  ForwardDynamics dynamics(MultibodyModel::Spatial(robot));
+  const double rate = 1 / dynamics.settings().drift_time;
+  for (const auto& names : {std::vector<std::string>{"left_sole", "right_sole"},
+                            std::vector<std::string>{"right_sole"}, std::vector<std::string>{}}) {
+    const std::vector<ContactPoint> points = PatchPoints(robot, names);
+    VectorXd q = robot.Configuration(robot.GaitNamed("walk").posture);
+    q.tail(robot.num_joints()) += RandomVector(&random, robot.num_joints(), 0.2);
+    const VectorXd forces = RandomVector(&random, robot.nv(), 100);
+    dynamics.SetState(q, VectorXd::Zero(robot.nv()));
+    const std::vector<HeldPoint> held = Hold(&dynamics, points);
+    const MatrixXd J = Jacobians(&dynamics, points);
+    const VectorXd before = dynamics.Held(forces, held).acceleration;
+    const ConstrainedResponse response = dynamics.Response();
+    // The motion is linear in forces and in the drift that the anchors see.
+    for (int trial = 0; trial < 10; ++trial) {
+      const VectorXd change = RandomVector(&random, robot.nv(), 100);
+      const VectorXd answer = dynamics.Held(forces + change, held).acceleration - before;
+      EXPECT_LT((response.to_forces * change - answer).norm(), 1e-5 * answer.norm());
+      const VectorXd moved = RandomVector(&random, robot.nv(), 0.01);
+      std::vector<HeldPoint> drifted = held;
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        drifted[i].anchor -= J.middleRows<3>(3 * i) * moved;
+      }
+      const VectorXd feedback = dynamics.Held(forces, drifted).acceleration - before;
+      EXPECT_LT((feedback + rate * rate * response.to_drift * moved).norm(),
+                1e-5 * (1e-3 + feedback.norm()));
+    }
+  }
+}
+
 TEST(ForwardDynamics, CoincidentPointsShareForcesAndCollinearOnesAddNothing) {
   std::mt19937 random(5);
   const models::RobotModel model = RandomTree(&random, 8);

@@ -126,21 +126,58 @@ TEST(OdeIntegrator, StiffProblemNeedsFewStepsWithBdf) {
   EXPECT_NE(ErrorOf(problem, settings).find("steps taken"), std::string::npos);
 }
 
-TEST(OdeIntegrator, RobertsonKineticsAgreesWithPublishedValues) {
-  // Hairer & Wanner, Solving ODEs II: Robertson's reaction; reference values at t = 40.
+/// Robertson's reaction until t = 40, with tolerances for it.
+OdeSolution SolveRobertson(const OdeJacobian& jacobian) {
   OdeProblem problem;
   problem.rate = [](double, State y, Output rate) {
     rate[0] = -0.04 * y[0] + 1e4 * y[1] * y[2];
     rate[2] = 3e7 * y[1] * y[1];
     rate[1] = -rate[0] - rate[2];
   };
+  problem.jacobian = jacobian;
   problem.start = Eigen::Vector3d(1, 0, 0);
   problem.end_time = 40;
   OdeSettings settings;
   settings.method = OdeMethod::kBdf;
   settings.relative_tolerance = 1e-9;
   settings.absolute_tolerances = Eigen::Vector3d(1e-10, 1e-14, 1e-10);
-  const OdeSolution solution = Integrate(problem, settings);
+  return Integrate(problem, settings);
+}
+
+TEST(OdeIntegrator, AGivenJacobianSavesEvaluationsAndKeepsTheSolution) {
+  const auto jacobian = [](double, State y, Eigen::Ref<Eigen::MatrixXd> J) {
+    J.row(0) << -0.04, 1e4 * y[2], 1e4 * y[1];
+    J.row(2) << 0, 6e7 * y[1], 0;
+    J.row(1) = -J.row(0) - J.row(2);
+  };
+  const auto rough = [&](double t, State y, Eigen::Ref<Eigen::MatrixXd> J) {
+    jacobian(t, y, J);
+    J *= 1.02;
+  };
+  const OdeSolution by_differences = SolveRobertson({});
+  for (const OdeSolution& solution : {SolveRobertson(jacobian), SolveRobertson(rough)}) {
+    EXPECT_LT((solution.state - by_differences.state).norm(), 1e-8);
+    EXPECT_GT(solution.statistics.jacobian_evaluations, 0);
+  }
+  EXPECT_LT(SolveRobertson(jacobian).statistics.rate_evaluations +
+                2 * by_differences.statistics.jacobian_evaluations,
+            by_differences.statistics.rate_evaluations);
+}
+
+TEST(OdeIntegrator, AFailureOfTheJacobianReachesTheCaller) {
+  const auto throws = [](double, State, Eigen::Ref<Eigen::MatrixXd>) {
+    throw std::runtime_error("no Jacobian here");
+  };
+  EXPECT_THROW(SolveRobertson(throws), std::runtime_error);
+  const auto not_finite = [](double, State, Eigen::Ref<Eigen::MatrixXd> J) {
+    J.setConstant(std::numeric_limits<double>::quiet_NaN());
+  };
+  EXPECT_THROW(SolveRobertson(not_finite), OdeError);
+}
+
+TEST(OdeIntegrator, RobertsonKineticsAgreesWithPublishedValues) {
+  // Hairer & Wanner, Solving ODEs II: reference values at t = 40.
+  const OdeSolution solution = SolveRobertson({});
   EXPECT_NEAR(solution.state[0], 0.7158270688, 1e-8);
   EXPECT_NEAR(solution.state[1], 0.9185534765e-5, 1e-12);
   EXPECT_NEAR(solution.state.sum(), 1, 1e-12);

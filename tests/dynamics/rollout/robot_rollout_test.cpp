@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "dynamics/rollout/rollout_dynamics.h"
 #include "models/robot/robot_yaml.h"
 #include "tests/dynamics/random_robot.h"
 #include "tests/dynamics/rollout/compass_gait.h"
@@ -146,6 +147,44 @@ TEST(RobotRollout, StanceOfDrchubo1HoldsItsContacts) {
   EXPECT_GT(moved, 0.2) << "the test must move the robot";
   EXPECT_GT(rollout.friction_utilisation.minCoeff(), 0);
   EXPECT_LT(rollout.friction_utilisation.maxCoeff(), 1);
+}
+
+/// A stance on both soles with feedback that is stiff for light links.
+TEST(RobotRollout, DerivativesOfTheRateHoldItsStiffPart) {
+  std::mt19937 random(11);
+  const auto model = MultibodyModel::Spatial(Drchubo1());
+  const int joints = model->num_joints();
+  VectorXd state(model->nq() + model->nv());
+  state << Drchubo1().Configuration(Drchubo1().GaitNamed("walk").posture),
+      VectorXd::Zero(model->nv());
+  JointControl control;
+  control.stiffness = VectorXd::Constant(joints, 3000);
+  control.damping = VectorXd::Constant(joints, 90);
+  control.command = [posture = VectorXd(state.segment(7, joints))](double, JointCommand* command) {
+    command->position = posture;
+  };
+  RolloutDynamics robot(model, Soles(Drchubo1()), control, {});
+  robot.SetState(state);
+  RolloutStance stance;
+  for (int i = 0; i < robot.num_contacts(); ++i) stance.held.push_back(i);
+  stance.points = robot.HeldWhereTheyAre(stance.held);
+  const auto rate = [&](const VectorXd& at) {
+    VectorXd result(at.size());
+    result.tail(model->nv()) = robot.Accelerate(0, at, stance, nullptr);
+    result.head(model->nq()) = model->ConfigurationRate(at.head(model->nq()), at.tail(model->nv()));
+    return result;
+  };
+  Eigen::MatrixXd J(state.size(), state.size());
+  robot.DifferentiateRate(0, state, stance, J);
+  const double step = 1e-7;
+  for (int trial = 0; trial < 20; ++trial) {
+    VectorXd direction = RandomVector(&random, static_cast<int>(state.size()), 1);
+    // Only unit quaternions are configurations.
+    direction.head<4>() -= direction.head<4>().dot(state.head<4>()) * state.head<4>();
+    const VectorXd difference =
+        (rate(state + step * direction) - rate(state - step * direction)) / (2 * step);
+    EXPECT_LT((J * direction - difference).norm(), 0.01 * difference.norm());
+  }
 }
 
 TEST(RobotRollout, ContactForcesAndTorquesExplainTheMotion) {
