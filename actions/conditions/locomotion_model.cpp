@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
+#include "actions/gait/dynamic_gait.h"
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/transition/transition_motion.h"
@@ -32,7 +33,7 @@ std::unique_ptr<GaitEntry> EntryOfRobot(const models::RobotModel& robot, const s
   auto entry = std::make_unique<GaitEntry>();
   entry->gait = robot.GaitNamed(name);
   entry->stance = SolveNominalStance(robot, entry->gait);
-  entry->motion = std::make_unique<QuasiStaticGait>(robot, entry->stance);
+  entry->motion = std::make_unique<DynamicGait>(robot, entry->stance);
   return entry;
 }
 
@@ -78,6 +79,7 @@ TransitionEntry Change(const models::RobotModel& robot, const LocomotionModel& m
   entry.phases = MotionBuilder(robot).Build(
       {QuasiStaticGait(robot, gait.stance).Standing(PlanarPose(), 0, kChangeTime)}, gait.stance.q);
   entry.sweep = gait.volumes.standing;
+  entry.rest_time = gait.motion->RestTime() + model.gaits[to]->motion->RestTime();
   return entry;
 }
 
@@ -124,6 +126,9 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
     entry.displacement = motion.displacement();
     entry.phases = motion.phases();
     entry.sweep = SweepTransition(robot, motion).Boxes();
+    for (const int gait : {entry.from, entry.to}) {
+      entry.rest_time += model.gaits[gait]->motion->RestTime();
+    }
     model.transitions.push_back(std::move(entry));
   }
   for (int from = 0; from < static_cast<int>(model.gaits.size()); ++from) {

@@ -31,7 +31,9 @@ struct LocomotionModel {
     std::vector<Phase> phases;  ///< in the first gait's stance frame; backwards: Reversed()
     std::vector<Eigen::AlignedBox3d> sweep;  ///< in the first gait's stance frame
 
-    double ExpectedDuration() const { return phases.back().knots.back().t; }  ///< s
+    double rest_time = 0;  ///< s: of both gaits, before and after the transition
+
+    double ExpectedDuration() const { return rest_time + phases.back().knots.back().t; }  ///< s
   };
 
   const models::RobotModel* robot = nullptr;

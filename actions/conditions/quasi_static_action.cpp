@@ -490,7 +490,7 @@ std::vector<graph::Point> QuasiStaticAction::TransitionFrom(const graph::Point& 
 double QuasiStaticAction::ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const {
   const LocomotionModel::GaitEntry& gait = *model_->gaits[gait_];
   const std::vector<PlanarPose> strides = PlanStrides(gait.stance.gait->parameters, from, to);
-  return gait.motion->ExpectedDuration(static_cast<int>(strides.size()) - 1);
+  return gait.motion->ExpectedDurationAlong(strides);
 }
 
 double QuasiStaticAction::ExpectedDuration(const graph::Edge& edge) const {

@@ -85,6 +85,35 @@ std::vector<Step> StepsAlong(const NominalStance& stance,
   return steps;
 }
 
+/// Steps that fail, and their neighbours, are slowed down by this factor at a time, and by the most
+/// in all.
+constexpr double kSlower = 1.25;
+constexpr double kSlowest = 2;
+
+/// Slows down the step of a schedule's interval (ScheduleOf) and its neighbours. False if the
+/// interval is unknown or its step is as slow as it may be.
+bool SlowDown(int interval, std::vector<Step>* steps) {
+  if (interval < 0) return false;
+  const int last = static_cast<int>(steps->size()) - 1;
+  const int step = std::clamp((interval - 1) / 2, 0, last);
+  if (kSlower * (*steps)[step].slowness > kSlowest) return false;
+  for (int i = std::max(0, step - 1); i <= std::min(last, step + 1); ++i) {
+    (*steps)[i].slowness *= kSlower;
+  }
+  return true;
+}
+
+/// Closing up at the end of a straight way, s.
+double Stop(const Pace& pace) { return pace.timing.swing; }
+
+double Reach(const NominalStance& stance) {
+  double reach = 0;
+  for (const Eigen::Vector3d& centre : stance.patch_centres) {
+    reach = std::max(reach, centre.head<2>().norm());
+  }
+  return reach;
+}
+
 std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
   std::vector<PlanarPose> stances = {PlanarPose()};
   for (int i = 0; i < count; ++i) stances.push_back(stances.back() * displacement);
@@ -94,7 +123,11 @@ std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
 }  // namespace
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
-    : robot_(&robot), stance_(&stance), quasi_static_(robot, stance), groups_(SwingGroups(stance)) {
+    : robot_(&robot),
+      stance_(&stance),
+      quasi_static_(robot, stance),
+      groups_(SwingGroups(stance)),
+      reach_(Reach(stance)) {
   for (const Pace& candidate : Candidates(stance.gait->parameters)) {
     if (!paces_.empty() && candidate.speed() > kSlowPace * paces_.front().speed()) continue;
     const std::optional<Pace> pace = Fitted(candidate);
@@ -111,7 +144,7 @@ bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
   settings.knot_spacing = kKnotSpacing;
   settings.minimum_intervals = kLeastIntervals;
   try {
-    const std::vector<Phase> motion = MotionAt(pace, Repeated(step, kFitSteps), settings);
+    const std::vector<Phase> motion = MotionAt(pace, Repeated(step, kFitSteps), settings, false);
     RequireSelfClearance(motion, kFitClearance);
     return true;
   } catch (const MotionError&) {
@@ -125,7 +158,8 @@ std::optional<Pace> DynamicGait::Fitted(Pace pace) const {
   const auto longest = [&](double unit, double* bound, const auto& step) {
     for (const double length : kAside) {
       *bound = length * unit;
-      if (Fits(pace, step(*bound)) && Fits(pace, step(-*bound))) return true;
+      // To one side only: every motion is checked by itself, and robots are about symmetric.
+      if (Fits(pace, step(*bound))) return true;
     }
     return false;
   };
@@ -142,16 +176,28 @@ std::optional<Pace> DynamicGait::Fitted(Pace pace) const {
 }
 
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
+                                         const MotionSettings& settings, bool adapts,
+                                         const CancellationToken& cancellation) const {
+  std::vector<Step> steps = StepsAlong(*stance_, groups_, strides, pace.bounds);
+  while (true) {
+    try {
+      return MotionOf(pace, strides.front(), steps, settings, cancellation);
+    } catch (const MotionError& error) {
+      if (!adapts || !SlowDown(error.phase(), &steps)) throw;
+    }
+  }
+}
+
+std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& start,
+                                         const std::vector<Step>& steps,
                                          const MotionSettings& settings,
                                          const CancellationToken& cancellation) const {
-  const std::vector<Step> steps = StepsAlong(*stance_, groups_, strides, pace.bounds);
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
-  const ContactSchedule schedule =
-      ScheduleOf(*stance_, groups_, strides.front(), steps, pace.timing);
+  const ContactSchedule schedule = ScheduleOf(*stance_, groups_, start, steps, pace.timing);
   Eigen::VectorXd guess = stance_->q;
-  guess.segment<2>(4) = strides.front().position();
+  guess.segment<2>(4) = start.position();
   std::vector<Phase> motion =
       MotionBuilder(*robot_, settings)
           .Build(PatternPhases(*robot_, *stance_, schedule, pattern, cancellation), guess,
@@ -164,15 +210,16 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double 
   const models::Environment nothing;
   models::CollisionChecker checker(*robot_, nothing);
   dynamics::TreeKinematics kinematics(*robot_);
-  for (const Phase& phase : motion) {
-    for (const Knot& knot : phase.knots) {
+  for (std::size_t phase = 0; phase < motion.size(); ++phase) {
+    for (const Knot& knot : motion[phase].knots) {
       kinematics.SetPosition(knot.q);
       const std::vector<models::Proximity> close =
           checker.SelfProximities(kinematics.X_WL(), clearance);
       if (close.empty()) continue;
       throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
                                     robot_->links[close.front().link].name, close.front().distance,
-                                    robot_->links[close.front().other].name, knot.t, clearance));
+                                    robot_->links[close.front().other].name, knot.t, clearance),
+                        static_cast<int>(phase));
     }
   }
 }
@@ -185,7 +232,7 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, dou
   std::string fault = "no pace fits";
   for (const Pace& pace : paces_) {
     try {
-      return MotionAt(pace, strides, settings, cancellation);
+      return MotionAt(pace, strides, settings, true, cancellation);
     } catch (const MotionError& error) {
       fault = error.what();
     }
@@ -213,7 +260,7 @@ std::vector<std::vector<Phase>> DynamicGait::Variants(const std::vector<PlanarPo
   settings.knot_spacing = knot_spacing;
   settings.minimum_intervals = 2;
   try {
-    return {MotionAt(paces_.front(), strides, settings, cancellation)};
+    return {MotionAt(paces_.front(), strides, settings, false, cancellation)};
   } catch (const MotionError&) {
     return {};  // Motion does not return it either.
   }
@@ -222,9 +269,32 @@ std::vector<std::vector<Phase>> DynamicGait::Variants(const std::vector<PlanarPo
 double DynamicGait::ExpectedDuration(int strides) const {
   if (strides == 0) return 0;
   if (paces_.empty()) return quasi_static_.ExpectedDuration(strides);
-  // The robot rests only where a gait begins and ends. Bends cost about a swing.
   const Pace& pace = paces_.front();
-  return strides * stance_->gait->parameters.forward / pace.speed() + pace.timing.swing / 2;
+  return strides * stance_->gait->parameters.forward / pace.speed() + Stop(pace);
+}
+
+double DynamicGait::ExpectedDurationAlong(const std::vector<PlanarPose>& strides) const {
+  if (paces_.empty()) return quasi_static_.ExpectedDurationAlong(strides);
+  if (strides.size() < 2) return 0;
+  double duration = Stop(paces_.front());
+  for (std::size_t i = 0; i + 1 < strides.size(); ++i) {
+    duration +=
+        DisplacementDuration(stance_->gait->parameters, strides[i].Inverse() * strides[i + 1]);
+  }
+  return duration;
+}
+
+double DynamicGait::DisplacementDuration(const models::GaitParameters& parameters,
+                                         const PlanarPose& displacement) const {
+  if (paces_.empty()) return quasi_static_.DisplacementDuration(parameters, displacement);
+  // Ahead, groups pass each other. Aside and in turns, one makes a step and the other closes up.
+  const auto& [bounds, timing] = paces_.front();
+  const auto step = [&timing = timing](double length) {
+    return SwingTime(timing, length) + timing.double_support;
+  };
+  return std::abs(displacement.x) / bounds.forward * step(bounds.forward) +
+         2 * std::abs(displacement.y) / bounds.lateral * step(bounds.lateral) +
+         2 * std::abs(displacement.yaw) / bounds.turn * step(reach_ * bounds.turn);
 }
 
 }  // namespace possibility::actions

@@ -38,16 +38,24 @@ class DynamicGait final : public GaitMotion {
                                            double knot_spacing,
                                            const CancellationToken& cancellation) const override;
   double ExpectedDuration(int strides) const override;
+  double ExpectedDurationAlong(const std::vector<PlanarPose>& strides) const override;
+  double DisplacementDuration(const models::GaitParameters& parameters,
+                              const PlanarPose& displacement) const override;
+  double RestTime() const override { return paces_.empty() ? 0 : paces_.front().timing.start; }
 
   /// From quick to slow; empty if none fits.
   const std::vector<Pace>& paces() const { return paces_; }
 
-  /// The motion at a pace. @throws MotionError naming the limit it would exceed; Cancelled.
+  /// The motion at a pace. With `adapts`, steps that fail, and their neighbours, are slowed down up
+  /// to half the speed. @throws MotionError naming the limit it would exceed; Cancelled.
   std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
-                              const MotionSettings& settings,
+                              const MotionSettings& settings, bool adapts,
                               const CancellationToken& cancellation = {}) const;
 
  private:
+  std::vector<Phase> MotionOf(const Pace& pace, const PlanarPose& start,
+                              const std::vector<Step>& steps, const MotionSettings& settings,
+                              const CancellationToken& cancellation) const;
   /// Whether the robot can repeat a step at this pace, with margins.
   bool Fits(const Pace& pace, const PlanarPose& step) const;
   /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
@@ -59,6 +67,7 @@ class DynamicGait final : public GaitMotion {
   const NominalStance* stance_;
   QuasiStaticGait quasi_static_;
   std::vector<std::vector<int>> groups_;
+  double reach_ = 0;  ///< m: of the farthest limb from the stance's origin, seen from above
   std::vector<Pace> paces_;
 };
 

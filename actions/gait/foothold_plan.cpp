@@ -99,7 +99,7 @@ class StepPlanner {
       }
       if (best < 0) return {};
       at[best] = best_target;
-      steps.push_back({best, way_.At(best_target)});
+      steps.push_back({best, way_.At(best_target), 1});
       last = best;
     }
     return steps;
@@ -171,6 +171,10 @@ class StepPlanner {
 
 }  // namespace
 
+double SwingTime(const StepTiming& timing, double length) {
+  return timing.swing * std::clamp(length / timing.swing_length, kShortestSwing, 1.0);
+}
+
 std::vector<std::vector<int>> SwingGroups(const NominalStance& stance) {
   const int limbs = static_cast<int>(stance.gait->limbs.size());
   Groups groups;
@@ -235,7 +239,7 @@ ContactSchedule ScheduleOf(const NominalStance& stance, const Groups& groups,
       place(limb, step.stance);
       distance = std::max(distance, (standing.bearing[limb]->translation() - from).norm());
     }
-    swing.duration = timing.swing * std::clamp(distance / timing.swing_length, kShortestSwing, 1.0);
+    swing.duration = step.slowness * SwingTime(timing, distance);
     schedule.intervals.push_back(std::move(swing));
     standing.duration = timing.double_support;
     schedule.intervals.push_back(standing);

@@ -24,6 +24,9 @@ struct StepTiming {
   double start = 0;           ///< before the first swing, and after the last one
 };
 
+/// Duration of a swing over `length` (m), s.
+double SwingTime(const StepTiming& timing, double length);
+
 /// Groups of limbs that swing together, in turn. Of two limbs each is a group. Four limbs form two
 /// pairs: those whose supports, each on its own, hold the nominal centre of mass best. Otherwise
 /// every limb is a group.
@@ -33,6 +36,7 @@ std::vector<std::vector<int>> SwingGroups(const NominalStance& stance);
 struct Step {
   int group = 0;
   PlanarPose stance;
+  double slowness = 1;  ///< multiplies the swing's duration
 };
 
 /// Steps along a way from all limbs in its first stance to all limbs in its last one. The ways of

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "actions/gait/stride.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/planar_pose.h"
@@ -48,8 +50,31 @@ class GaitMotion {
   }
 
   /// Expected duration of a motion of `strides` strides straight ahead, s; 0 for none.
+  /// A gait that flows begins and ends it in motion.
   virtual double ExpectedDuration(int strides) const = 0;
+
+  /// The same of the motion along `strides` (as of Motion).
+  virtual double ExpectedDurationAlong(const std::vector<PlanarPose>& strides) const {
+    return ExpectedDuration(static_cast<int>(strides.size()) - 1);
+  }
+
+  /// The share of a displacement in it, s. `parameters`: of the gait.
+  virtual double DisplacementDuration(const models::GaitParameters& parameters,
+                                      const PlanarPose& displacement) const {
+    return StrideEffort(parameters, displacement) * (ExpectedDuration(2) - ExpectedDuration(1));
+  }
+
+  /// Expected duration of getting into motion, or to rest, between a gait that flows and something
+  /// else, s.
+  virtual double RestTime() const { return 0; }
 };
+
+/// Expected duration per metre in the gait's quickest direction, s/m.
+inline double LeastSecondsPerMetre(const GaitMotion& motion,
+                                   const models::GaitParameters& parameters) {
+  return std::min(motion.DisplacementDuration(parameters, {1, 0, 0}),
+                  motion.DisplacementDuration(parameters, {0, 1, 0}));
+}
 
 /// Frame of the swept volume of the stride from a to b.
 inline PlanarPose StrideFrame(const PlanarPose& a, const PlanarPose& b) {

@@ -42,7 +42,11 @@ std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
   double start = 0;
   for (const MotionPhase& phase : phases) {
     cancellation.ThrowIfCancelled();
-    result.push_back(BuildPhase(phase, start, &q));
+    try {
+      result.push_back(BuildPhase(phase, start, &q));
+    } catch (const MotionError& error) {
+      throw MotionError(error.what(), static_cast<int>(result.size()));
+    }
     start += phase.duration;
   }
   return result;

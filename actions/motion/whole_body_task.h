@@ -15,7 +15,13 @@ namespace possibility::actions {
 /// Thrown when a motion cannot be generated: out of reach, beyond a limit, no contact forces.
 class MotionError : public std::runtime_error {
  public:
-  explicit MotionError(const std::string& message) : std::runtime_error(message) {}
+  /// `phase`: index of the phase at fault, -1 if none is.
+  explicit MotionError(const std::string& message, int phase = -1)
+      : std::runtime_error(message), phase_(phase) {}
+  int phase() const { return phase_; }
+
+ private:
+  int phase_;
 };
 
 /// Required pose of one limb's contact patch.

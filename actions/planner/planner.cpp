@@ -312,9 +312,9 @@ class TraversalPlanner {
 
   bool Generate(const Route& route, actions::Plan* plan) {
     try {
-      plan->segments =
-          GenerateMotion(model_, route, request_.threads, CancellationToken(last_deadline_),
-                         [this](double fraction) { Report("generating motion", fraction); });
+      plan->segments = GenerateMotion(
+          model_, scenario_.environment, route, request_.threads, CancellationToken(last_deadline_),
+          [this](double fraction) { Report("generating motion", fraction); });
       return true;
     } catch (const LegError& error) {
       const RouteLeg& leg = route[static_cast<size_t>(error.leg())];

@@ -31,12 +31,11 @@ LatticeSearch::LatticeSearch(const RouteSpace& space, const GroundedStance& star
     : space_(space), goals_(goals), settings_(settings) {
   for (const auto& gait : space.model->gaits) {
     const models::GaitParameters& parameters = gait->stance.gait->parameters;
-    // An additional stride on a way that already has strides: the time to stop counts only once.
-    stride_times_.push_back(gait->motion->ExpectedDuration(2) - gait->motion->ExpectedDuration(1));
-    stop_times_.push_back(gait->motion->ExpectedDuration(1) - stride_times_.back());
+    const GaitMotion& motion = *gait->motion;
+    // What one stride takes beyond an additional one.
+    stop_times_.push_back(2 * motion.ExpectedDuration(1) - motion.ExpectedDuration(2));
     least_seconds_per_metre_ =
-        std::min(least_seconds_per_metre_,
-                 stride_times_.back() / std::max(parameters.forward, parameters.lateral));
+        std::min(least_seconds_per_metre_, LeastSecondsPerMetre(motion, parameters));
   }
   Push({.stance = start});
 }
@@ -187,8 +186,8 @@ double LatticeSearch::Patience(int gait) const {
 }
 
 double LatticeSearch::StrideTime(int gait, const PlanarPose& displacement) const {
-  return StrideEffort(space_.model->gaits[gait]->stance.gait->parameters, displacement) *
-         stride_times_[gait];
+  const LocomotionModel::GaitEntry& entry = *space_.model->gaits[gait];
+  return entry.motion->DisplacementDuration(entry.stance.gait->parameters, displacement);
 }
 
 /// Time to stop, which ends every straight way.

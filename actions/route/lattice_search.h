@@ -109,7 +109,6 @@ class LatticeSearch {
   RouteSpace space_;
   std::vector<GroundedStance> goals_;
   LatticeSettings settings_;
-  std::vector<double> stride_times_;  ///< s, by gait
   std::vector<double> stop_times_;    ///< s, by gait: after strides in one direction
   double least_seconds_per_metre_ = std::numeric_limits<double>::infinity();
   double bound_ = std::numeric_limits<double>::infinity();

@@ -115,7 +115,7 @@ double ExpectedDuration(const LocomotionModel& model, const Route& route) {
     } else {
       const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
       const auto strides = PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);
-      duration += gait.motion->ExpectedDuration(static_cast<int>(strides.size()) - 1);
+      duration += gait.motion->ExpectedDurationAlong(strides);
     }
   }
   return duration;

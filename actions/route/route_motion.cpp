@@ -10,9 +10,11 @@
 #include <thread>
 
 #include "actions/gait/quasi_static_gait.h"
+#include "actions/motion/motion_collision.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/route/gait_run.h"
 #include "common/cancellation_token.h"
+#include "models/world/collision.h"
 
 namespace possibility::actions {
 namespace {
@@ -114,24 +116,48 @@ std::vector<Phase> PhasesOf(const LocomotionModel& model, const RouteLeg& leg,
   return Shifted(GaitPhases(model, local, cancellation), {leg.from.x, leg.from.y, leg.z});
 }
 
+/// What GenerateRun needs, the same for all runs.
+struct RunContext {
+  const LocomotionModel& model;
+  const models::Environment& environment;
+  const Route& route;
+};
+
+/// @throws MotionError unless the robot begins and ends in the route's stances and hits nothing.
+void RequireFreeRun(const RunContext& context, int first,
+                    const std::vector<std::vector<Phase>>& legs,
+                    const CancellationToken& cancellation) {
+  const RouteLeg& from = context.route[first];
+  const RouteLeg& to = context.route[first + legs.size() - 1];
+  RequireStance(context.model, from.gait, from.from, from.z, legs.front().front().knots.front(),
+                "begins");
+  RequireStance(context.model, to.gait, to.to, to.z_to, legs.back().back().knots.back(), "ends");
+  const models::RobotModel& robot = *context.model.robot;
+  const models::CollisionChecker checker(robot, context.environment);
+  for (const std::vector<Phase>& leg : legs) {
+    const std::string hit = FirstHit(robot, context.environment, checker, MotionPoses(robot, leg),
+                                     Eigen::Isometry3d::Identity(), cancellation);
+    if (!cancellation.Proceed()) throw Cancelled();
+    if (!hit.empty()) throw MotionError(hit);
+  }
+}
+
 /// Motions of `count` legs from `first` on, times of each from 0: one flow if there is one, else
 /// that of each half.
-void GenerateRun(const LocomotionModel& model, const Route& route, int first, int count,
+void GenerateRun(const RunContext& context, int first, int count,
                  const CancellationToken& cancellation, std::vector<std::vector<Phase>>* motions) {
   if (count == 1) {
     try {
-      (*motions)[first] = GenerateLeg(model, route[first], cancellation);
+      (*motions)[first] = GenerateLeg(context.model, context.route[first], cancellation);
     } catch (const MotionError& error) {
       throw LegError(first, error.what());
     }
     return;
   }
   try {
-    std::vector<std::vector<Phase>> legs = FlowAlong(model, route, first, count, cancellation);
-    RequireStance(model, route[first].gait, route[first].from, route[first].z,
-                  legs.front().front().knots.front(), "begins");
-    const RouteLeg& last = route[first + count - 1];
-    RequireStance(model, last.gait, last.to, last.z_to, legs.back().back().knots.back(), "ends");
+    std::vector<std::vector<Phase>> legs =
+        FlowAlong(context.model, context.route, first, count, cancellation);
+    RequireFreeRun(context, first, legs, cancellation);
     std::move(legs.begin(), legs.end(), motions->begin() + first);
     return;
   } catch (const Cancelled&) {
@@ -139,22 +165,21 @@ void GenerateRun(const LocomotionModel& model, const Route& route, int first, in
   } catch (const std::exception&) {
     // The robot rests where the halves meet.
   }
-  GenerateRun(model, route, first, count / 2, cancellation, motions);
-  GenerateRun(model, route, first + count / 2, count - count / 2, cancellation, motions);
+  GenerateRun(context, first, count / 2, cancellation, motions);
+  GenerateRun(context, first + count / 2, count - count / 2, cancellation, motions);
 }
 
 /// Distributes runs of legs to workers; the first failure in route order wins.
 class RunQueue {
  public:
-  RunQueue(const LocomotionModel& model, const Route& route, const CancellationToken& cancellation,
+  RunQueue(const RunContext& context, const CancellationToken& cancellation,
            const std::function<void(double)>& progress)
-      : model_(model),
-        route_(route),
+      : context_(context),
         cancellation_(cancellation),
         progress_(progress),
-        motions_(route.size()) {
-    for (int leg = 0; leg < static_cast<int>(route.size()); leg += runs_.back().count) {
-      runs_.push_back({leg, RunLength(model, route, leg), std::nullopt});
+        motions_(context.route.size()) {
+    for (int leg = 0; leg < static_cast<int>(context.route.size()); leg += runs_.back().count) {
+      runs_.push_back({leg, RunLength(context.model, context.route, leg), std::nullopt});
     }
   }
 
@@ -163,7 +188,7 @@ class RunQueue {
     for (size_t i = next_++; i < runs_.size() && !cancelled_; i = next_++) {
       Run& run = runs_[i];
       try {
-        GenerateRun(model_, route_, run.first, run.count, own, &motions_);
+        GenerateRun(context_, run.first, run.count, own, &motions_);
       } catch (const LegError& error) {
         run.error = error;
       } catch (const Cancelled&) {
@@ -190,13 +215,12 @@ class RunQueue {
 
   /// Reports progress as often as a leg asks: legs may take long.
   bool Proceed() const {
-    const double fraction = static_cast<double>(done_) / static_cast<double>(route_.size());
+    const double fraction = static_cast<double>(done_) / static_cast<double>(motions_.size());
     if (progress_) progress_(fraction);
     return !cancelled_ && cancellation_.Proceed();
   }
 
-  const LocomotionModel& model_;
-  const Route& route_;
+  const RunContext context_;
   const CancellationToken& cancellation_;
   const std::function<void(double)>& progress_;
   std::vector<std::vector<Phase>> motions_;
@@ -223,10 +247,11 @@ std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg
   }
 }
 
-std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
-                                    const CancellationToken& cancellation,
+std::vector<Segment> GenerateMotion(const LocomotionModel& model,
+                                    const models::Environment& environment, const Route& route,
+                                    int threads, const CancellationToken& cancellation,
                                     const std::function<void(double)>& progress) {
-  RunQueue queue(model, route, cancellation, progress);
+  RunQueue queue({model, environment, route}, cancellation, progress);
   {
     std::vector<std::jthread> workers;
     for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {

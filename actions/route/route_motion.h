@@ -8,6 +8,7 @@
 #include "actions/plan/plan.h"
 #include "actions/route/route.h"
 #include "common/cancellation_token.h"
+#include "models/world/environment.h"
 
 namespace possibility::actions {
 
@@ -30,11 +31,14 @@ std::vector<Phase> GenerateLeg(const LocomotionModel& model, const RouteLeg& leg
                                const CancellationToken& cancellation = {});
 
 /// Motion of a whole route, with its legs distributed over `threads`; the result does not depend on
-/// their number. `cancellation`: asked regularly, from any thread. `progress` (may be empty):
-/// called as often, from any thread, with the fraction done.
+/// their number. A motion that flows through several legs is taken only if it hits nothing in
+/// `environment`: the swept volumes of C_S are those of single legs. `cancellation`: asked
+/// regularly, from any thread. `progress` (may be empty): called as often, from any thread, with
+/// the fraction done.
 /// @throws LegError for the first leg that fails; Cancelled.
-std::vector<Segment> GenerateMotion(const LocomotionModel& model, const Route& route, int threads,
-                                    const CancellationToken& cancellation = {},
+std::vector<Segment> GenerateMotion(const LocomotionModel& model,
+                                    const models::Environment& environment, const Route& route,
+                                    int threads, const CancellationToken& cancellation = {},
                                     const std::function<void(double)>& progress = {});
 
 }  // namespace possibility::actions

@@ -37,8 +37,7 @@ class ShortcutSearch {
     }
     for (const auto& gait : space.model->gaits) {
       const models::GaitParameters& parameters = gait->stance.gait->parameters;
-      const double stride = gait->motion->ExpectedDuration(2) - gait->motion->ExpectedDuration(1);
-      pace_ = std::min(pace_, stride / std::max(parameters.forward, parameters.lateral));
+      pace_ = std::min(pace_, LeastSecondsPerMetre(*gait->motion, parameters));
     }
     // Manoeuvres may be quicker than any gait.
     if (roadmap_.has_manoeuvres()) pace_ = 0;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "actions/verify/verification_report.h"
+#include "experiments/report/plan_speeds.h"
 #include "models/input/json_text.h"
 
 namespace possibility::experiments {
@@ -29,6 +30,17 @@ std::string RouteText(const actions::Plan& plan) {
     text += Row(text.empty() ? "route" : "", row);
   }
   return text;
+}
+
+/// Mean speeds of the actions and the length of the way.
+std::string SpeedsText(const actions::Plan& plan) {
+  std::vector<std::string> speeds;
+  for (const auto& [action, speed] : SpeedsByAction(plan)) {
+    speeds.push_back(fmt::format("{} {:.2f} m/s", action, speed));
+  }
+  if (speeds.empty()) return {};
+  return Row("speeds",
+             fmt::format("{}; {:.2f} m in all", fmt::join(speeds, ", "), PlanarLength(plan)));
 }
 
 /// The explorers of the route, and the gain over the first one.
@@ -78,6 +90,7 @@ std::string SummaryText(const actions::PlanResult& result, const PlanFiles& file
   if (Found(result)) {
     text += RouteText(plan);
     text += Row("plan duration", Seconds(plan.duration()));
+    text += SpeedsText(plan);
     text += SearchText(plan);
   }
   text += Row("preparation", Seconds(plan.timings.preparation_s));
@@ -110,6 +123,9 @@ std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& file
     const auto ratio = RealTimeRatio(plan);
     json["plan_duration_s"] = plan.duration();
     json["real_time_ratio"] = ratio ? Json(*ratio) : Json(nullptr);
+    json["path_length_m"] = PlanarLength(plan);
+    json["speeds"] = Json::object();
+    for (const auto& [action, speed] : SpeedsByAction(plan)) json["speeds"][action] = speed;
     json["goal"] = plan.goal;
     if (plan.search) {
       json["explorers"] = plan.search->explorers;

@@ -121,17 +121,6 @@ void SortRecords(const std::vector<std::string>& row_order, std::vector<TrialRec
             [&](const TrialRecord& a, const TrialRecord& b) { return rank(a) < rank(b); });
 }
 
-double PlanarLength(const actions::Plan& plan) {
-  double length = 0;
-  for (const actions::Segment& segment : plan.segments) {
-    if (segment.phases.empty()) continue;
-    const actions::Knot& first = segment.phases.front().knots.front();
-    const actions::Knot& last = segment.phases.back().knots.back();
-    length += (last.q - first.q).segment<2>(4).norm();
-  }
-  return length;
-}
-
 std::string MotionHash(const actions::Plan& plan) {
   std::vector<std::string> parts;
   for (const actions::Segment& segment : plan.segments) {

@@ -67,10 +67,6 @@ bool SameButTimings(const TrialRecord& a, const TrialRecord& b);
 /// value, the preset (default first) and the seed.
 void SortRecords(const std::vector<std::string>& row_order, std::vector<TrialRecord>* records);
 
-/// Length of the root link's path in the x-y plane, m: straight from the start to the end of each
-/// segment, so that sway does not count.
-double PlanarLength(const actions::Plan& plan);
-
 /// Hash of everything that the execution of the plan depends on: actions, contacts and knots, exact
 /// to the bit.
 std::string MotionHash(const actions::Plan& plan);

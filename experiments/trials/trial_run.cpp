@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "experiments/report/plan_picture.h"
+#include "experiments/report/plan_speeds.h"
 #include "experiments/report/plan_summary.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/peak_memory.h"

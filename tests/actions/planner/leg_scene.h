@@ -40,7 +40,7 @@ class LegScene {
     Plan plan;
     plan.robot_hash = model_.robot->content_hash;
     for (const models::Joint& joint : model_.robot->joints) plan.joints.push_back(joint.name);
-    plan.segments = GenerateMotion(model_, {leg}, 1, {});
+    plan.segments = GenerateMotion(model_, environment_, {leg}, 1, {});
     models::Scenario scenario;
     scenario.environment = environment_;
     scenario.start = StanceOf(StartGait(model_, leg), leg.from, leg.z);

@@ -175,8 +175,8 @@ TEST(PlannerTest, TheMotionOfARouteDoesNotDependOnTheNumberOfThreads) {
     leg.to = leg.from * PlanarPose{0.1, 0.02 * i, 0.05};
     route.push_back(leg);
   }
-  const std::vector<Segment> one = GenerateMotion(model, route, 1, {});
-  const std::vector<Segment> three = GenerateMotion(model, route, 3, {});
+  const std::vector<Segment> one = GenerateMotion(model, {}, route, 1, {});
+  const std::vector<Segment> three = GenerateMotion(model, {}, route, 3, {});
   ASSERT_EQ(one.size(), three.size());
   for (size_t s = 0; s < one.size(); ++s) {
     ASSERT_EQ(one[s].phases.size(), three[s].phases.size());

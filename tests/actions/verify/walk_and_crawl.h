@@ -31,7 +31,7 @@ inline const VerifierSubject& WalkAndCrawl() {
     route.push_back(leg(-1, false, 1, route.back().to, {0.15, 0, 0}));
     route.push_back(leg(0, true, 0, route.back().to, sit.Inverse()));
     result.plan = ValidSubject().plan;
-    result.plan.segments = GenerateMotion(model, route, 1, {});
+    result.plan.segments = GenerateMotion(model, result.scenario.environment, route, 1, {});
     result.scenario.actions = {"walk", "crawl"};
     result.scenario.goals = {start};
     result.scenario.goals[0].x = route.back().to.x;

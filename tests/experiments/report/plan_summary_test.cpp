@@ -39,6 +39,8 @@ TEST(PlanSummary, JsonOfAPlanNamesRouteAndFiles) {
   EXPECT_EQ(json["route"][1]["action"], "walk->crawl");
   EXPECT_EQ(json["route"][1]["begin_s"], 2.0);
   EXPECT_EQ(json["plan_duration_s"], 4.0);
+  EXPECT_TRUE(json["path_length_m"].is_number());
+  EXPECT_TRUE(json["speeds"].is_object());
   EXPECT_EQ(json["plan"], "a/plan.json");
   EXPECT_TRUE(json["verification"]["accepted"]);
 }

@@ -78,24 +78,6 @@ TEST(TrialRecord, SortsByRowValuePresetAndSeed) {
   }
 }
 
-TEST(TrialRecord, LengthIsMeasuredBetweenTheEndsOfSegments) {
-  const models::RobotModel robot = testing::SampleRobot();
-  actions::Plan plan = testing::SamplePlan(robot, 2, 5);
-  const std::pair<double, double> corners[] = {{0, 0}, {3, 4}, {3, 5}};
-  for (int s = 0; s < 2; ++s) {
-    auto& knots = plan.segments[s].phases[0].knots;
-    for (std::size_t k = 0; k < knots.size(); ++k) {
-      const double share = static_cast<double>(k) / static_cast<double>(knots.size() - 1);
-      const double sway = k == 0 || k + 1 == knots.size() ? 0 : 0.1 * (k % 2 == 0 ? 1 : -1);
-      const auto [x0, y0] = corners[s];
-      const auto [x1, y1] = corners[s + 1];
-      knots[k].q.segment<2>(4) << x0 + share * (x1 - x0) + sway, y0 + share * (y1 - y0);
-    }
-  }
-  EXPECT_NEAR(PlanarLength(plan), 5 + 1, 1e-12);
-  EXPECT_EQ(PlanarLength({}), 0);
-}
-
 TEST(TrialRecord, HashDependsOnTheMotionOnly) {
   const models::RobotModel robot = testing::SampleRobot();
   const actions::Plan plan = testing::SamplePlan(robot, 2, 5);
