@@ -103,6 +103,16 @@ bool SlowDown(int interval, std::vector<Step>* steps) {
   return true;
 }
 
+/// Shares of a pace's steps aside and in turns that are tried: legs that come too close to each
+/// other need shorter ones.
+constexpr double kShorter[] = {1, 0.75, 0.5};
+
+Pace Shortened(Pace pace, double share) {
+  pace.bounds.lateral *= share;
+  pace.bounds.turn *= share;
+  return pace;
+}
+
 /// Closing up at the end of a straight way, s.
 double Stop(const Pace& pace) { return pace.timing.swing; }
 
@@ -210,16 +220,15 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double 
   const models::Environment nothing;
   models::CollisionChecker checker(*robot_, nothing);
   dynamics::TreeKinematics kinematics(*robot_);
-  for (std::size_t phase = 0; phase < motion.size(); ++phase) {
-    for (const Knot& knot : motion[phase].knots) {
+  for (const Phase& phase : motion) {
+    for (const Knot& knot : phase.knots) {
       kinematics.SetPosition(knot.q);
       const std::vector<models::Proximity> close =
           checker.SelfProximities(kinematics.X_WL(), clearance);
       if (close.empty()) continue;
       throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
                                     robot_->links[close.front().link].name, close.front().distance,
-                                    robot_->links[close.front().other].name, knot.t, clearance),
-                        static_cast<int>(phase));
+                                    robot_->links[close.front().other].name, knot.t, clearance));
     }
   }
 }
@@ -231,10 +240,12 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, dou
   settings.minimum_intervals = kLeastIntervals;
   std::string fault = "no pace fits";
   for (const Pace& pace : paces_) {
-    try {
-      return MotionAt(pace, strides, settings, true, cancellation);
-    } catch (const MotionError& error) {
-      fault = error.what();
+    for (const double share : kShorter) {
+      try {
+        return MotionAt(Shortened(pace, share), strides, settings, true, cancellation);
+      } catch (const MotionError& error) {
+        fault = error.what();
+      }
     }
   }
   throw MotionError(fault);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "models/input/json_text.h"
 
@@ -62,6 +64,40 @@ nlohmann::ordered_json ToJson(const StretchRollout& rollout) {
   return json;
 }
 
+/// Names and margins in the order of the report.
+std::vector<std::pair<const char*, Margin>> Named(const PlanMargins& margins) {
+  return {{"zmp", margins.zmp},
+          {"ground_edge", margins.ground_edge},
+          {"torque", margins.torque},
+          {"friction", margins.friction},
+          {"joint_speed", margins.joint_speed},
+          {"self_distance", margins.self_distance},
+          {"obstacle_distance", margins.obstacle_distance}};
+}
+
+nlohmann::ordered_json ToJson(const PlanMargins& margins) {
+  nlohmann::ordered_json json;
+  for (const auto& [name, margin] : Named(margins)) {
+    if (margin.segment < 0) {
+      json[name] = nullptr;
+    } else {
+      json[name] = {{"value", margin.value}, {"segment", margin.segment}, {"t", margin.time}};
+    }
+  }
+  return json;
+}
+
+std::string Line(const PlanMargins& margins) {
+  std::string line = "  margins:";
+  const char* separator = " ";
+  for (const auto& [name, margin] : Named(margins)) {
+    if (margin.segment < 0) continue;
+    line += fmt::format("{}{} {:.3g}", separator, name, margin.value);
+    separator = ", ";
+  }
+  return line + "\n";
+}
+
 }  // namespace
 
 std::string FormatText(const VerificationReport& report) {
@@ -75,6 +111,7 @@ std::string FormatText(const VerificationReport& report) {
   text += Line("scenario", report.scenario_file) + Line("robot", report.robot_file);
   for (const Violation& violation : report.violations) text += Line(violation);
   for (const StretchRollout& rollout : report.rollouts) text += Line(rollout);
+  if (report.margins) text += Line(*report.margins);
   return text;
 }
 
@@ -102,6 +139,7 @@ std::string FormatJson(const VerificationReport& report) {
   }
   if (!report.rollouts.empty()) json["rollout"] = nlohmann::ordered_json::array();
   for (const StretchRollout& rollout : report.rollouts) json["rollout"].push_back(ToJson(rollout));
+  if (report.margins) json["margins"] = ToJson(*report.margins);
   return models::JsonText(json);
 }
 

@@ -37,6 +37,8 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
   if (settings.simulates && log->Worst().empty() && !report->cancelled) {
     VerifyRollouts(subject, settings, log, report);
   }
+  if (report->cancelled) return;
+  report->margins = MeasureMargins(plan, robot, scenario.environment, ground);
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "actions/plan/plan.h"
+#include "actions/verify/plan_margins.h"
 #include "actions/verify/rollout_check.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
@@ -66,6 +68,7 @@ struct VerificationReport {
   std::vector<Violation> violations;  ///< the worst of each kind; empty: accepted
   /// By dynamic stretch, in order. Empty if the plan has another violation.
   std::vector<StretchRollout> rollouts;
+  std::optional<PlanMargins> margins;  ///< none if the plan's structure is broken, or if cancelled
   std::int64_t samples = 0;
   double resolution = 0;  ///< s, largest time between samples
   /// Bounds on deviations from the straight line between two samples: of bearing points (m), and of

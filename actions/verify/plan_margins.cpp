@@ -1,0 +1,152 @@
+#include "actions/verify/plan_margins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "actions/verify/verifier_state.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "models/world/collision.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kSameHeight = 1e-3;  // m, as the verifier tolerates
+constexpr double kLightLoad = 1e-3;   // of the weight: friction of lighter points is not measured
+
+/// Signed distance of p from the edge of the convex hull of `points`, inside positive; not a number
+/// without an area. Every edge of a hull has all points on one side.
+double HullMargin(const std::vector<Vector2d>& points, const Vector2d& p) {
+  double margin = std::numeric_limits<double>::quiet_NaN();
+  for (const Vector2d& a : points) {
+    for (const Vector2d& b : points) {
+      if ((b - a).norm() < kSameHeight) continue;
+      const Vector2d inward = Vector2d(a.y() - b.y(), b.x() - a.x()).normalized();
+      double least = 0, greatest = 0;
+      for (const Vector2d& c : points) {
+        least = std::min(least, inward.dot(c - a));
+        greatest = std::max(greatest, inward.dot(c - a));
+      }
+      if (least < -1e-9 || greatest < kSameHeight) continue;
+      margin = std::fmin(margin, inward.dot(p - a));
+    }
+  }
+  return margin;
+}
+
+class Measurement {
+ public:
+  Measurement(const models::RobotModel& robot, const models::Environment& environment,
+              const models::GroundMap& ground)
+      : robot_(robot),
+        environment_(environment),
+        ground_(ground),
+        checker_(robot, environment),
+        kinematics_(robot),
+        weight_(robot.TotalMass() * dynamics::kGravity) {}
+
+  void Enter(int segment, const Phase& phase) {
+    segment_ = segment;
+    points_ = BearingPoints(robot_, phase);
+  }
+
+  void Measure(const Knot& knot) {
+    time_ = knot.t;
+    kinematics_.SetPosition(knot.q);
+    MeasureJoints(knot);
+    MeasureContacts(knot);
+    MeasureDistances();
+  }
+
+  const PlanMargins& margins() const { return margins_; }
+
+ private:
+  void Least(double value, Margin* margin) const {
+    if (std::isnan(value) || (margin->segment >= 0 && value >= margin->value)) return;
+    *margin = {value, segment_, time_};
+  }
+  void Greatest(double value, Margin* margin) const {
+    if (!std::isfinite(value) || (margin->segment >= 0 && value <= margin->value)) return;
+    *margin = {value, segment_, time_};
+  }
+
+  void MeasureJoints(const Knot& knot) {
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const models::Joint& joint = robot_.joints[j];
+      Greatest(std::abs(knot.v[6 + j]) / joint.velocity, &margins_.joint_speed);
+      if (!joint.mimic) Greatest(std::abs(knot.tau[j]) / joint.effort, &margins_.torque);
+    }
+  }
+
+  void MeasureContacts(const Knot& knot) {
+    std::vector<Vector2d> support;
+    Vector2d moment = Vector2d::Zero();
+    double load = 0;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Vector3d p = kinematics_.Position(points_[i].link, points_[i].p_L);
+      const Vector3d force = knot.forces.col(i);
+      support.push_back(p.head<2>());
+      moment += force.z() * p.head<2>();
+      load += force.z();
+      lowest = std::min(lowest, p.z());
+      highest = std::max(highest, p.z());
+      if (force.z() > kLightLoad * weight_) {
+        Greatest(force.head<2>().norm() / (robot_.friction * force.z()), &margins_.friction);
+      }
+      if (const auto level = ground_.LevelAt(p.head<2>(), p.z(), kSameHeight)) {
+        Least(ground_.Clearance(*level, p.head<2>()), &margins_.ground_edge);
+      }
+    }
+    if (load > kLightLoad * weight_ && highest - lowest < kSameHeight) {
+      Least(HullMargin(support, moment / load), &margins_.zmp);
+    }
+  }
+
+  void MeasureDistances() {
+    const auto& X_WL = kinematics_.X_WL();
+    double own = PlanMargins::kFarthest;
+    for (const models::Proximity& pair : checker_.SelfProximities(X_WL, own)) {
+      own = std::min(own, pair.distance);
+    }
+    Least(own, &margins_.self_distance);
+    double other = PlanMargins::kFarthest;
+    for (const models::Proximity& pair : checker_.EnvironmentProximities(X_WL, other)) {
+      if (!environment_.obstacles[pair.other].is_ground) other = std::min(other, pair.distance);
+    }
+    Least(other, &margins_.obstacle_distance);
+  }
+
+  const models::RobotModel& robot_;
+  const models::Environment& environment_;
+  const models::GroundMap& ground_;
+  models::CollisionChecker checker_;
+  dynamics::TreeKinematics kinematics_;
+  double weight_;  ///< N
+  PlanMargins margins_;
+  std::vector<BearingPoint> points_;
+  int segment_ = 0;
+  double time_ = 0;
+};
+
+}  // namespace
+
+PlanMargins MeasureMargins(const Plan& plan, const models::RobotModel& robot,
+                           const models::Environment& environment,
+                           const models::GroundMap& ground) {
+  Measurement measurement(robot, environment, ground);
+  for (std::size_t segment = 0; segment < plan.segments.size(); ++segment) {
+    for (const Phase& phase : plan.segments[segment].phases) {
+      measurement.Enter(static_cast<int>(segment), phase);
+      for (const Knot& knot : phase.knots) measurement.Measure(knot);
+    }
+  }
+  return measurement.margins();
+}
+
+}  // namespace possibility::actions
