@@ -112,11 +112,6 @@ JumpAnswer JumpSolver::Realise(const JumpTask& task,
   return answer;
 }
 
-std::string JumpSolver::FaultInSimulation(const SolvedJump& jump) const {
-  return FaultOnBareGround(robot_, model_, launch_, landing_, jump.task.distance, jump.task.height,
-                           jump.phases, true);
-}
-
 void JumpSolver::RealiseInSpace(const JumpProblem& problem,
                                 const collocation::Trajectory& trajectory, bool is_new,
                                 JumpAnswer* answer) const {
@@ -127,8 +122,9 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
     JumpMotion motion(robot_, model_, launch_, landing_);
     jump->phases = motion.Realise(problem, trajectory, &jump->report);
     if (is_new) {
-      const std::string fault = FaultOnBareGround(
-          robot_, model_, launch_, landing_, jump->task.distance, jump->task.height, jump->phases);
+      const std::string fault =
+          FaultOnBareGround(robot_, model_, launch_, landing_, jump->task.distance,
+                            jump->task.height, jump->phases, true);
       if (!fault.empty()) throw MotionError(fault);
     }
     answer->jump = std::move(jump);

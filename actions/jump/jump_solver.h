@@ -41,8 +41,8 @@ struct JumpAnswer {
 };
 
 /// Decides whether a jump is possible by finding it: collocation in the sagittal plane, then the
-/// motion of the whole robot, then its verification on bare ground. Stateless: any number of solves
-/// may run at once. Deterministic: the same task has the same answer.
+/// motion of the whole robot, then its verification on bare ground, simulation included. Stateless:
+/// any number of solves may run at once. Deterministic: the same task has the same answer.
 class JumpSolver {
  public:
   using Log = std::function<void(const collocation::SolverIteration&)>;
@@ -60,8 +60,6 @@ class JumpSolver {
   /// Realises a stored solution of the same task, without solving.
   /// @throws std::invalid_argument if it belongs to another problem.
   JumpAnswer Realise(const JumpTask& task, const collocation::StoredSolution& solution) const;
-  /// Simulates a jump on bare ground and describes the fault; empty if none. Takes seconds.
-  std::string FaultInSimulation(const SolvedJump& jump) const;
 
  private:
   /// True if the attempt decided the answer. A finer mesh may help if only the whole robot failed.

@@ -62,18 +62,12 @@ class SweepQueue {
     entry.was_known = answer.has_value();
     if (!answer) {
       answer = library_.FindOrSolve(task);
-      if (answer->jump && sweep_.simulates) RefuseUnlessSimulated(&*answer);
       if (answer->jump) library_.Save(*answer, task);
     }
     entry.is_possible = answer->jump != nullptr;
     entry.reason = answer->reason;
     entry.effort = answer->effort;
     return entry;
-  }
-
-  void RefuseUnlessSimulated(JumpAnswer* answer) const {
-    answer->reason = library_.solver().FaultInSimulation(*answer->jump);
-    if (!answer->reason.empty()) answer->jump = nullptr;
   }
 
   void Report(int answered) {

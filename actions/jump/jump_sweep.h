@@ -17,8 +17,6 @@ struct JumpSweep {
   int threads = 1;
   /// Per height, stops after this many refusals in a row beyond a success; 0: tries all distances.
   int refusals_to_stop = 2;
-  /// Simulates each new jump and refuses it if the simulation does not follow it; takes seconds.
-  bool simulates = false;
   /// Asked after every answer, from any thread, one question at a time. Once cancelled, the rest is
   /// left out.
   CancellationToken cancellation;

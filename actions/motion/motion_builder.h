@@ -16,6 +16,7 @@ namespace possibility::actions {
 struct MotionPhase {
   double duration = 0;                          ///< s
   std::vector<int> contacts;                    ///< bearing patches
+  std::vector<int> coming_down;                 ///< of these, those that did not bear before
   std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
 };
 
@@ -34,12 +35,14 @@ struct MotionSettings {
 std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotModel robot);
 
 /// @throws MotionError naming the joint that leaves its position limits, or is faster than
-/// `speed_margin` of its speed limit, at time `t` of a phase.
+/// `speed_margin` of its speed limit, at time `t`.
 void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
                         const Eigen::VectorXd& v, double speed_margin, double t);
 
 /// Turns task-level motion into knots with joint motion, torques and contact forces that satisfy
-/// inverse dynamics, limits and friction cones. One instance per thread.
+/// inverse dynamics, limits and friction cones. A patch takes up its load over the phase in which
+/// it comes down, and gives it up over the phase before it lifts, as far as balance allows. One
+/// instance per thread.
 class MotionBuilder {
  public:
   explicit MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings = {});
@@ -51,9 +54,12 @@ class MotionBuilder {
                            const CancellationToken& cancellation = {});
 
  private:
-  Phase BuildPhase(const MotionPhase& phase, double start, Eigen::VectorXd* guess);
-  Knot MakeKnot(const MotionPhase& phase, const std::vector<dynamics::ContactPoint>& points,
-                double t, Eigen::VectorXd* guess);
+  struct Bearing;
+
+  /// `before`, `after`: the phases next to it, null at the ends.
+  Phase BuildPhase(const MotionPhase& phase, const MotionPhase* before, const MotionPhase* after,
+                   double start, Eigen::VectorXd* guess);
+  Knot MakeKnot(const MotionPhase& phase, const Bearing& bearing, double t, Eigen::VectorXd* guess);
   void CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const;
 
   const models::RobotModel* robot_;

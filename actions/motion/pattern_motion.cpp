@@ -9,6 +9,7 @@
 #include "actions/motion/planar_pose.h"
 #include "actions/motion/support_polygon.h"
 #include "actions/motion/whole_body_task.h"
+#include "actions/motion/zero_moment_point.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::actions {
@@ -215,19 +216,9 @@ class Pattern {
       const int k = IntervalAt(t);
       const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
       q = state.q;
-      error_.col(i) = TrueZmp(state, &dynamics) - Vector2d(x_->Zmp(i), y_->Zmp(i));
+      dynamics.SetState(state.q, state.v, state.a);
+      error_.col(i) = ZeroMomentPoint(&dynamics, ground_) - Vector2d(x_->Zmp(i), y_->Zmp(i));
     }
-  }
-
-  /// Where the moment of all contact forces has no horizontal part.
-  Vector2d TrueZmp(const WholeBodyState& state, dynamics::MultibodyDynamics* dynamics) const {
-    dynamics->SetState(state.q, state.v, state.a);
-    const VectorXd& forces = dynamics->InverseDynamics();
-    const Vector3d moment = forces.head<3>();  // about the root's origin
-    const Vector3d force = forces.segment<3>(3);
-    const Vector3d root = state.q.segment<3>(4) - ground_ * Vector3d::UnitZ();
-    return {root.x() - (root.z() * force.x() + moment.y()) / force.z(),
-            root.y() + (moment.x() - root.z() * force.y()) / force.z()};
   }
 
   LimbTask TaskOf(int k, int limb, double t) const {

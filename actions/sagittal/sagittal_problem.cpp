@@ -110,6 +110,20 @@ std::vector<Bounds> SagittalProblem::HeldSolesAnd(std::size_t hands) {
   return bounds;
 }
 
+std::vector<Bounds> SagittalProblem::HeldHands(std::size_t hands) {
+  std::vector<Bounds> bounds(4, kFree);
+  bounds.insert(bounds.end(), 2 * hands, kZero);
+  return bounds;
+}
+
+void SagittalProblem::ContinueAccelerations(int from, int to) {
+  const auto difference = std::make_shared<LinearFunction>(Eigen::Vector2d(1, -1));
+  for (std::size_t i = 0; i < phases_[from].a.size(); ++i) {
+    problem_.Link(fmt::format("acceleration {}", i), difference,
+                  {{phases_[from].a[i], At::kEnd}, {phases_[to].a[i], At::kStart}}, {kZero});
+  }
+}
+
 void SagittalProblem::HoldPoints(int phase, const std::vector<Bounds>& held, At at) {
   const collocation::SagittalPhase& robot = phases_[phase];
   robot.phase->ConstrainKnots("contacts", PointVelocities(model_.planar(), robot.points),

@@ -73,6 +73,10 @@ class SagittalProblem {
   /// acceleration at the first node free, and an error there recurs with alternating sign at every
   /// later node.
   void StartHeld(int phase, const std::vector<collocation::Bounds>& held);
+  static std::vector<collocation::Bounds> HeldHands(std::size_t hands);
+  /// The accelerations at the end of one phase and at the start of the next are the same, so that
+  /// no torque steps there.
+  void ContinueAccelerations(int from, int to);
   static std::vector<collocation::Bounds> HeldSoles() { return HeldSolesAnd(0); }
   static std::vector<collocation::Bounds> HeldSolesAnd(std::size_t hands);
   /// The points from `first_point` on begin the phase at their places in the landing stance.

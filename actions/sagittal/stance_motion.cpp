@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "actions/motion/motion_collision.h"
+#include "actions/motion/phase_sequence.h"
 #include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
@@ -18,9 +20,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kPreparation = 1.0;   // s: folds the joints that the plan does not use
+constexpr double kPreparation = 1.0;   // s: a phase that turns joints to where the plan begins
 constexpr double kKnotSpacing = 0.01;  // s
-constexpr double kCorrection = 0.5;    // s, longest time until the motion is as planned
+constexpr double kVast = 20;           // m
+constexpr double kCorrection = 0.5;    // s, time until the motion is as planned, if there is time
+constexpr double kTurningSpeed = 0.6;  // of a joint's speed limit, while it turns to the plan
 
 Eigen::Quaterniond Orientation(const VectorXd& q) { return {q[0], q[1], q[2], q[3]}; }
 
@@ -90,7 +94,13 @@ Support StanceMotion::LandingFeet(double distance, double height) const {
 }
 
 Support StanceMotion::LandingAll(double distance, double height) const {
-  return SupportOf(landing_, all_, distance, height);
+  Support all = SupportOf(landing_, all_, distance, height);
+  for (const int contact : all.contacts) {
+    if (std::find(feet_.begin(), feet_.end(), contact) == feet_.end()) {
+      all.coming_down.push_back(contact);
+    }
+  }
+  return all;
 }
 
 Support StanceMotion::SupportOf(const NominalStance& stance, const std::vector<int>& contacts,
@@ -130,6 +140,44 @@ Support StanceMotion::Toes() const {
     toes.names.push_back(fmt::format("{}[{}]", patch.name, fmt::join(chosen, ",")));
   }
   return toes;
+}
+
+std::vector<Phase> StanceMotion::Begin(const std::function<Phase(const Knot& from)>& follow) const {
+  Knot standing;
+  standing.q = launch_.q;
+  standing.v = VectorXd::Zero(robot_.nv());
+  try {
+    Phase phase = follow(standing);
+    if (!Hits(phase)) return {phase};
+  } catch (const MotionError&) {
+    // Too quick for the joints, or too much for balance.
+  }
+  std::vector<Phase> motion = {Prepare()};
+  Append(follow(motion.front().knots.back()), &motion);
+  return motion;
+}
+
+bool StanceMotion::Hits(const Phase& phase) const {
+  models::Environment environment;
+  models::Obstacle& ground = environment.obstacles.emplace_back();
+  ground.name = "ground";
+  ground.shape = models::Shape::Box({kVast, kVast, 1});
+  ground.X_WO.translation().z() = -0.5;
+  ground.is_ground = true;
+  const models::CollisionChecker checker(robot_, environment);
+  const MotionPoses poses(robot_, {phase});
+  return !FirstHit(robot_, environment, checker, poses, Eigen::Isometry3d::Identity()).empty() ||
+         !FirstSelfHit(robot_, checker, poses).empty();
+}
+
+double StanceMotion::TurningTime(const VectorXd& offset, double duration) const {
+  double time = kCorrection;
+  for (Eigen::Index j = 0; j < offset.size(); ++j) {
+    const double speed = kTurningSpeed * robot_.joints[j].velocity;
+    // The quintic's peak rate is 15/8 of its mean.
+    time = std::max(time, 15.0 / 8 * std::abs(offset[j]) / speed);
+  }
+  return std::min(time, duration);
 }
 
 Phase StanceMotion::Prepare() const {
@@ -215,10 +263,12 @@ Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const 
   const VectorXd rates_off = from.v.tail(n) - planned_joints.rate;
   const double duration = plan.duration;
   const double settled = std::min(kCorrection, duration);
+  const double turned = TurningTime(joints_off, duration);
 
   MotionPhase phase;
   phase.duration = duration;
   phase.contacts = support.contacts;
+  phase.coming_down = support.coming_down;
   phase.task = [=, this, &plan, &support](double t) {
     const Signal<VectorXd> planar = Planar(plan, t);
     const Signal<Vector3d> turn = DyingOut<Vector3d>(turned_off, turning_off, t, settled);
@@ -230,7 +280,7 @@ Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const 
     task.root_position = {Vector2d(x.value, y.value), Vector2d(x.rate, y.rate),
                           Vector2d(x.acceleration, y.acceleration)};
     task.root_height = Entry(shift, 2) + Entry(planar, 2);
-    task.joints = Joints(plan, t) + DyingOut<VectorXd>(joints_off, rates_off, t, settled) +
+    task.joints = Joints(plan, t) + DyingOut<VectorXd>(joints_off, rates_off, t, turned) +
                   Reversed(DyingOut<VectorXd>(end_offset, -end_rate, duration - t, duration));
     task.limbs = support.limbs;
     return task;

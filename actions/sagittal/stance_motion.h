@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Support {
   std::vector<std::string> names;
   std::vector<dynamics::ContactPoint> points;
   std::vector<LimbTask> limbs;
+  std::vector<int> coming_down;  ///< contacts that take up their load gradually
 };
 
 /// Turns a sagittal plan into motion of the whole robot in stance: soles and pegs stay exactly in
@@ -38,10 +40,15 @@ class StanceMotion {
   /// The launch's patches at their places in the landing stance, whose frame is at `distance`,
   /// `height`.
   Support LandingFeet(double distance, double height) const;
-  Support LandingAll(double distance, double height) const;  ///< including hands
+  /// Including hands, which have just come down.
+  Support LandingAll(double distance, double height) const;
 
   /// At rest, from the launch stance to SagittalModel::ready().
   Phase Prepare() const;
+  /// A motion from the launch stance at rest. `follow` makes its first phase from a knot. The
+  /// joints that are not as in SagittalModel::ready() turn while the robot follows the plan; if it
+  /// cannot, or if it would hit itself or the ground, they turn in a phase before.
+  std::vector<Phase> Begin(const std::function<Phase(const Knot& from)>& follow) const;
   /// Root and free joints begin as in `from` and approach the plan; at the end the joints and their
   /// rates differ from the plan by `end_offset` and `end_rate`. The limbs of the support stay in
   /// place.
@@ -64,6 +71,10 @@ class StanceMotion {
   WholeBodyState StateAt(const Knot& knot, const Support& support);
 
  private:
+  /// Time in which joints of a plan's `duration` turn by `offset`, s.
+  double TurningTime(const Eigen::VectorXd& offset, double duration) const;
+  /// Whether the motion on the launch's ground hits anything.
+  bool Hits(const Phase& phase) const;
   Support SupportOf(const NominalStance& stance, const std::vector<int>& contacts, double x,
                     double z) const;
 

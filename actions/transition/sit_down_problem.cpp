@@ -6,6 +6,13 @@ namespace possibility::actions {
 
 using collocation::At;
 
+namespace {
+
+/// Of the problem's equations; stored solutions of another version are stale.
+constexpr double kVersion = 2;
+
+}  // namespace
+
 double SitDownProblem::Displacement(const SagittalModel& model) {
   return model.Position(model.heel(), model.ready()).x() -
          model.Position(model.heel(), model.landed()).x();
@@ -14,7 +21,7 @@ double SitDownProblem::Displacement(const SagittalModel& model) {
 std::string SitDownIdentity(const models::RobotModel& robot, const SitDownSettings& settings) {
   return MotionIdentity(
       robot, settings,
-      {settings.sit.lower, settings.sit.upper, settings.bear.lower, settings.bear.upper});
+      {kVersion, settings.sit.lower, settings.sit.upper, settings.bear.lower, settings.bear.upper});
 }
 
 SitDownProblem::SitDownProblem(const SagittalModel& model, const SitDownSettings& settings)
@@ -22,11 +29,12 @@ SitDownProblem::SitDownProblem(const SagittalModel& model, const SitDownSettings
   AddPhase("sit", Feet(), settings.sit);
   AddPhase("bear", FeetAndHands(), settings.bear);
   collocation::ContinueSagittally(&problem_, phases_[kSit], phases_[kBear], true);
+  ContinueAccelerations(kSit, kBear);
   StartAtRest(kSit);
   HoldSoles(kSit, At::kAfterStart);
   KeepHandsAbove(kSit, settings.hand_approach, At::kInside);
   StartPlaced(kBear, 2);
-  StartHeld(kBear, HeldSolesAnd(model.hands().size()));
+  StartHeld(kBear, HeldHands(model.hands().size()));  // the soles already are
   HoldFeetAndHands(kBear, At::kBeforeEnd);
   EndAtRest(kBear);
   for (int phase = 0; phase < kNumPhases; ++phase) {

@@ -60,9 +60,8 @@ std::vector<Phase> TransitionSolver::InSpace(const collocation::Trajectory& traj
   StanceMotion stance(robot_, model_, from_, to_);
   const Support feet = stance.LaunchFeet();
   const Support all = stance.LandingAll(SitDownProblem::Displacement(model_), 0);
-  std::vector<Phase> motion;
-  Append(stance.Prepare(), &motion);
-  Append(stance.FollowUntilPlaced(sit, stance.PlannedKnot(sit, 0), feet, all), &motion);
+  std::vector<Phase> motion = stance.Begin(
+      [&](const Knot& from) { return stance.FollowUntilPlaced(sit, from, feet, all); });
   Append(stance.Follow(bear, motion.back().knots.back(), all), &motion);
   return motion;
 }

@@ -22,7 +22,7 @@ constexpr double kInside = 1 - 1e-9;
 // Tolerated residual of the base wrench, as a fraction of the weight (times a metre).
 constexpr double kResidual = 1e-11;
 
-void CheckSettings(const ContactForceSettings& settings) {
+void CheckSettings(const ContactForceSettings& settings, std::size_t num_points) {
   for (const double setting : {settings.friction, settings.friction_margin, settings.torque_margin,
                                settings.normal_reserve}) {
     if (!(setting >= 0 && std::isfinite(setting))) {
@@ -33,6 +33,16 @@ void CheckSettings(const ContactForceSettings& settings) {
   if (settings.cone_edges < 3) {
     throw std::invalid_argument(
         fmt::format("{}: cone_edges is {}, expected 3 or more", kCaller, settings.cone_edges));
+  }
+  if (!settings.shares.empty() && settings.shares.size() != num_points) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} shares, expected {}", kCaller, settings.shares.size(), num_points));
+  }
+  for (const double share : settings.shares) {
+    if (!(share > 0 && share <= 1)) {
+      throw std::invalid_argument(
+          fmt::format("{}: a share is {}, expected more than 0, at most 1", kCaller, share));
+    }
   }
 }
 
@@ -53,7 +63,7 @@ void CheckFinite(const Balance& balance) {
       "{}: q, v, the acceleration or a point is so large that the forces are not finite", kCaller));
 }
 
-/// The problem in forces as fractions of `unit` (N).
+/// The problem in forces as fractions of `unit` (N) times the point's share.
 class ForceProblem {
  public:
   ForceProblem(const Balance& balance, const std::vector<ContactPoint>& points,
@@ -108,12 +118,19 @@ class ForceProblem {
       problem_.bounded_required[k] = required_[index];
       problem_.bounds[k] = Limit(loaded_[k]);
     }
+    for (std::size_t i = 0; i < settings_.shares.size(); ++i) {
+      problem_.balance_loads.middleCols<3>(3 * i) *= settings_.shares[i];
+      problem_.bounded_loads.middleCols<3>(3 * i) *= settings_.shares[i];
+    }
   }
 
   ContactForces Evaluate(const VectorXd& x) const {
     ContactForces result;
     result.forces = unit_ * Eigen::Map<const Eigen::Matrix3Xd>(x.data(), 3, x.size() / 3);
     result.torques = unit_ * required_.tail(balance_.efforts.size());
+    for (std::size_t i = 0; i < settings_.shares.size(); ++i) {
+      result.forces.col(i) *= settings_.shares[i];
+    }
     const VectorXd loads = unit_ * (problem_.bounded_loads * x);
     for (std::size_t k = 0; k < loaded_.size(); ++k) result.torques[loaded_[k]] -= loads[k];
     if (settings_.friction > 0) {
@@ -146,7 +163,7 @@ std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics
                                                      const std::vector<ContactPoint>& points,
                                                      const ContactForceSettings& settings) {
   const MultibodyModel& model = dynamics->model();
-  CheckSettings(settings);
+  CheckSettings(settings, points.size());
   CheckContactPoints(kCaller, model.tree().num_links(), points);
   Balance balance;
   balance.required = dynamics->InverseDynamics();

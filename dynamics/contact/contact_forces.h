@@ -19,6 +19,10 @@ struct ContactForceSettings {
   /// Edges of the pyramid inside the cone, at least 3. With n edges it reaches cos(pi / n) of the
   /// friction in every direction.
   int cone_edges = 8;
+  /// By point, in (0, 1]: a point with a smaller share bears less wherever the balance allows. Its
+  /// squared force counts 1 / share^2 times, and its reserve is multiplied by the share. Empty: all
+  /// are 1.
+  std::vector<double> shares;
 };
 
 struct ContactForces {
@@ -37,7 +41,8 @@ struct ContactForces {
 /// MultibodyModel's independent joints. None if no such forces exist. Without points: the torques
 /// of free flight, if a flying robot can have that acceleration.
 /// @throws std::invalid_argument if the forces are not finite, a point names no link or is not
-/// finite, a normal is not a unit vector, or a setting is out of range.
+/// finite, a normal is not a unit vector, a setting is out of range, or there is not one share per
+/// point.
 std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics,
                                                      const std::vector<ContactPoint>& points,
                                                      const ContactForceSettings& settings);

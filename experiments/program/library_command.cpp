@@ -122,7 +122,6 @@ ExitCode RunLibrary(const LibraryOptions& options) {
   actions::JumpLibrary library(robot, solver, options.out);
   actions::JumpSweep sweep;
   sweep.heights = ParseHeights(options.heights);
-  sweep.simulates = true;
   sweep.threads =
       options.threads.empty()
           ? HardwareThreads()

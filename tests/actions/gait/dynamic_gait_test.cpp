@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -12,6 +13,7 @@
 
 #include "actions/verify/verifier.h"
 #include "tests/actions/dynamic_gaits.h"
+#include "tests/actions/load_steps.h"
 #include "tests/actions/standing_plan.h"
 
 namespace possibility::actions {
@@ -111,6 +113,29 @@ TEST_P(DynamicGaitTest, RandomWaysVerify) {
     const std::vector<Phase> motion = gait_.motion().Motion(way, kKnotSpacing, {});
     EXPECT_EQ(FaultsOf(motion, GetParam(), way.front(), way.back()), "") << trial;
   }
+}
+
+TEST_P(DynamicGaitTest, LimbsBearLittleWhereTheyLiftAndComeDown) {
+  double greatest = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::vector<Phase> motion = gait_.motion().Motion(RandomWay(), kKnotSpacing, {});
+    const double load = testing::GreatestLoadAtContactChanges(DrcHubo1(), motion);
+    EXPECT_LT(load, 0.02) << trial;
+    greatest = std::max(greatest, load);
+  }
+  RecordProperty("ten_thousandths_of_the_weight", static_cast<int>(1e4 * greatest));
+}
+
+TEST_P(DynamicGaitTest, TorquesAreContinuousWhereLimbsLiftAndComeDown) {
+  constexpr double kStep = 3;  // N m, of up to 70
+  double greatest = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::vector<Phase> motion = gait_.motion().Motion(RandomWay(), kKnotSpacing, {});
+    const double step = testing::GreatestTorqueStep(motion);
+    EXPECT_LT(step, kStep) << trial;
+    greatest = std::max(greatest, step);
+  }
+  RecordProperty("mN_m", static_cast<int>(1000 * greatest));
 }
 
 TEST_P(DynamicGaitTest, SimulationFollowsTheMotion) {

@@ -9,6 +9,7 @@
 #include "models/input/input_error.h"
 #include "models/world/collision.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/load_steps.h"
 #include "tests/models/temporary_folder.h"
 
 namespace possibility::actions {
@@ -18,7 +19,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// The transition, solved once per test program.
-class TransitionTest : public testing::Test {
+class TransitionTest : public ::testing::Test {
  protected:
   struct Solved {
     NominalStance walk = SolveNominalStance(DrcHubo1(), DrcHubo1().GaitNamed("walk"));
@@ -43,6 +44,11 @@ TEST_F(TransitionTest, LeadsFromStanceToStanceAtRest) {
   EXPECT_LT((last.q - landed).norm(), 1e-8);
   // What the optimiser's constraint tolerance leaves in the plan's own velocities.
   EXPECT_LT(first.v.norm() + last.v.norm(), 1e-6);
+}
+
+TEST_F(TransitionTest, HandsTakeUpTheirLoadGradually) {
+  EXPECT_LT(testing::GreatestLoadAtContactChanges(DrcHubo1(), Sitting().motion), 0.02);
+  EXPECT_LT(testing::GreatestTorqueStep(Sitting().motion), 1);
 }
 
 TEST_F(TransitionTest, FeetStayAndHandsArriveAtRest) {

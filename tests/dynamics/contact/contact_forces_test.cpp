@@ -72,11 +72,12 @@ void ExpectValid(TreeKinematics* kinematics, const VectorXd& a,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d f = result.forces.col(i);
     kinematics->AddPointForce(points[i].link, points[i].p_L, -f, &residual);
-    EXPECT_LE(
-        f.head<2>().norm(),
-        settings.friction * settings.friction_margin * (f.z() - settings.normal_reserve) + 1e-9);
+    const double reserve =
+        settings.normal_reserve * (settings.shares.empty() ? 1 : settings.shares[i]);
+    EXPECT_LE(f.head<2>().norm(),
+              settings.friction * settings.friction_margin * (f.z() - reserve) + 1e-9);
     EXPECT_LE(f.head<2>().norm(), result.friction_utilisation * settings.friction * f.z() + 1e-9);
-    EXPECT_GE(f.z(), settings.normal_reserve - 1e-9);
+    EXPECT_GE(f.z(), reserve - 1e-9);
   }
   EXPECT_LT(residual.head<6>().norm(), 1e-9 * scale);
   EXPECT_LT((residual.tail(result.torques.size()) - result.torques).norm(), 1e-9 * scale);
@@ -263,6 +264,64 @@ TEST(ContactForces, FindsForcesWhereverTheyExist) {
     limited += result->torque_utilisation > 0.949999 || result->friction_utilisation > 0.83;
   }
   EXPECT_GT(limited, 50);
+}
+
+TEST(ContactForces, SharesDivideTheLoadOfPointsAtOnePlaceByTheirSquares) {
+  Standing block(Block());
+  block.settings.shares = {1, 0.5, 0.1, 1};
+  const Vector3d below(0, 0, -0.5);
+  const auto result = block.Forces({{0, below}, {0, below}, {0, below}, {0, below}});
+  ASSERT_TRUE(result);
+  const double unit = 10 * kGravity / 2.26;
+  EXPECT_NEAR(result->forces(2, 0), unit, 1e-9);
+  EXPECT_NEAR(result->forces(2, 1), 0.25 * unit, 1e-9);
+  EXPECT_NEAR(result->forces(2, 2), 0.01 * unit, 1e-9);
+  EXPECT_NEAR(result->forces(2, 3), unit, 1e-9);
+}
+
+TEST(ContactForces, APointOfSmallShareBearsWhatBalanceNeeds) {
+  Standing block(Block());
+  block.settings.shares = {1, 0.01};
+  const auto result = block.Forces({{0, {-0.1, 0, -0.5}}, {0, {0.3, 0, -0.5}}});
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->forces(2, 1), 10 * kGravity * 0.25, 1e-9);
+}
+
+TEST(ContactForces, SharesDoNotChangeWhichMotionsAreFeasible) {
+  std::mt19937 random(3);
+  Standing block(Block());
+  int feasible = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<ContactPoint> points;
+    std::vector<double> shares;
+    for (int i = 0; i < 5; ++i) {
+      points.push_back({0, {Uniform(&random, -0.2, 0.2), Uniform(&random, -0.2, 0.2), -0.5}});
+      shares.push_back(Uniform(&random, 0.05, 1));
+    }
+    const VectorXd a = RandomVector(&random, 6, 1);
+    block.settings.shares.clear();
+    const auto equal = block.Forces(a, points);
+    block.settings.shares = shares;
+    const auto shared = block.Forces(a, points);
+    EXPECT_EQ(shared.has_value(), equal.has_value()) << trial;
+    if (!shared) continue;
+    ++feasible;
+    block.kinematics.SetPosition(Identity(block.model));
+    ExpectValid(&block.kinematics, a, points, block.settings, *shared);
+  }
+  EXPECT_GT(feasible, 50);
+  EXPECT_LT(feasible, 250);
+}
+
+TEST(ContactForces, InvalidSharesAreRefused) {
+  Standing block(Block());
+  const std::vector<ContactPoint> points = Rectangle(0, -0.1, 0.1, -0.2, 0.2, -0.5);
+  for (const double share : {0.0, -0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    block.settings.shares = {1, 1, share, 1};
+    EXPECT_THROW(block.Forces(points), std::invalid_argument) << share;
+  }
+  block.settings.shares = {1, 1, 1};
+  EXPECT_THROW(block.Forces(points), std::invalid_argument);
 }
 
 TEST(ContactForces, DrcHuboStandsOnBothFeetAndOnOne) {
