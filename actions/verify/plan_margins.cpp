@@ -2,41 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "actions/verify/verifier_state.h"
+#include "actions/verify/zero_moment_point.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/world/collision.h"
 
 namespace possibility::actions {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kSameHeight = 1e-3;  // m, as the verifier tolerates
 constexpr double kLightLoad = 1e-3;   // of the weight: friction of lighter points is not measured
-
-/// Signed distance of p from the edge of the convex hull of `points`, inside positive; not a number
-/// without an area. Every edge of a hull has all points on one side.
-double HullMargin(const std::vector<Vector2d>& points, const Vector2d& p) {
-  double margin = std::numeric_limits<double>::quiet_NaN();
-  for (const Vector2d& a : points) {
-    for (const Vector2d& b : points) {
-      if ((b - a).norm() < kSameHeight) continue;
-      const Vector2d inward = Vector2d(a.y() - b.y(), b.x() - a.x()).normalized();
-      double least = 0, greatest = 0;
-      for (const Vector2d& c : points) {
-        least = std::min(least, inward.dot(c - a));
-        greatest = std::max(greatest, inward.dot(c - a));
-      }
-      if (least < -1e-9 || greatest < kSameHeight) continue;
-      margin = std::fmin(margin, inward.dot(p - a));
-    }
-  }
-  return margin;
-}
 
 class Measurement {
  public:
@@ -83,19 +62,11 @@ class Measurement {
   }
 
   void MeasureContacts(const Knot& knot) {
-    std::vector<Vector2d> support;
-    Vector2d moment = Vector2d::Zero();
-    double load = 0;
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
+    Eigen::Matrix3Xd places(3, points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Vector3d p = kinematics_.Position(points_[i].link, points_[i].p_L);
       const Vector3d force = knot.forces.col(i);
-      support.push_back(p.head<2>());
-      moment += force.z() * p.head<2>();
-      load += force.z();
-      lowest = std::min(lowest, p.z());
-      highest = std::max(highest, p.z());
+      places.col(i) = p;
       if (force.z() > kLightLoad * weight_) {
         Greatest(force.head<2>().norm() / (robot_.friction * force.z()), &margins_.friction);
       }
@@ -103,8 +74,8 @@ class Measurement {
         Least(ground_.Clearance(*level, p.head<2>()), &margins_.ground_edge);
       }
     }
-    if (load > kLightLoad * weight_ && highest - lowest < kSameHeight) {
-      Least(HullMargin(support, moment / load), &margins_.zmp);
+    if (const auto zmp = ZeroMomentPoint(places, knot.forces, kLightLoad * weight_)) {
+      Least(SupportMargin(places, zmp->head<2>()), &margins_.zmp);
     }
   }
 

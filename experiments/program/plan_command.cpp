@@ -96,11 +96,12 @@ actions::PlanResult PlanWithProgress(const models::RobotModel& robot,
   return actions::PlanTraversal(robot, scenario, request);
 }
 
-ExitCode Report(const actions::PlanResult& result, const PlanFiles& files, bool json) {
+ExitCode Report(const actions::PlanResult& result, const models::RobotModel& robot,
+                const PlanFiles& files, bool json) {
   if (json) {
-    PrintOut("{}\n", SummaryJson(result, files));
+    PrintOut("{}\n", SummaryJson(result, robot, files));
   } else {
-    PrintOut("{}", SummaryText(result, files));
+    PrintOut("{}", SummaryText(result, robot, files));
   }
   if (result.status == actions::PlanStatus::kFound) return kDone;
   PrintError("no plan: {}{}{}\n", actions::ToString(result.status),
@@ -131,7 +132,7 @@ ExitCode RunPlan(const PlanOptions& options) {
   }
   actions::WritePlan(result.plan, files.plan);
   WriteOutput(files.page, ViewerPage(result.plan, robot, scenario));
-  return Report(result, files, options.json);
+  return Report(result, robot, files, options.json);
 }
 
 }  // namespace

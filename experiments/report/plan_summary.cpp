@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "actions/verify/verification_report.h"
+#include "experiments/report/cost_of_transport.h"
 #include "experiments/report/plan_speeds.h"
 #include "models/input/json_text.h"
 
@@ -41,6 +42,17 @@ std::string SpeedsText(const actions::Plan& plan) {
   if (speeds.empty()) return {};
   return Row("speeds",
              fmt::format("{}; {:.2f} m in all", fmt::join(speeds, ", "), PlanarLength(plan)));
+}
+
+/// Mechanical cost of transport of the actions and of the plan.
+std::string CostsText(const models::RobotModel& robot, const actions::Plan& plan) {
+  const std::optional<double> whole = CostOfTransport(robot, plan);
+  if (!whole) return {};
+  std::vector<std::string> costs;
+  for (const auto& [action, cost] : CostsOfTransportByAction(robot, plan)) {
+    costs.push_back(fmt::format("{} {:.2f}", action, cost));
+  }
+  return Row("transport cost", fmt::format("{}; {:.2f} in all", fmt::join(costs, ", "), *whole));
 }
 
 /// The explorers of the route, and the gain over the first one.
@@ -84,13 +96,15 @@ std::optional<double> RealTimeRatio(const actions::Plan& plan) {
   return plan.duration() / planning;
 }
 
-std::string SummaryText(const actions::PlanResult& result, const PlanFiles& files) {
+std::string SummaryText(const actions::PlanResult& result, const models::RobotModel& robot,
+                        const PlanFiles& files) {
   const actions::Plan& plan = result.plan;
   std::string text = Row("status", actions::ToString(result.status));
   if (Found(result)) {
     text += RouteText(plan);
     text += Row("plan duration", Seconds(plan.duration()));
     text += SpeedsText(plan);
+    text += CostsText(robot, plan);
     text += SearchText(plan);
   }
   text += Row("preparation", Seconds(plan.timings.preparation_s));
@@ -104,7 +118,8 @@ std::string SummaryText(const actions::PlanResult& result, const PlanFiles& file
   return text + Row("page", files.page.string());
 }
 
-std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& files) {
+std::string SummaryJson(const actions::PlanResult& result, const models::RobotModel& robot,
+                        const PlanFiles& files) {
   const actions::Plan& plan = result.plan;
   Json json;
   json["status"] = Found(result) ? "found" : "no_plan";
@@ -126,6 +141,12 @@ std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& file
     json["path_length_m"] = PlanarLength(plan);
     json["speeds"] = Json::object();
     for (const auto& [action, speed] : SpeedsByAction(plan)) json["speeds"][action] = speed;
+    const std::optional<double> cost = CostOfTransport(robot, plan);
+    json["cost_of_transport"] = cost ? Json(*cost) : Json(nullptr);
+    json["cost_of_transport_by_action"] = Json::object();
+    for (const auto& [action, part] : CostsOfTransportByAction(robot, plan)) {
+      json["cost_of_transport_by_action"][action] = part;
+    }
     json["goal"] = plan.goal;
     if (plan.search) {
       json["explorers"] = plan.search->explorers;

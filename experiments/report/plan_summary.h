@@ -30,10 +30,12 @@ struct PlanFiles {
   std::filesystem::path page;
 };
 
-/// A readable table: status, route, times, files.
-std::string SummaryText(const actions::PlanResult& result, const PlanFiles& files);
+/// A readable table: status, route, times, files. `robot`: the plan's.
+std::string SummaryText(const actions::PlanResult& result, const models::RobotModel& robot,
+                        const PlanFiles& files);
 
 /// One JSON object (docs/command_line.md). `files` is used only if a plan was found.
-std::string SummaryJson(const actions::PlanResult& result, const PlanFiles& files);
+std::string SummaryJson(const actions::PlanResult& result, const models::RobotModel& robot,
+                        const PlanFiles& files);
 
 }  // namespace possibility::experiments

@@ -259,6 +259,9 @@ class Drawing {
       this.links[contact.link].add(patch);
       return patch;
     });
+    this.balanceMarks = new BalanceMarks(this.motion, data);
+    this.balance = this.balanceMarks.group;
+    this.scene.add(this.balance);
     this.forces = new THREE.Group();
     this.forces.visible = false;
     this.impulses = new THREE.Group();
@@ -281,6 +284,7 @@ class Drawing {
     this.updateForces(t, phase);
     this.updateImpulses(t, phase);
     this.centre.update(t, phase);
+    this.balanceMarks.update(t, phase);
     const root = new THREE.Vector3().setFromMatrixPosition(this.motion.linkPoses[0]);
     this.shineOn(root);
     if (this.follow) this.moveTarget(root);

@@ -8,6 +8,7 @@ set(resources
     barrier ${CMAKE_CURRENT_LIST_DIR}/barrier.js
     drawing ${CMAKE_CURRENT_LIST_DIR}/drawing.js
     jumps ${CMAKE_CURRENT_LIST_DIR}/jumps.js
+    balance ${CMAKE_CURRENT_LIST_DIR}/balance.js
     timeline ${CMAKE_CURRENT_LIST_DIR}/timeline.js
     curves ${CMAKE_CURRENT_LIST_DIR}/curves.js
     plots ${CMAKE_CURRENT_LIST_DIR}/plots.js

@@ -14,6 +14,7 @@
 #include "collocation/study/stored_solution.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "dynamics/tree/tree_kinematics.h"
+#include "experiments/report/motor_torques.h"
 #include "experiments/viewer/viewer_momentum.h"
 #include "experiments/viewer/viewer_page.h"
 #include "models/input/input_error.h"

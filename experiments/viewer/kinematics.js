@@ -65,6 +65,7 @@ class Motion {
     this.momenta = new Table(rows, 6);
     this.rates = new Table(rows, this.joints.length);
     this.torques = new Table(rows, this.joints.length);
+    this.balance = new Table(rows, 6);
     this.knots = knots.numbers;
     this.centres = centres.numbers;
     this.forces = new Float32Array(3 * points);
@@ -81,7 +82,7 @@ class Motion {
           }
         }
       };
-      for (const table of [knots, centres, this.momenta, this.rates, this.torques]) {
+      for (const table of [knots, centres, this.momenta, this.rates, this.torques, this.balance]) {
         fill(table.numbers, phase.first * table.columns, table.columns);
       }
       fill(this.forces, phase.forces, 3 * pointsOf(phase));
@@ -215,6 +216,23 @@ class Motion {
   centreAt(t, phase) {
     const {knot, fraction} = this.locate(phase, t);
     return this.centreOfKnot(knot).lerp(this.centreOfKnot(knot + 1), fraction);
+  }
+
+  /* A number of the balance at a knot: zero moment point x, y, z, its distance from the edge of the
+     support, capture point x, y. Null if there is none. */
+  balanceOfKnot(knot, column) {
+    const value = this.balance.at(knot, column);
+    return isNaN(value) ? null : value;
+  }
+
+  /* Zero moment point and capture point on the ground; null while nothing bears. */
+  balanceAt(t, phase) {
+    const {knot, fraction} = this.locate(phase, t);
+    const at = (column) => this.balance.at(knot, column) + fraction *
+        (this.balance.at(knot + 1, column) - this.balance.at(knot, column));
+    if (isNaN(at(0))) return null;
+    return {zmp: new THREE.Vector3(at(0), at(1), at(2)),
+            capture: new THREE.Vector3(at(4), at(5), at(2))};
   }
 
   /* Phases without contact, with the centre of mass at launch and landing. */

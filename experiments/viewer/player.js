@@ -17,9 +17,11 @@ function addKey(text, colour, kind) {
   const key = addText(element('legend'), 'span', text);
   key.className = 'key ' + kind;
   key.style.setProperty('--colour', colour);
+  return key;
 }
 
-const kParts = ['graph', 'route', 'footprints', 'com', 'forces', 'barrier'];  // that can be switched
+/* What can be switched. */
+const kParts = ['graph', 'route', 'footprints', 'com', 'forces', 'balance', 'barrier'];
 
 class Player {
   constructor(data, motion, drawing) {
@@ -77,6 +79,7 @@ class Player {
     if (this.motion.phases.some((phase) => phase.impulses.length)) {
       addKey('impact', kImpulseColour, 'line');
     }
+    this.balanceKeys = this.motion.phases.length ? this.addBalanceKeys() : [];
     this.describeNo();
     element('graph').parentElement.hidden = !this.data.explored.actions.length;
     element('legs').hidden = this.motion.legs.length < 2;
@@ -85,6 +88,18 @@ class Player {
       option.value = speed;
       option.selected = speed === 1;
     }
+  }
+
+  /* Shown while their switch is on. */
+  addBalanceKeys() {
+    const keys = [
+      addKey('support polygon', kSupportColour, 'action'),
+      addKey('zero moment point', kZmpColour, 'limb'),
+      addKey('capture point', kCaptureColour, 'ring'),
+      addKey('load, full: the weight', '#667180', 'bar'),
+    ];
+    keys.forEach((key) => { key.hidden = true; });
+    return keys;
   }
 
   /* Why there is no plan. */
@@ -97,7 +112,7 @@ class Player {
     if (!no) return;
     element('no').textContent = no.explanation;
     document.body.classList.add('no-motion');
-    for (const part of ['follow', 'route', 'footprints', 'com', 'forces']) {
+    for (const part of ['follow', 'route', 'footprints', 'com', 'forces', 'balance']) {
       element(part).parentElement.hidden = true;
     }
     if (passage) addKey('narrowest place', kPassageColour, 'action');
@@ -122,6 +137,9 @@ class Player {
     for (const part of kParts) {
       connect(part, (on) => { this.drawing[part].visible = on; });
     }
+    element('balance').addEventListener('change', (event) => {
+      this.balanceKeys.forEach((key) => { key.hidden = !event.target.checked; });
+    });
     element('plots-open').addEventListener('click', () => this.openPlots(element('plots').hidden));
     element('plots-close').addEventListener('click', () => this.openPlots(false));
   }

@@ -32,10 +32,13 @@ class PlotsPanel {
       positions: plot('Joint positions', '% of range'),
       speeds: plot('Joint speeds', '% of limit (rad/s)'),
       torques: plot('Joint torques', '% of limit (N m)'),
-      forces: plot('Normal forces', 'N'),
+      forces: plot('Normal forces', '% of weight (N)'),
       friction: plot('Friction used', '% of cone'),
       height: plot('Centre of mass, height', 'm'),
       forward: plot('Centre of mass, forward', 'm'),
+      balanceX: plot('Balance, world x', 'm'),
+      balanceY: plot('Balance, world y', 'm'),
+      margin: plot('Z.m.p. from edge of support', 'm, inside positive'),
       linear: plot('Linear momentum', 'N s'),
       angular: plot('Angular momentum about c.o.m.', 'N m s'),
     };
@@ -66,6 +69,7 @@ class PlotsPanel {
     this.showJoints();
     this.showContacts();
     this.showWhole();
+    this.showBalance();
     this.showPhaseKey();
   }
 
@@ -157,7 +161,7 @@ class PlotsPanel {
   }
 
   showContacts() {
-    const {forces} = this.motion;
+    const {forces} = this.motion, {weight} = this.data;
     const bearing = this.data.contacts.map((contact, i) => i)
         .filter((i) => this.phases.some((phase) => phase.contacts.includes(i)));
     const curves = (ofPoints, text) => bearing.map((contact) => ({
@@ -173,8 +177,9 @@ class PlotsPanel {
     const marks = this.phases.filter((phase) => phase.impulses.length).map((phase) => ({
       t: phase.begin, text: impulseText(phase), colour: kImpulseColour}));
     this.put('forces', {
-      curves: curves((at) => at.reduce((sum, o) => sum + forces[o + 2], 0), (n) => fixed(n, 0)),
-      limits: [{y: this.data.weight, text: 'weight', colour: '#667180'}],
+      curves: curves((at) => at.reduce((sum, o) => sum + forces[o + 2], 0) * 100 / weight,
+                     (share) => fixed(share / 100 * weight, 0)),
+      limits: [{y: 100, text: 'weight', colour: '#667180'}],
       marks,
       include: [0],
     });
@@ -204,6 +209,25 @@ class PlotsPanel {
         (axis, i) => one(names[i], kCurveColours[i], momentum(first, axis), 1));
     this.put('linear', {curves: three(0, ['forward', 'left', 'up'])});
     this.put('angular', {curves: three(3, ['roll', 'pitch', 'yaw'])});
+  }
+
+  /* Centre of mass, zero moment point and capture point in the world, and the reserve. */
+  showBalance() {
+    const {centres} = this.motion;
+    const curve = (label, colour, value) =>
+        ({label, colour, value: (phase, knot) => value(knot), text: (n) => fixed(n, 3)});
+    const balance = (column) => (knot) => this.motion.balanceOfKnot(knot, column);
+    const inWorld = (axis) => ({curves: [
+      curve('z.m.p.', kZmpColour, balance(axis)),
+      curve('capture point', kCaptureColour, balance(4 + axis)),
+      curve('c.o.m.', kCentreColour, (knot) => centres[3 * knot + axis]),
+    ]});
+    this.put('balanceX', inWorld(0));
+    this.put('balanceY', inWorld(1));
+    this.put('margin', {
+      curves: [curve('distance', kZmpColour, balance(3))],
+      limits: [{y: 0, text: ''}],
+    });
   }
 
   /* What the bands behind the plots mean. */

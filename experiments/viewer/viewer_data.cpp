@@ -10,6 +10,8 @@
 
 #include "dynamics/tree/tree_kinematics.h"
 #include "experiments/report/action_colors.h"
+#include "experiments/report/cost_of_transport.h"
+#include "experiments/report/plan_speeds.h"
 #include "experiments/report/plan_summary.h"
 #include "experiments/viewer/viewer_motion.h"
 #include "experiments/viewer/viewer_packing.h"
@@ -204,6 +206,10 @@ PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot
   }
   if (plan.segments.empty()) return heading;
   add("Duration", fmt::format("{:.1f} s", plan.duration()));
+  add("Path length", fmt::format("{:.2f} m", PlanarLength(plan)));
+  if (const auto cost = CostOfTransport(robot, plan)) {
+    add("Cost of transport", fmt::format("{:.2f}", *cost));
+  }
   add("Planned in", fmt::format("{:.2f} s", PlanningSeconds(plan)));
   if (const auto ratio = RealTimeRatio(plan)) {
     add("Real-time ratio", fmt::format("{:.1f}", *ratio));

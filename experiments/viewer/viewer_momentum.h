@@ -4,7 +4,6 @@
 
 #include "actions/plan/plan.h"
 #include "dynamics/tree/tree_kinematics.h"
-#include "models/robot/robot_model.h"
 
 namespace possibility::experiments {
 
@@ -17,9 +16,5 @@ struct CentroidalState {
 
 /// The sums over all links. `kinematics` must be the robot's.
 CentroidalState CentroidalStateAt(const actions::Knot& knot, dynamics::TreeKinematics* kinematics);
-
-/// Required motor torques, num_joints. Torques of mimic joints are added to their masters' and set
-/// to 0.
-Eigen::VectorXd MotorTorques(const models::RobotModel& robot, const Eigen::VectorXd& tau);
 
 }  // namespace possibility::experiments

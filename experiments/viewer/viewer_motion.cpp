@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "actions/plan/contact_name.h"
+#include "experiments/report/motor_torques.h"
+#include "experiments/viewer/viewer_balance.h"
 #include "experiments/viewer/viewer_momentum.h"
 #include "experiments/viewer/viewer_phases.h"
 
@@ -44,7 +45,8 @@ Json MotionPacker::Add(const actions::Segment& segment) {
 Json MotionPacker::AddPhase(const actions::Phase& phase, bool is_dynamic) {
   Json contacts = Json::array();
   Json points = Json::array();
-  for (const actions::BearingPatch& bearing : actions::BearingPatches(robot_, phase)) {
+  bearing_ = actions::BearingPatches(robot_, phase);
+  for (const actions::BearingPatch& bearing : bearing_) {
     contacts.push_back(bearing.patch);
     points.push_back(bearing.points);
   }
@@ -88,6 +90,10 @@ std::vector<float> MotionPacker::Drawn(const actions::Knot& knot) {
   Append(whole.angular, &drawn);
   Append(knot.v.tail(robot_.num_joints()), &drawn);
   Append(MotorTorques(robot_, knot.tau), &drawn);
+  const BalanceState balance = BalanceStateAt(bearing_, knot.forces, whole, kinematics_);
+  Eigen::Matrix<double, 6, 1> numbers;
+  numbers << balance.zmp, balance.margin, balance.capture;
+  Append((numbers * 1e5).array().round() / 1e5, &drawn);
   Append(knot.forces.reshaped(), &drawn);
   return drawn;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "actions/plan/contact_name.h"
 #include "actions/plan/plan.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "experiments/viewer/viewer_packing.h"
@@ -27,11 +28,13 @@ class MotionPacker {
  private:
   nlohmann::ordered_json AddPhase(const actions::Phase& phase, bool is_dynamic);
   void AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames);
-  /// t, q, centre of mass, linear and angular momentum about it, joint rates, torques, forces.
+  /// t, q, centre of mass, linear and angular momentum about it, joint rates, torques, BalanceState
+  /// to 0.01 mm so that strides repeat, forces.
   std::vector<float> Drawn(const actions::Knot& knot);
 
   const models::RobotModel& robot_;
   dynamics::TreeKinematics kinematics_;
+  std::vector<actions::BearingPatch> bearing_;  ///< of the present phase
   int count_ = 0;       ///< of knots
   int num_forces_ = 0;  ///< three per point and knot
   CourseTable courses_;

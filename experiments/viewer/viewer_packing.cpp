@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "experiments/support/base64.h"
 
@@ -25,7 +26,8 @@ void Append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>*
 }
 
 std::int32_t CourseTable::IndexOf(const std::vector<float>& course) {
-  const bool stays = std::equal(course.begin() + 1, course.end(), course.begin());
+  const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  const bool stays = std::equal(course.begin() + 1, course.end(), course.begin(), same);
   const std::size_t size = stays ? 1 : course.size();
   const std::string bytes(reinterpret_cast<const char*>(course.data()), sizeof(float) * size);
   const auto index = static_cast<std::int32_t>(indices_.size());

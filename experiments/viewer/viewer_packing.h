@@ -22,7 +22,7 @@ void Append(const Eigen::Ref<const Eigen::VectorXd>& values, std::vector<float>*
 /// strides repeat and most joints rest.
 class CourseTable {
  public:
-  /// The index of a course; a constant course is stored as a single number.
+  /// The index of a course; a constant course (also of NaN) is stored as a single number.
   std::int32_t IndexOf(const std::vector<float>& course);
 
   /// {"begins": base64 of 32-bit integers, "numbers": base64 of floats}: course i is the numbers

@@ -66,6 +66,7 @@ std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robo
                                          {"barrier", viewer_resources::barrier},
                                          {"drawing", viewer_resources::drawing},
                                          {"jumps", viewer_resources::jumps},
+                                         {"balance", viewer_resources::balance},
                                          {"timeline", viewer_resources::timeline},
                                          {"curves", viewer_resources::curves},
                                          {"plots", viewer_resources::plots},

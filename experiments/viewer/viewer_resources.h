@@ -12,6 +12,7 @@ extern const std::string_view kinematics;
 extern const std::string_view barrier;
 extern const std::string_view drawing;
 extern const std::string_view jumps;
+extern const std::string_view balance;
 extern const std::string_view timeline;
 extern const std::string_view curves;
 extern const std::string_view plots;

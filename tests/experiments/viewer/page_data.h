@@ -63,6 +63,7 @@ struct PageMotion {
         read(6, &momenta);
         read(num_joints, &rates);
         read(num_joints, &torques);
+        read(6, &balance);
         read(num_forces, &forces);
       }
     }
@@ -71,6 +72,7 @@ struct PageMotion {
   std::size_t num_joints;
   std::vector<float> knots;  ///< t, q
   std::vector<float> centres, momenta, rates, torques, forces;
+  std::vector<float> balance;  ///< zero moment point, its margin, capture point in the plane
 };
 
 }  // namespace possibility::experiments::testing

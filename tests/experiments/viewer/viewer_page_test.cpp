@@ -67,6 +67,7 @@ TEST_F(ViewerPageTest, HoldsThePointsOfAPatchThatBear) {
   phase.contacts[0] = "sole[0,3]";
   for (actions::Knot& knot : phase.knots) knot.forces.setZero(3, 3);
   plan_.segments[0].phases[0].contacts.clear();
+  for (actions::Knot& knot : plan_.segments[0].phases[0].knots) knot.forces.resize(3, 0);
   const nlohmann::json data = EmbeddedData(Page());
   EXPECT_EQ(data["segments"][1]["phases"][0]["contacts"], (std::vector<int>{0, 1}));
   EXPECT_EQ(data["segments"][1]["phases"][0]["points"], (Points{{0, 3}, {0}}));
@@ -78,7 +79,9 @@ TEST_F(ViewerPageTest, FactsArePairsInOrder) {
   ASSERT_TRUE(facts.is_array());
   EXPECT_EQ(facts[0], (std::vector<std::string>{"Scenario", "yard"}));
   EXPECT_EQ(facts[2], (std::vector<std::string>{"Duration", "4.0 s"}));
-  EXPECT_EQ(facts[3], (std::vector<std::string>{"Planned in", "2.00 s"}));
+  EXPECT_EQ(facts[3][0], "Path length");
+  EXPECT_EQ(facts[4][0], "Cost of transport");
+  EXPECT_EQ(facts[5], (std::vector<std::string>{"Planned in", "2.00 s"}));
 }
 
 TEST_F(ViewerPageTest, LoadsNothingFromOutside) {
@@ -136,8 +139,8 @@ TEST_F(ViewerPageTest, RepeatedStepsAddLittleToTheSize) {
     }
     plan_.segments.push_back(next);
   }
-  // Time, place and indices of every step, in base64.
-  const std::size_t each = 4 * (40 * 4 + 60) * 4 / 3 + 200;
+  // Time, place, balance and indices of every step, in base64.
+  const std::size_t each = 4 * (40 * 6 + 66) * 4 / 3 + 200;
   EXPECT_LT(Page().size(), one + 100 * each);
 }
 
