@@ -21,9 +21,7 @@ double MeanMagnitude(double p0, double p1) {
   return (p0 * p0 + p1 * p1) / (2 * sum);
 }
 
-double Weight(const models::RobotModel& robot) {
-  return robot.TotalMass() * dynamics::kGravity;
-}
+double Weight(const models::RobotModel& robot) { return robot.TotalMass() * dynamics::kGravity; }
 
 }  // namespace
 

@@ -21,9 +21,8 @@ std::vector<ActionWay> WaysByAction(const actions::Plan& plan) {
   std::vector<ActionWay> ways;
   for (const actions::Segment& segment : plan.segments) {
     const ActionWay way = WayOf(segment);
-    auto known = std::find_if(ways.begin(), ways.end(), [&](const ActionWay& other) {
-      return other.action == way.action;
-    });
+    auto known = std::find_if(ways.begin(), ways.end(),
+                              [&](const ActionWay& other) { return other.action == way.action; });
     if (known == ways.end()) known = ways.insert(ways.end(), {way.action, 0, 0});
     known->length += way.length;
     known->duration += way.duration;

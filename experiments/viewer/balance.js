@@ -3,8 +3,8 @@
 /* What keeps the robot from falling: the support polygon, the zero moment point, the capture point
    and the load of every patch that bears. */
 
-const kSupportColour = '#4c6ef5';
-const kZmpColour = '#0b8f8f';
+const kSupportColour = '#14b8a6';
+const kZmpColour = '#0b7285';
 const kCaptureColour = '#9a6700';
 const kLoadScale = 0.5;  // m per weight of the robot
 
@@ -34,8 +34,8 @@ function ringOnGround(colour) {
     mesh.renderOrder = order;
     group.add(mesh);
   };
-  ring(0.014, 0.046, '#ffffff', 5);
-  ring(0.02, 0.04, colour, 6);
+  ring(0.014, 0.046, '#ffffff', 9);
+  ring(0.02, 0.04, colour, 10);
   return group;
 }
 
@@ -68,7 +68,7 @@ class BalanceMarks {
     this.weight = data.weight;
     this.group = new THREE.Group();
     this.group.visible = false;
-    this.face = new THREE.Mesh(new THREE.BufferGeometry(), shining(kSupportColour, 0.25));
+    this.face = new THREE.Mesh(new THREE.BufferGeometry(), shining(kSupportColour, 0.35));
     this.face.material.side = THREE.DoubleSide;
     this.edge = new THREE.LineLoop(new THREE.BufferGeometry(), lineMaterial(kSupportColour));
     Object.assign(this.edge.material, {depthTest: false, transparent: true});
@@ -76,7 +76,7 @@ class BalanceMarks {
     this.zmp = new THREE.Group();
     const rim = ball(new THREE.Vector3(), 0.034, '#ffffff');
     this.zmp.add(rim, ball(new THREE.Vector3(), 0.026, kZmpColour));
-    this.zmp.children.forEach((part, i) => { part.renderOrder = 7 + i; });
+    this.zmp.children.forEach((part, i) => { part.renderOrder = 11 + i; });
     this.capture = ringOnGround(kCaptureColour);
     this.bars = data.contacts.map((_, i) => new LoadBar(limbColour(i)));
     this.group.add(this.face, this.edge, this.capture, this.zmp,

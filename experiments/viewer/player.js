@@ -96,7 +96,7 @@ class Player {
       addKey('support polygon', kSupportColour, 'action'),
       addKey('zero moment point', kZmpColour, 'limb'),
       addKey('capture point', kCaptureColour, 'ring'),
-      addKey('load, full: the weight', '#667180', 'bar'),
+      addKey('share of the weight', '#667180', 'bar'),
     ];
     keys.forEach((key) => { key.hidden = true; });
     return keys;

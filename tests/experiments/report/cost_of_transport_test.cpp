@@ -15,7 +15,8 @@ constexpr double kTorque = 30;   // N m
 constexpr double kRate = -0.5;   // rad/s
 constexpr double kLength = 1.5;  // m, of either segment
 
-/// "walk" and "walk->crawl" of 2 s and kLength each, with constant torque and rate of the one joint.
+/// "walk" and "walk->crawl" of 2 s and kLength each, with constant torque and rate of the one
+/// joint.
 actions::Plan SteadyPlan(const models::RobotModel& robot) {
   actions::Plan plan = testing::SamplePlan(robot, kDuration, 9);
   for (int s = 0; s < 2; ++s) {

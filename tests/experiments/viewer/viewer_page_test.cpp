@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "dynamics/tree/tree_kinematics.h"
 #include "experiments/report/action_colors.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/hop_plan.h"
@@ -195,6 +196,8 @@ class ViewerHopTest : public ::testing::Test {
     knots_ = motion.knots;
     centres_ = motion.centres;
     momenta_ = motion.momenta;
+    balance_ = motion.balance;
+    forces_ = motion.forces;
     stride_ = 1 + robot.nq();
   }
 
@@ -214,6 +217,8 @@ class ViewerHopTest : public ::testing::Test {
   static std::vector<float> knots_;
   static std::vector<float> centres_;
   static std::vector<float> momenta_;
+  static std::vector<float> balance_;
+  static std::vector<float> forces_;
 };
 
 actions::Plan ViewerHopTest::plan_;
@@ -222,6 +227,8 @@ int ViewerHopTest::stride_ = 0;
 std::vector<float> ViewerHopTest::knots_;
 std::vector<float> ViewerHopTest::centres_;
 std::vector<float> ViewerHopTest::momenta_;
+std::vector<float> ViewerHopTest::balance_;
+std::vector<float> ViewerHopTest::forces_;
 
 TEST_F(ViewerHopTest, TheFlightOfTheCentreOfMassIsTheParabolaBetweenItsEnds) {
   const nlohmann::json& flight = Phases()[1];
@@ -277,6 +284,39 @@ TEST_F(ViewerHopTest, InTheAirOnlyWeightChangesMomentum) {
       const double expected = momenta_[6 * first + i] - (i == 2 ? lost : 0);
       EXPECT_NEAR(momenta_[6 * knot + i], expected, 2e-4) << knot << " " << i;
     }
+  }
+}
+
+TEST_F(ViewerHopTest, TheZeroMomentPointIsTheMeanOfThePointsWeightedByTheirForces) {
+  const models::RobotModel& robot = actions::DrcHubo1();
+  dynamics::TreeKinematics kinematics(robot);
+  for (const nlohmann::json& phase : Phases()) {
+    std::size_t next = phase["forces"];
+    for (int knot = First(phase); knot <= Last(phase); ++knot) {
+      kinematics.SetPosition(
+          Eigen::Map<Eigen::VectorXf>(&knots_[stride_ * knot + 1], stride_ - 1).cast<double>());
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double load = 0;
+      for (std::size_t i = 0; i < phase["contacts"].size(); ++i) {
+        const models::ContactPatch& patch = robot.contacts[phase["contacts"][i].get<int>()];
+        for (const int point : phase["points"][i]) {
+          sum += forces_[next + 2] * kinematics.Position(patch.link, patch.points[point]);
+          load += forces_[next + 2];
+          next += 3;
+        }
+      }
+      const Eigen::Vector3d zmp = Eigen::Vector3f(&balance_[6 * knot]).cast<double>();
+      ASSERT_EQ(std::isnan(zmp.x()), load == 0) << knot;
+      if (load == 0) continue;
+      EXPECT_LT((zmp - sum / load).norm(), 2e-5) << knot;
+    }
+  }
+}
+
+TEST_F(ViewerHopTest, FlightHasNoBalance) {
+  const nlohmann::json& flight = Phases()[1];
+  for (int i = 6 * First(flight); i < 6 * (Last(flight) + 1); ++i) {
+    EXPECT_TRUE(std::isnan(balance_[i]));
   }
 }
 
