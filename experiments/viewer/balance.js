@@ -79,8 +79,11 @@ class BalanceMarks {
     this.zmp.children.forEach((part, i) => { part.renderOrder = 11 + i; });
     this.capture = ringOnGround(kCaptureColour);
     this.bars = data.contacts.map((_, i) => new LoadBar(limbColour(i)));
-    this.group.add(this.face, this.edge, this.capture, this.zmp,
+    const below = new THREE.Group().add(this.face);
+    this.group.add(below, this.edge, this.capture, this.zmp,
                    ...this.bars.map((bar) => bar.group));
+    // The order of groups comes first. Patches have 1: the face is below them, the rest above.
+    this.group.traverse((part) => { if (part.isGroup && part !== below) part.renderOrder = 2; });
   }
 
   /* Uses the poses last computed. */

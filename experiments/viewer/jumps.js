@@ -78,6 +78,7 @@ class CentreOfMass {
     this.group.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(points),
                                   lineMaterial(kCentreColour, 0.8)));
     this.marker = new THREE.Group();
+    this.marker.renderOrder = 3;
     const rim = ball(new THREE.Vector3(), 0.03, '#ffffff');
     rim.renderOrder = 5;
     const core = ball(new THREE.Vector3(), 0.022, kCentreColour);
