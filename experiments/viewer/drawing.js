@@ -261,7 +261,7 @@ class Drawing {
     });
     this.balanceMarks = new BalanceMarks(this.motion, data);
     this.balance = this.balanceMarks.group;
-    this.scene.add(this.balance);
+    if (this.motion.phases.length) this.scene.add(this.balance);
     this.forces = new THREE.Group();
     this.forces.visible = false;
     this.impulses = new THREE.Group();
