@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "actions/motion/required_zero_moment_point.h"
 #include "actions/motion/support_polygon.h"
-#include "actions/motion/zero_moment_point.h"
 
 namespace possibility::actions {
 namespace {
@@ -62,7 +62,7 @@ std::string BalanceFault(MultibodyDynamics* dynamics, const std::vector<ContactP
     lowest = std::min(lowest, p.z());
     highest = std::max(highest, p.z());
   }
-  const Vector2d zmp = ZeroMomentPoint(dynamics, lowest);
+  const Vector2d zmp = RequiredZeroMomentPoint(dynamics, lowest);
   const double outside = -SupportPolygon(support).Margin(zmp);
   if (highest - lowest > kLevel || !(outside > 0)) {
     return "no contact forces within friction cones realise the motion";

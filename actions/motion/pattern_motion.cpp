@@ -7,9 +7,9 @@
 
 #include "actions/motion/pendulum_spline.h"
 #include "actions/motion/planar_pose.h"
+#include "actions/motion/required_zero_moment_point.h"
 #include "actions/motion/support_polygon.h"
 #include "actions/motion/whole_body_task.h"
-#include "actions/motion/zero_moment_point.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::actions {
@@ -217,7 +217,8 @@ class Pattern {
       const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
       q = state.q;
       dynamics.SetState(state.q, state.v, state.a);
-      error_.col(i) = ZeroMomentPoint(&dynamics, ground_) - Vector2d(x_->Zmp(i), y_->Zmp(i));
+      error_.col(i) =
+          RequiredZeroMomentPoint(&dynamics, ground_) - Vector2d(x_->Zmp(i), y_->Zmp(i));
     }
   }
 

@@ -76,12 +76,15 @@ class RobotSimulator::Impl {
  public:
   Impl(std::shared_ptr<const MultibodyModel> model, std::vector<RolloutContact> contacts,
        JointControl control, const RobotRolloutSettings& settings)
-      : robot_(std::move(model), std::move(contacts), std::move(control), settings.dynamics),
+      : robot_(std::move(model), std::move(contacts), std::move(control), settings),
         settings_(settings),
         events_(&robot_, settings, &rollout_),
         modes_(&robot_, settings, &events_, &rollout_) {
     for (int i = 0; i < robot_.num_contacts(); ++i) CheckContact(robot_.contact(i), robot_.model());
     CheckSettings(settings);
+    if (settings.push && robot_.model().base() != Base::kFloating) {
+      Reject("a push needs a floating base");
+    }
   }
 
   RobotRollout Run(const Eigen::Ref<const VectorXd>& q, const Eigen::Ref<const VectorXd>& v,

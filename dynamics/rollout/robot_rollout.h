@@ -43,6 +43,9 @@ struct RobotRolloutSettings {
   /// never.
   double rest_energy = 0;
   double rest_time = 0.1;  ///< s
+  /// N, world: a force on the root at its centre of mass, beside gravity and contacts. It must not
+  /// change within less than `hybrid.integration.max_step`. May be empty. Floating bases only.
+  std::function<Eigen::Vector3d(double t)> push;
 };
 
 enum class RobotRolloutEnd { kTime, kAtRest, kSlip, kCancelled, kZeno };

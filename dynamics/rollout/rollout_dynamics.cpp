@@ -10,10 +10,11 @@ using Eigen::VectorXd;
 
 RolloutDynamics::RolloutDynamics(std::shared_ptr<const MultibodyModel> model,
                                  std::vector<RolloutContact> contacts, JointControl control,
-                                 const ForwardDynamicsSettings& settings)
-    : forward_(std::move(model), settings),
+                                 const RobotRolloutSettings& settings)
+    : forward_(std::move(model), settings.dynamics),
       torques_(forward_.model(), std::move(control)),
-      contacts_(std::move(contacts)) {
+      contacts_(std::move(contacts)),
+      push_(settings.push) {
   generalised_.setZero(nv());
 }
 
@@ -95,6 +96,12 @@ const VectorXd& RolloutDynamics::JointForces(double t, const Eigen::Ref<const Ve
                                              bool has_landed) {
   generalised_.tail(model().num_joints()) =
       torques_.Evaluate(t, state.head(nq()), state.tail(nv()), has_landed, dynamics());
+  if (push_) {
+    const Eigen::Vector3d force = push_(t);
+    const Eigen::Matrix3d& R = dynamics()->kinematics().X_WL()[0].linear();
+    generalised_.head<3>() = (R * model().tree().links[0].inertial.p_LC).cross(force);
+    generalised_.segment<3>(3) = force;
+  }
   return generalised_;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -20,7 +21,7 @@ namespace possibility::dynamics {
 class RolloutDynamics {
  public:
   RolloutDynamics(std::shared_ptr<const MultibodyModel> model, std::vector<RolloutContact> contacts,
-                  JointControl control, const ForwardDynamicsSettings& settings);
+                  JointControl control, const RobotRolloutSettings& settings);
 
   const MultibodyModel& model() const { return forward_.model(); }
   int nq() const { return model().nq(); }
@@ -65,7 +66,7 @@ class RolloutDynamics {
 
  private:
   MultibodyDynamics* dynamics() { return forward_.dynamics(); }
-  /// Generalised forces of the joints at the current state; nv.
+  /// Generalised forces of the joints and of the push at the current state; nv.
   const Eigen::VectorXd& JointForces(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                                      bool has_landed);
   UnilateralContacts Unilateral(const std::vector<int>& contacts, Eigen::VectorXd unconstrained);
@@ -73,6 +74,7 @@ class RolloutDynamics {
   ForwardDynamics forward_;
   JointTorques torques_;
   std::vector<RolloutContact> contacts_;
+  std::function<Eigen::Vector3d(double t)> push_;
   Eigen::VectorXd generalised_;
 };
 

@@ -18,6 +18,7 @@
 #include "experiments/program/merge_command.h"
 #include "experiments/program/plan_command.h"
 #include "experiments/program/regress_command.h"
+#include "experiments/program/rollout_command.h"
 #include "experiments/program/sweep_command.h"
 #include "experiments/program/table_command.h"
 #include "experiments/program/verify_command.h"
@@ -31,8 +32,9 @@ namespace possibility::experiments {
 namespace {
 
 constexpr Command (*kCommands[])(CLI::App&) = {
-    &AddPlanCommand,    &AddVerifyCommand,  &AddViewCommand,  &AddExportCommand, &AddBenchCommand,
-    &AddRegressCommand, &AddLibraryCommand, &AddTableCommand, &AddSweepCommand,  &AddMergeCommand};
+    &AddPlanCommand,   &AddVerifyCommand, &AddRolloutCommand, &AddViewCommand,
+    &AddExportCommand, &AddBenchCommand,  &AddRegressCommand, &AddLibraryCommand,
+    &AddTableCommand,  &AddSweepCommand,  &AddMergeCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -31,6 +31,11 @@ void CommandOptions::AddOptional(const std::string& name, std::string* value,
   if (!value->empty()) option->capture_default_str();
 }
 
+void CommandOptions::AddOptional(const std::string& name, std::vector<std::string>* values,
+                                 const std::string& help) {
+  command_->add_option(name, *values, help)->check(&RefuseEmpty)->expected(1)->take_all();
+}
+
 void CommandOptions::AddFlag(const std::string& name, bool* value, const std::string& help) {
   command_->add_flag(name, *value, help);
 }

@@ -26,6 +26,9 @@ class CommandOptions {
                    const std::string& help);
   /// An option whose default is the content of `value`. Help shows the default unless it is empty.
   void AddOptional(const std::string& name, std::string* value, const std::string& help);
+  /// An option that may be given several times.
+  void AddOptional(const std::string& name, std::vector<std::string>* values,
+                   const std::string& help);
   /// An option without a value.
   void AddFlag(const std::string& name, bool* value, const std::string& help);
 

@@ -46,4 +46,18 @@ inline std::vector<PlanarPose> StridesThrough(const models::GaitParameters& para
   return strides;
 }
 
+/// DRC-HUBO1's walk along one straight way from the stance at the origin.
+inline Plan WalkTo(const PlanarPose& end, const models::Scenario& scenario) {
+  const FlowingGait& gait = DrcHubo1Flowing("walk");
+  Plan plan;
+  plan.robot_hash = DrcHubo1().content_hash;
+  plan.scenario_hash = scenario.content_hash;
+  for (const models::Joint& joint : DrcHubo1().joints) plan.joints.push_back(joint.name);
+  constexpr double kKnotSpacing = 0.1;  // s
+  plan.segments.push_back(
+      {"walk",
+       gait.motion().Motion(StridesThrough(gait.parameters(), {{}, end}), kKnotSpacing, {})});
+  return plan;
+}
+
 }  // namespace possibility::actions

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "actions/motion/zero_moment_point.h"
+#include "actions/motion/required_zero_moment_point.h"
 #include "tests/dynamics/random_robot.h"
 
 namespace possibility::actions {
@@ -93,7 +93,7 @@ TEST_F(ForceFaultTest, GroundThatWouldHaveToPullIsNamed) {
 }
 
 /// The forces that realise a motion have their centre of pressure at the zero moment point.
-TEST(ZeroMomentPointTest, IsTheCentreOfPressureOfForcesOnLevelGround) {
+TEST(RequiredZeroMomentPointTest, IsTheCentreOfPressureOfForcesOnLevelGround) {
   std::mt19937 random(5);
   int compared = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -118,7 +118,7 @@ TEST(ZeroMomentPointTest, IsTheCentreOfPressureOfForcesOnLevelGround) {
       centre += forces->forces(2, i) * dynamics.kinematics().Position(0, points[i].p_L).head<2>();
     }
     centre /= forces->forces.row(2).sum();
-    EXPECT_LT((ZeroMomentPoint(&dynamics, ground) - centre).norm(), 1e-8) << trial;
+    EXPECT_LT((RequiredZeroMomentPoint(&dynamics, ground) - centre).norm(), 1e-8) << trial;
     ++compared;
   }
   EXPECT_GT(compared, 100);

@@ -104,6 +104,40 @@ TEST(RobotRollout, Drchubo1InFreeFlightConservesEnergyAndMomentum) {
   ExpectFreeFlightConserves(model, q, RandomVector(&random, model->nv(), 0.5));
 }
 
+TEST(RobotRollout, APushInFreeFlightAddsItsImpulse) {
+  std::mt19937 random(6);
+  const models::RobotModel tree = RandomTree(&random, 5);
+  const auto model = MultibodyModel::Spatial(tree);
+  VectorXd q = RandomVector(&random, model->nq(), 1);
+  q.head<4>().normalize();
+  const VectorXd v = RandomVector(&random, model->nv(), 1);
+  const Vector3d force(30, -20, 10);
+  RobotRolloutSettings settings = Accurate(1e-11);
+  settings.push = [force](double t) { return Vector3d(t < 0.5 ? t * force : (1 - t) * force); };
+  RobotSimulator simulator(model, {}, {}, settings);
+  const RobotRollout rollout = simulator.Run(q, v, 0, 1);
+  MultibodyDynamics dynamics(model);
+  const Conserved start = Measure(&dynamics, q, v);
+  const Conserved end = Measure(&dynamics, rollout.q, rollout.v);
+  const double weight = dynamics.kinematics().total_mass() * kGravity;
+  EXPECT_LT((end.linear - start.linear + Vector3d(0, 0, weight) - 0.25 * force).norm(), 1e-7);
+}
+
+TEST(RobotRollout, APushOnASingleBodyActsAtItsCentreOfMass) {
+  models::RobotModel body;
+  body.links.resize(1);
+  body.links[0].inertial.mass = 3;
+  body.links[0].inertial.I_LC = Eigen::Matrix3d::Identity();
+  body.links[0].inertial.p_LC = Vector3d(0.1, 0.2, 0.3);
+  const auto model = MultibodyModel::Spatial(body);
+  RobotRolloutSettings settings = Accurate(1e-11);
+  settings.push = [](double) { return Vector3d(6, 0, 0); };
+  RobotSimulator simulator(model, {}, {}, settings);
+  const RobotRollout rollout = simulator.Run(VectorXd::Unit(7, 0), VectorXd::Zero(6), 0, 1);
+  EXPECT_LT(rollout.v.head<3>().norm(), 1e-9);
+  EXPECT_NEAR(rollout.v[3], 2, 1e-9);
+}
+
 TEST(RobotRollout, StanceOfDrchubo1HoldsItsContacts) {
   const models::RobotModel& robot = Drchubo1();
   const auto model = MultibodyModel::Spatial(robot);

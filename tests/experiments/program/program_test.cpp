@@ -58,8 +58,8 @@ class Program : public ProgramRun {
 };
 
 TEST_F(Program, HelpExitsWith0AndWritesNoError) {
-  for (const char* arguments : {"--help", "plan --help", "verify --help", "view --help",
-                                "export --help", "regress --help", "bench --help"}) {
+  for (const char* arguments : {"--help", "plan --help", "verify --help", "rollout --help",
+                                "view --help", "export --help", "regress --help", "bench --help"}) {
     const Outcome outcome = Run(arguments);
     EXPECT_EQ(outcome.code, 0) << arguments;
     EXPECT_FALSE(outcome.out.empty()) << arguments;
@@ -121,6 +121,13 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "verify no_such_folder",
       "verify plan.json",
       "verify .",
+      "rollout",
+      "rollout no_such_folder",
+      "rollout plan.json --perturb fly=1",
+      "rollout plan.json --perturb mass",
+      "rollout plan.json --perturb mass=nan",
+      "rollout plan.json --perturb mass=1,mass=2",
+      "rollout plan.json --perturb friction=-1",
       "view plan.json",
       "view plan.json --speed 2",
       "export plan.json",
@@ -151,7 +158,7 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
 /// For every option with a value and every argument of every command that --help lists.
 TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
   int options = 0;
-  for (const std::string command : {"plan", "verify", "view", "export", "bench", "regress",
+  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "bench", "regress",
                                     "library", "table", "sweep", "merge"}) {
     std::istringstream help(Run(command + " --help").out);
     for (std::string line; std::getline(help, line);) {
@@ -169,6 +176,12 @@ TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
   }
   EXPECT_GE(options, 45);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Program, RolloutRefusesAPlanThatIsRejected) {
+  WriteStandingPlan();
+  const std::string line = ExpectRefused("rollout plan.json --perturb mass=1.05");
+  EXPECT_NE(line.find("is not simulated because it is rejected"), std::string::npos) << line;
 }
 
 TEST_F(Program, VersionNamesProgramAndPlanFormat) {

@@ -226,6 +226,21 @@ TEST_F(ExperimentProgram, WrongInputsGiveOneLineAndExitCode1) {
   for (const std::string& arguments : cases) ExpectRefused(arguments);
 }
 
+TEST_F(ExperimentProgram, RolloutSimulatesEachPerturbation) {
+  ASSERT_EQ(Run("plan scenarios/three_routes_a.yaml --out plan --json").code, 0);
+  const Outcome outcome =
+      Run("rollout plan --json --perturb mass=1.02,slope_deg=0.5 --perturb side_slope_deg=25");
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const auto cases = nlohmann::ordered_json::parse(outcome.out)["cases"];
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0]["perturbation"], (nlohmann::ordered_json{{"mass", 1.02}, {"slope_deg", 0.5}}));
+  EXPECT_TRUE(cases[0]["survives"]);
+  EXPECT_FALSE(cases[1]["survives"]);
+  ASSERT_FALSE(cases[0]["stretches"].empty());
+  EXPECT_TRUE(cases[0]["stretches"][0]["fell_at_s"].is_null());
+  EXPECT_LT(cases[0]["stretches"][0]["worst_position_m"], 0.1);
+}
+
 TEST_F(ExperimentProgram, ThePaperPresetGivesALongerPlan) {
   ASSERT_EQ(
       Run("plan scenarios/three_routes_a.yaml --preset paper --threads 1 --out paper --json").code,

@@ -9,6 +9,6 @@ namespace possibility::actions {
 /// Where the contact forces on level ground at height `ground` (m) have no horizontal moment
 /// (Vukobratovic and Borovac 2004), from the inverse dynamics of the state and acceleration that
 /// `dynamics` holds. World, m. Infinite if the ground need not bear anything.
-Eigen::Vector2d ZeroMomentPoint(dynamics::MultibodyDynamics* dynamics, double ground);
+Eigen::Vector2d RequiredZeroMomentPoint(dynamics::MultibodyDynamics* dynamics, double ground);
 
 }  // namespace possibility::actions

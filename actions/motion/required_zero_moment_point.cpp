@@ -1,8 +1,8 @@
-#include "actions/motion/zero_moment_point.h"
+#include "actions/motion/required_zero_moment_point.h"
 
 namespace possibility::actions {
 
-Eigen::Vector2d ZeroMomentPoint(dynamics::MultibodyDynamics* dynamics, double ground) {
+Eigen::Vector2d RequiredZeroMomentPoint(dynamics::MultibodyDynamics* dynamics, double ground) {
   const Eigen::VectorXd& forces = dynamics->InverseDynamics();
   const Eigen::Vector3d moment = forces.head<3>();  // about the root's origin
   const Eigen::Vector3d force = forces.segment<3>(3);
