@@ -29,12 +29,14 @@ constexpr double kLevel = 1e-3;
 /// The least value of a margin in [infeasible, feasible] with which forces exist. Returns those
 /// forces.
 ContactForces AtLeastMargin(MultibodyDynamics* dynamics, const std::vector<ContactPoint>& points,
-                            ContactForceSettings settings, double ContactForceSettings::*margin,
-                            double infeasible, double feasible, ContactForces forces) {
+                            const ContactForceSettings& settings,
+                            double ContactForceSettings::*margin, double infeasible,
+                            double feasible, ContactForces forces) {
+  ContactForceSettings tried = settings;
   while (feasible > kPrecision * infeasible) {
-    settings.*margin = std::sqrt(infeasible * feasible);
-    const auto found = DistributeContactForces(dynamics, points, settings);
-    (found ? feasible : infeasible) = settings.*margin;
+    tried.*margin = std::sqrt(infeasible * feasible);
+    const auto found = DistributeContactForces(dynamics, points, tried);
+    (found ? feasible : infeasible) = tried.*margin;
     if (found) forces = *found;
   }
   return forces;

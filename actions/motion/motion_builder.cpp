@@ -32,7 +32,7 @@ std::string PhaseText(const models::RobotModel& robot, const MotionPhase& phase,
       if (!Contains(&phase, contact)) swinging.insert(robot.contacts[contact].name);
     }
   }
-  const std::string text = fmt::format(" of phase {}", index);
+  std::string text = fmt::format(" of phase {}", index);
   if (swinging.empty()) return text;
   return fmt::format("{}, in which {} swing{}", text, fmt::join(swinging, " and "),
                      swinging.size() == 1 ? "s" : "");

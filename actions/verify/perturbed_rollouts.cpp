@@ -37,6 +37,7 @@ std::vector<PerturbedRollout> RollOutPerturbed(const Plan& plan, const models::R
   const models::GroundMap ground(scenario.environment);
   const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
   std::vector<PerturbedRollout> rollouts;
+  rollouts.reserve(perturbations.size());
   for (const Perturbation& perturbation : perturbations) {
     rollouts.push_back({perturbation, std::vector<StretchRollout>(stretches.size())});
   }

@@ -157,6 +157,7 @@ ExitCode RunRollout(const RolloutOptions& options) {
   RequireMotion(loaded);
   RequireRules(loaded);
   std::vector<actions::Perturbation> perturbations;
+  perturbations.reserve(cases.size());
   for (const NamedPerturbation& named : cases) perturbations.push_back(named.perturbation);
   const RolloutProgress progress;
   actions::PerturbedRolloutSettings settings;
