@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/action.h"
+#include "graph/action/action.h"
 
 namespace possibility::actions {
 

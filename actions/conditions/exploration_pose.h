@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "graph/exploration_space.h"
+#include "graph/action/exploration_space.h"
 
 namespace possibility::actions {
 

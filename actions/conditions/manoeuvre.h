@@ -13,7 +13,7 @@
 #include "actions/motion/motion_builder.h"
 #include "actions/plan/plan.h"
 #include "common/cancellation_token.h"
-#include "graph/action.h"
+#include "graph/action/action.h"
 #include "models/world/collision.h"
 #include "models/world/scenario.h"
 
@@ -35,8 +35,8 @@ struct PlanningContext {
 /// An action that leads in one piece from a nominal stance of one gait to a nominal stance of
 /// another or the same gait, such as a jump or a step up. The term is from Frazzoli, Dahleh & Feron
 /// 2005; their trim trajectories correspond to our gaits. A manoeuvre provides the paper's
-/// functions (graph/action.h), the motion of its edges, and bounds for the floods. It stores no
-/// verdicts: SearchedManoeuvre does. docs/tutorial_new_action.md adds a manoeuvre.
+/// functions (graph/action/action.h), the motion of its edges, and bounds for the floods. It stores
+/// no verdicts: SearchedManoeuvre does. docs/tutorial_new_action.md adds a manoeuvre.
 ///
 /// One thread explores. Jobs and `Motion` are used from several threads at once.
 class Manoeuvre : public graph::NonholonomicAction {

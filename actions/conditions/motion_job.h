@@ -4,7 +4,7 @@
 #include <string>
 
 #include "actions/conditions/manoeuvre.h"
-#include "graph/confirmation_job.h"
+#include "graph/action/confirmation_job.h"
 #include "models/world/collision.h"
 
 namespace possibility::actions {

@@ -8,7 +8,7 @@
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/pelvis_clearance.h"
-#include "graph/action.h"
+#include "graph/action/action.h"
 #include "models/shapes/upright_boxes.h"
 #include "models/world/collision.h"
 #include "models/world/ground_map.h"

@@ -9,7 +9,7 @@
 #include "actions/conditions/edge_verdicts.h"
 #include "actions/conditions/manoeuvre.h"
 #include "common/cancellation_token.h"
-#include "graph/action.h"
+#include "graph/action/action.h"
 
 namespace possibility::actions {
 

@@ -10,7 +10,7 @@
 #include "actions/flood/route_flood.h"
 #include "actions/plan/plan.h"
 #include "common/cancellation_token.h"
-#include "graph/find_path.h"
+#include "graph/search/find_path.h"
 
 namespace possibility::actions {
 

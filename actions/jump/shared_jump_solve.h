@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "actions/jump/jump_library.h"
-#include "graph/job_control.h"
+#include "graph/action/job_control.h"
 
 namespace possibility::actions {
 

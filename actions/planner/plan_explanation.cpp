@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "graph/random_explorer.h"
+#include "graph/search/random_explorer.h"
 
 namespace possibility::actions {
 namespace {

@@ -23,7 +23,7 @@
 #include "common/cancellation_token.h"
 #include "common/deadline.h"
 #include "common/stopwatch.h"
-#include "graph/random_explorer.h"
+#include "graph/search/random_explorer.h"
 #include "models/input/input_error.h"
 #include "models/world/ground_map.h"
 

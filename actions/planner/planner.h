@@ -10,7 +10,7 @@
 #include "actions/plan/plan.h"
 #include "actions/planner/planner_switches.h"
 #include "actions/verify/verifier.h"
-#include "graph/find_path.h"
+#include "graph/search/find_path.h"
 #include "models/robot/robot_model.h"
 #include "models/world/scenario.h"
 

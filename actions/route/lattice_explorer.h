@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "actions/route/lattice_search.h"
-#include "graph/explorer.h"
+#include "graph/search/explorer.h"
 
 namespace possibility::actions {
 

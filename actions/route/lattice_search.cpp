@@ -9,7 +9,7 @@
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/gait/gait_motion.h"
-#include "graph/vertex_index.h"
+#include "graph/structure/vertex_index.h"
 
 namespace possibility::actions {
 namespace {

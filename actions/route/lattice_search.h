@@ -9,7 +9,7 @@
 
 #include "actions/route/route_space.h"
 #include "common/cancellation_token.h"
-#include "graph/path_edge.h"
+#include "graph/structure/path_edge.h"
 
 namespace possibility::actions {
 
@@ -109,7 +109,7 @@ class LatticeSearch {
   RouteSpace space_;
   std::vector<GroundedStance> goals_;
   LatticeSettings settings_;
-  std::vector<double> stop_times_;    ///< s, by gait: after strides in one direction
+  std::vector<double> stop_times_;  ///< s, by gait: after strides in one direction
   double least_seconds_per_metre_ = std::numeric_limits<double>::infinity();
   double bound_ = std::numeric_limits<double>::infinity();
   double closest_approach_ = std::numeric_limits<double>::infinity();

@@ -8,7 +8,7 @@
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/conditions/searched_manoeuvre.h"
 #include "actions/plan/plan.h"
-#include "graph/find_path.h"
+#include "graph/search/find_path.h"
 
 namespace possibility::actions {
 

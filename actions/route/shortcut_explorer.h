@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "actions/route/route_space.h"
-#include "graph/explorer.h"
+#include "graph/search/explorer.h"
 
 namespace possibility::actions {
 

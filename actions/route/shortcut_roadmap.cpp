@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
-#include "graph/vertex_index.h"
+#include "graph/structure/vertex_index.h"
 
 namespace possibility::actions {
 namespace {

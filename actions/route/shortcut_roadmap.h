@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "actions/route/route_space.h"
-#include "graph/path_edge.h"
+#include "graph/structure/path_edge.h"
 
 namespace possibility::actions {
 

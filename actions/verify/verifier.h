@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "actions/plan/plan.h"
+#include "actions/rollout/dynamic_stretch.h"
 #include "actions/verify/plan_margins.h"
-#include "actions/verify/rollout_check.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 #include "models/world/scenario.h"
@@ -52,14 +52,6 @@ struct Violation {
   double value = 0;
   double limit = 0;  ///< largest or least accepted value, tolerance included
   std::string unit;  ///< empty if the violation has no measure
-};
-
-/// Result of simulating a dynamic stretch of motion: with flight, impacts, or contacts that change
-/// while the robot moves.
-struct StretchRollout {
-  int segment = 0;       ///< index of the first
-  int last_segment = 0;  ///< index
-  RolloutDrift drift;
 };
 
 struct VerificationReport {

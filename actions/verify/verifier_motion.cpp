@@ -5,13 +5,13 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
-#include <thread>
 
 #include "actions/plan/interpolation.h"
 #include "actions/verify/derivative_bounds.h"
 #include "actions/verify/verifier_collision.h"
 #include "actions/verify/verifier_forces.h"
 #include "actions/verify/verifier_limits.h"
+#include "common/run_on_threads.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
@@ -263,12 +263,6 @@ class Tally {
 };
 
 }  // namespace
-
-void RunOnThreads(int threads, const std::function<void()>& work) {
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(work);
-  work();
-}
 
 void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings, ViolationLog* log,
                   VerificationReport* report) {

@@ -26,7 +26,4 @@ struct VerifiedPlan {
 void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings, ViolationLog* log,
                   VerificationReport* report);
 
-/// Runs `work` on `threads` threads, this one included.
-void RunOnThreads(int threads, const std::function<void()>& work);
-
 }  // namespace possibility::actions

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "actions/motion/planar_pose.h"
-#include "graph/random.h"
+#include "graph/action/random.h"
 
 namespace possibility::experiments {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "actions/route/lattice_explorer.h"
 #include "common/stopwatch.h"
-#include "graph/random_explorer.h"
+#include "graph/search/random_explorer.h"
 #include "models/input/input_error.h"
 
 namespace possibility::experiments {

@@ -10,7 +10,7 @@
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/motion/planar_pose.h"
 #include "actions/planner/planner_switches.h"
-#include "graph/find_path.h"
+#include "graph/search/find_path.h"
 #include "models/robot/robot_model.h"
 #include "models/world/ground_map.h"
 #include "models/world/scenario.h"

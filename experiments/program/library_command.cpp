@@ -1,7 +1,6 @@
 #include "experiments/program/library_command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -10,8 +9,8 @@
 
 #include "actions/jump/jump_sweep.h"
 #include "actions/transition/transition_motion.h"
-#include "common/stopwatch.h"
 #include "experiments/report/jump_reach_plot.h"
+#include "experiments/support/count_line.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
@@ -46,20 +45,6 @@ std::vector<double> ParseHeights(const std::string& text) {
   }
   return heights;
 }
-
-/// Rewrites "jump 12 of 105 1:20 left" on stderr, if it is a terminal.
-class SweepProgress {
- public:
-  void Show(int done, int all) const {
-    if (isatty(STDERR_FILENO) == 0) return;
-    const int left = static_cast<int>(stopwatch_.Seconds() / done * (all - done));
-    PrintError("\rjump {} of {}  {}:{:02} left {}", done, all, left / 60, left % 60,
-               done == all ? "\r\x1b[K" : "");
-  }
-
- private:
-  Stopwatch stopwatch_;
-};
 
 const models::Jump& OnlyJump(const models::RobotModel& robot) {
   if (robot.jumps.empty()) {
@@ -126,7 +111,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
       options.threads.empty()
           ? HardwareThreads()
           : static_cast<int>(ParseInteger("--threads", options.threads, 1, kMaxThreads));
-  const SweepProgress progress;
+  const CountLine progress("jump");
   sweep.progress = [&progress](int done, int all) { progress.Show(done, all); };
   const std::vector<actions::JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
   const actions::JumpReach reach = actions::ReachOf(entries);

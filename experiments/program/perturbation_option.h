@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "actions/verify/perturbation.h"
+#include "actions/rollout/perturbation.h"
 
 namespace possibility::experiments {
 

@@ -1,18 +1,17 @@
 #include "experiments/program/rollout_command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "actions/verify/perturbed_rollouts.h"
-#include "common/stopwatch.h"
+#include "actions/rollout/perturbed_rollouts.h"
 #include "experiments/program/loaded_plan.h"
 #include "experiments/program/perturbation_option.h"
-#include "experiments/report/text_table.h"
+#include "experiments/report/rollout_table.h"
+#include "experiments/support/count_line.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/standard_streams.h"
 #include "models/input/input_error.h"
@@ -33,65 +32,11 @@ struct RolloutOptions {
   bool json = false;
 };
 
-/// Rewrites "simulation 12 of 65  1:20 left" on stderr, if it is a terminal.
-class RolloutProgress {
- public:
-  void Show(int done, int all) const {
-    if (isatty(STDERR_FILENO) == 0) return;
-    const int left = static_cast<int>(stopwatch_.Seconds() / done * (all - done));
-    PrintError("\rsimulation {} of {}  {}:{:02} left {}", done, all, left / 60, left % 60,
-               done == all ? "\r\x1b[K" : "");
-  }
-
- private:
-  Stopwatch stopwatch_;
-};
-
-/// "falls at 4.21 s (walk)", with the first stretch that falls.
-std::string OutcomeText(const actions::Plan& plan, const PerturbedRollout& rollout) {
-  for (const StretchRollout& stretch : rollout.stretches) {
-    const RolloutDrift& drift = stretch.drift;
-    if (drift.survives()) continue;
-    const std::string& action = plan.segments[stretch.segment].action;
-    if (drift.fell_at) return fmt::format("falls at {:.2f} s ({})", *drift.fell_at, action);
-    if (drift.slipped_at) return fmt::format("slips at {:.2f} s ({})", *drift.slipped_at, action);
-    return fmt::format("{} ({})", drift.failure, action);
-  }
-  return "survives";
-}
-
-std::vector<std::string> Row(const actions::Plan& plan, const std::string& name,
-                             const PerturbedRollout& rollout) {
-  RolloutDrift worst;
-  for (const StretchRollout& stretch : rollout.stretches) {
-    const RolloutDrift& drift = stretch.drift;
-    worst.worst_position = std::max(worst.worst_position, drift.worst_position);
-    worst.worst_orientation = std::max(worst.worst_orientation, drift.worst_orientation);
-    worst.worst_joint = std::max(worst.worst_joint, drift.worst_joint);
-    worst.end_position = std::max(worst.end_position, drift.end_position);
-    worst.torque_used = std::max(worst.torque_used, drift.torque_used);
-    worst.friction_used = std::max(worst.friction_used, drift.friction_used);
-  }
-  return {name.empty() ? "none" : name,
-          OutcomeText(plan, rollout),
-          fmt::format("{:.4f}", worst.worst_position),
-          fmt::format("{:.4f}", worst.worst_orientation),
-          fmt::format("{:.4f}", worst.worst_joint),
-          fmt::format("{:.4f}", worst.end_position),
-          fmt::format("{:.2f}", worst.torque_used),
-          fmt::format("{:.2f}", worst.friction_used)};
-}
-
 void PrintTable(const actions::Plan& plan, const std::vector<NamedPerturbation>& cases,
                 const std::vector<PerturbedRollout>& rollouts) {
-  TextTable table;
-  table.text_columns = 2;
-  table.header = {"perturbation", "outcome", "worst m", "worst rad",
-                  "worst joint",  "end m",   "torque",  "friction"};
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    table.rows.push_back(Row(plan, cases[i].text, rollouts[i]));
-  }
-  PrintOut("{}", table.Markdown());
+  std::vector<std::string> names;
+  for (const NamedPerturbation& named : cases) names.push_back(named.text);
+  PrintOut("{}", RolloutTable(plan, names, rollouts).Markdown());
 }
 
 nlohmann::ordered_json ToJson(const StretchRollout& stretch) {
@@ -159,7 +104,7 @@ ExitCode RunRollout(const RolloutOptions& options) {
   std::vector<actions::Perturbation> perturbations;
   perturbations.reserve(cases.size());
   for (const NamedPerturbation& named : cases) perturbations.push_back(named.perturbation);
-  const RolloutProgress progress;
+  const CountLine progress("simulation");
   actions::PerturbedRolloutSettings settings;
   settings.threads = HardwareThreads();
   settings.progress = [&progress](int done, int all) { progress.Show(done, all); };

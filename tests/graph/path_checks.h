@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "graph/find_path.h"
+#include "graph/search/find_path.h"
 
 namespace possibility::graph::test {
 

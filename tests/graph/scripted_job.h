@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "graph/confirmation_job.h"
+#include "graph/action/confirmation_job.h"
 
 namespace possibility::graph::test {
 

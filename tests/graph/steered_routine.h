@@ -5,7 +5,7 @@
 #include <functional>
 #include <mutex>
 
-#include "graph/job_control.h"
+#include "graph/action/job_control.h"
 
 namespace possibility::graph::test {
 

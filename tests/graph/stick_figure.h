@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "graph/action.h"
-#include "graph/exploration_space.h"
-#include "graph/random.h"
+#include "graph/action/action.h"
+#include "graph/action/exploration_space.h"
+#include "graph/action/random.h"
 
 namespace possibility::graph::test {
 

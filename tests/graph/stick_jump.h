@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "graph/action.h"
+#include "graph/action/action.h"
 #include "tests/graph/stick_figure.h"
 
 namespace possibility::graph::test {

@@ -12,7 +12,7 @@
 #include "actions/conditions/exploration_pose.h"
 #include "actions/conditions/searched_manoeuvre.h"
 #include "actions/jump/jump_reach.h"
-#include "graph/confirmation_queue.h"
+#include "graph/confirmation/confirmation_queue.h"
 #include "models/world/ground_map.h"
 #include "tests/actions/drchubo1.h"
 

@@ -8,7 +8,7 @@
 
 #include "actions/plan/plan_reader.h"
 #include "actions/plan/plan_writer.h"
-#include "actions/verify/rollout_check.h"
+#include "actions/rollout/rollout_check.h"
 #include "actions/verify/verification_report.h"
 #include "actions/verify/verifier.h"
 #include "dynamics/simbody/simbody_dynamics.h"

@@ -10,10 +10,10 @@
 #include "experiments/bench/obstacle_field.h"
 #include "experiments/bench/single_gait_search.h"
 #include "models/input/input_error.h"
+#include "models/robot/robot_yaml.h"
 #include "models/world/ground_map.h"
 #ifdef POSSIBILITY_WITH_OMPL
 #include "experiments/bench/ompl_peers.h"
-#include "models/robot/robot_yaml.h"
 #endif
 
 namespace possibility::experiments {

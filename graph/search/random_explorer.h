@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/search/action_exploration.h"
+#include "graph/search/explorer.h"
+
+namespace possibility::graph {
+
+/// Counter that is 1 once FindPathSettings::max_graph_size has ended random exploration.
+inline constexpr const char* kGraphIsFull = "random exploration: graph is full";
+
+/// The paper's exploration: every action performs transitions (Algorithm 2) and grows towards
+/// random targets (Algorithms 3 and 4). A turn is one round of Algorithm 1.
+class RandomExplorer : public Explorer {
+ public:
+  /// @throws std::invalid_argument if an action is of a kind that cannot be grown.
+  explicit RandomExplorer(const ExplorerContext& context);
+
+  std::string name() const override { return "random"; }
+  bool TakesPart(SearchStage stage) const override { return stage == SearchStage::kFirstRoute; }
+  Findings Explore() override;
+  double work_of_turn() const override { return work_of_turn_; }
+  void TakeOver(const Discovery& discovery) override;
+
+ private:
+  bool GraphIsFull() const;
+  bool Skips(std::size_t action);
+  void OfferToOthers(std::size_t action, const NewElements& found);
+
+  ExplorerContext context_;
+  std::vector<std::unique_ptr<ActionExploration>> explorations_;
+  std::vector<double> skip_growth_;  ///< per action
+  double work_of_turn_ = 0;
+};
+
+ExplorerFactory RandomExploration();
+
+}  // namespace possibility::graph
