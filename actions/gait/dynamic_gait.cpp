@@ -205,7 +205,8 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
-  const ContactSchedule schedule = ScheduleOf(*stance_, groups_, start, steps, pace.timing);
+  const ContactSchedule schedule =
+      ScheduleOf(*robot_, *stance_, groups_, start, steps, pace.timing);
   Eigen::VectorXd guess = stance_->q;
   guess.segment<2>(4) = start.position();
   std::vector<Phase> motion =

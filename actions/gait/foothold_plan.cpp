@@ -217,18 +217,23 @@ std::vector<Step> PlanSteps(const NominalStance& stance, const Groups& groups,
   return steps;
 }
 
-ContactSchedule ScheduleOf(const NominalStance& stance, const Groups& groups,
-                           const PlanarPose& start, const std::vector<Step>& steps,
-                           const StepTiming& timing) {
+ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,
+                           const Groups& groups, const PlanarPose& start,
+                           const std::vector<Step>& steps, const StepTiming& timing) {
   const int limbs = static_cast<int>(stance.gait->limbs.size());
   ContactInterval standing;
   standing.duration = timing.start;
   const auto place = [&](int limb, const PlanarPose& at) {
-    standing.bearing[limb] = at.At(0) * Eigen::Translation3d(stance.patch_centres[limb]);
+    standing.bearing[limb] =
+        at.At(0) * Eigen::Translation3d(stance.patch_centres[limb]) *
+        Eigen::AngleAxisd(stance.patch_headings[limb], Eigen::Vector3d::UnitZ());
   };
   standing.bearing.resize(limbs);
   for (int limb = 0; limb < limbs; ++limb) place(limb, start);
   ContactSchedule schedule;
+  for (const models::GaitLimb& limb : stance.gait->limbs) {
+    schedule.contacts.push_back(robot.contacts[limb.contact].name);
+  }
   schedule.intervals.push_back(standing);
   for (const Step& step : steps) {
     ContactInterval swing = standing;

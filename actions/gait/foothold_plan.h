@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "actions/motion/contact_schedule.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/planar_pose.h"
+#include "actions/plan/contact_schedule.h"
 
 namespace possibility::actions {
 
@@ -48,8 +48,8 @@ std::vector<Step> PlanSteps(const NominalStance& stance,
                             const std::vector<PlanarPose>& way, const StepBounds& bounds);
 
 /// The schedule of the steps on ground of height 0, from rest in `start`.
-ContactSchedule ScheduleOf(const NominalStance& stance, const std::vector<std::vector<int>>& groups,
-                           const PlanarPose& start, const std::vector<Step>& steps,
-                           const StepTiming& timing);
+ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,
+                           const std::vector<std::vector<int>>& groups, const PlanarPose& start,
+                           const std::vector<Step>& steps, const StepTiming& timing);
 
 }  // namespace possibility::actions

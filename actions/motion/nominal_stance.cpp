@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "actions/motion/whole_body_task.h"
 #include "models/input/input_error.h"
 
@@ -56,6 +58,8 @@ NominalStance SolveNominalStance(const models::RobotModel& robot, const models::
     task.limbs.push_back(limb_task);
     stance.patch_centres.push_back(centre);
     stance.patch_orientations.push_back(limb_task.orientation);
+    const Vector3d ahead = limb_task.orientation * patch.Frame().linear().col(0);
+    stance.patch_headings.push_back(limb.hold_orientation ? std::atan2(ahead.y(), ahead.x()) : 0);
   }
   try {
     stance.q = solver.Solve(task, guess).q;

@@ -12,9 +12,11 @@ namespace possibility::actions {
 /// (below the root: origin on the ground, x along the root's heading).
 struct NominalStance {
   const models::Gait* gait = nullptr;
-  Eigen::VectorXd q;                                         ///< stance frame at the world's origin
-  std::vector<Eigen::Vector3d> patch_centres;                ///< by limb, in S
-  std::vector<Eigen::Matrix3d> patch_orientations;           ///< of the limbs' links, in S
+  Eigen::VectorXd q;                                ///< stance frame at the world's origin
+  std::vector<Eigen::Vector3d> patch_centres;       ///< by limb, in S
+  std::vector<Eigen::Matrix3d> patch_orientations;  ///< of the limbs' links, in S
+  /// By limb: yaw in S of its patch's frame, rad; 0 if the limb does not hold its orientation.
+  std::vector<double> patch_headings;
   std::vector<std::vector<Eigen::Vector2d>> bearing_points;  ///< by limb, in S
   Eigen::Vector2d centre_of_mass = Eigen::Vector2d::Zero();  ///< in S
   Eigen::Isometry3d X_SR = Eigen::Isometry3d::Identity();    ///< root link

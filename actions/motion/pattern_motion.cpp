@@ -1,9 +1,14 @@
 #include "actions/motion/pattern_motion.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "actions/motion/pendulum_spline.h"
 #include "actions/motion/planar_pose.h"
@@ -22,6 +27,30 @@ using Eigen::VectorXd;
 
 double Heading(const Isometry3d& X) { return std::atan2(X(1, 0), X(0, 0)); }
 
+/// @throws std::invalid_argument unless the limbs can go from rest to rest by the schedule.
+void RequireSchedule(const models::RobotModel& robot, const NominalStance& stance,
+                     const ContactSchedule& schedule) {
+  CheckContactSchedule(schedule);
+  std::vector<std::string> limbs;
+  for (const models::GaitLimb& limb : stance.gait->limbs) {
+    limbs.push_back(robot.contacts[limb.contact].name);
+  }
+  if (schedule.contacts != limbs) {
+    throw std::invalid_argument(fmt::format("contact schedule of {}, expected {}",
+                                            fmt::join(schedule.contacts, ", "),
+                                            fmt::join(limbs, ", ")));
+  }
+  const auto all_bear = [](const ContactInterval& interval) {
+    return std::all_of(interval.bearing.begin(), interval.bearing.end(),
+                       [](const auto& bearing) { return bearing.has_value(); });
+  };
+  if (schedule.intervals.size() < 2 || !all_bear(schedule.intervals.front()) ||
+      !all_bear(schedule.intervals.back())) {
+    throw std::invalid_argument(
+        "contact schedule: a limb swings in the first or the last interval");
+  }
+}
+
 /// What the tasks of an interval need, besides the centre of mass.
 struct Interval {
   double start = 0;  ///< s
@@ -38,7 +67,7 @@ class Pattern {
   Pattern(const models::RobotModel& robot, const NominalStance& stance,
           const ContactSchedule& schedule, const PatternSettings& settings)
       : robot_(robot), stance_(stance), schedule_(schedule), settings_(settings) {
-    CheckContactSchedule(schedule_);
+    RequireSchedule(robot_, stance_, schedule_);
     ground_ = schedule_.intervals.front().bearing.front()->translation().z();
     LayOutIntervals();
     LayOutZmp();
@@ -89,9 +118,14 @@ class Pattern {
  private:
   std::size_t NumLimbs() const { return stance_.gait->limbs.size(); }
 
+  /// Yaw of the stance frame that a limb's patch stands in.
+  double StanceYaw(int limb, const Isometry3d& X) const {
+    return Heading(X) - stance_.patch_headings[limb];
+  }
+
   /// The stance frame that a limb's patch stands in.
   PlanarPose StanceOf(int limb, const Isometry3d& X) const {
-    const double yaw = Heading(X);
+    const double yaw = StanceYaw(limb, X);
     const Vector2d p = Vector2d(X.translation().head<2>()) -
                        Eigen::Rotation2Dd(yaw) * Vector2d(stance_.patch_centres[limb].head<2>());
     return {p.x(), p.y(), yaw};
@@ -102,14 +136,15 @@ class Pattern {
   double MeanHeading(double near, const PoseOf& pose_of) const {
     double sum = 0;
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
-      sum += WrapAngle(Heading(pose_of(static_cast<int>(limb))) - near);
+      const int index = static_cast<int>(limb);
+      sum += WrapAngle(StanceYaw(index, pose_of(index)) - near);
     }
     return near + sum / static_cast<double>(NumLimbs());
   }
 
   void LayOutIntervals() {
     double start = 0;
-    double yaw = Heading(*schedule_.intervals.front().bearing.front());
+    double yaw = StanceYaw(0, *schedule_.intervals.front().bearing.front());
     for (int k = 0; k < static_cast<int>(schedule_.intervals.size()); ++k) {
       Interval interval;
       interval.start = start;
@@ -228,7 +263,7 @@ class Pattern {
     task.limb = &stance_.gait->limbs[limb];
     task.orientation = stance_.patch_orientations[limb];
     task.position = ConstantVector<Vector3d>(from.translation());
-    task.yaw = Constant(Heading(from));
+    task.yaw = Constant(StanceYaw(limb, from));
     if (!schedule_.intervals[k].bearing[limb]) Swing(k, limb, t, &task);
     return task;
   }
@@ -249,7 +284,8 @@ class Pattern {
     task->position.value.z() += settings_.clearance * lift.value;
     task->position.rate.z() += settings_.clearance * lift.rate;
     task->position.acceleration.z() += settings_.clearance * lift.acceleration;
-    task->yaw = Blend(Heading(from), Heading(from) + WrapAngle(Heading(to) - Heading(from)), s);
+    const double yaw = StanceYaw(limb, from);
+    task->yaw = Blend(yaw, yaw + WrapAngle(Heading(to) - Heading(from)), s);
   }
 
   const models::RobotModel& robot_;

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "actions/motion/contact_schedule.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/nominal_stance.h"
+#include "actions/plan/contact_schedule.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 
@@ -22,10 +22,11 @@ struct PatternSettings {
 /// of mass follows the linear inverted pendulum over a zero moment point inside the support, and a
 /// dynamic filter (Kajita et al. 2003) replaces the pendulum's error by that of the whole robot.
 /// From rest to rest in the nominal posture. docs/gaits.md has the formulas.
-/// `stance`: posture, and the limbs that `schedule` counts. The result keeps copies of all it needs
-/// but `stance`'s gait.
-/// @throws std::invalid_argument if the schedule is none; MotionError if a task is out of reach;
-/// Cancelled.
+/// `stance`: posture, and the limbs that are `schedule`'s contacts, in the same order. The result
+/// keeps copies of all it needs but `stance`'s gait.
+/// @throws std::invalid_argument if the schedule is none (CheckContactSchedule), is of other
+/// contacts, has fewer than two intervals, or a limb swings in the first or the last; MotionError
+/// if a task is out of reach; Cancelled.
 std::vector<MotionPhase> PatternPhases(const models::RobotModel& robot, const NominalStance& stance,
                                        const ContactSchedule& schedule,
                                        const PatternSettings& settings,

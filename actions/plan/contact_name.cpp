@@ -94,6 +94,14 @@ std::vector<BearingPatch> BearingPatches(const models::RobotModel& robot, const 
   return patches;
 }
 
+models::ContactPatch PatchOf(const models::RobotModel& robot, const BearingPatch& bearing) {
+  models::ContactPatch patch = robot.contacts[bearing.patch];
+  std::vector<Eigen::Vector3d> points;
+  for (const int point : bearing.points) points.push_back(patch.points[point]);
+  patch.points = std::move(points);
+  return patch;
+}
+
 Eigen::Index CountPoints(const models::RobotModel& robot, const Phase& phase) {
   Eigen::Index count = 0;
   for (const BearingPatch& bearing : BearingPatches(robot, phase)) {

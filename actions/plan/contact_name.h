@@ -33,6 +33,9 @@ struct BearingPatch {
 /// earlier contact names.
 std::vector<BearingPatch> BearingPatches(const models::RobotModel& robot, const Phase& phase);
 
+/// The bearing points as a patch of their own.
+models::ContactPatch PatchOf(const models::RobotModel& robot, const BearingPatch& bearing);
+
 /// The number of columns of Knot::forces. @throws InputError likewise.
 Eigen::Index CountPoints(const models::RobotModel& robot, const Phase& phase);
 

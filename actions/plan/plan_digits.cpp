@@ -51,6 +51,12 @@ void AppendRounded(double x, int decimals, std::string* text) {
   *text += number == "-0" ? "0" : number;
 }
 
+double Rounded(double x, int decimals) {
+  std::string text;
+  AppendRounded(x, decimals, &text);
+  return std::strtod(text.c_str(), nullptr);
+}
+
 void AppendExact(double x, std::string* text) {
   RequireFinite(x);
   char digits[32];

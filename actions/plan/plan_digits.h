@@ -17,6 +17,9 @@ struct PlanDigits {
 /// @throws std::invalid_argument if x is not finite.
 void AppendRounded(double x, int decimals, std::string* text);
 
+/// x as AppendRounded writes it. @throws std::invalid_argument likewise.
+double Rounded(double x, int decimals = PlanDigits::kPosition);
+
 /// Appends x as JSON that reads back to the same bits. @throws std::invalid_argument likewise.
 void AppendExact(double x, std::string* text);
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "actions/plan/contact_name.h"
+#include "actions/plan/contact_schedule_json.h"
 #include "actions/plan/plan_series.h"
 #include "actions/plan/segment_action.h"
 #include "models/input/action_name.h"
@@ -400,7 +401,7 @@ Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   root.ExpectFormat(kPlanFormat);
   root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
                    "segments", "explored"},
-                  {"series", "search", "no"});
+                  {"series", "schedule", "search", "no"});
   Plan plan;
   const JsonCursor robot = root["robot"];
   robot.ExpectKeys({"file", "hash"});
@@ -425,6 +426,7 @@ Plan ReadPlan(const JsonCursor& root, const std::filesystem::path& folder) {
   }
   const JsonCursor timings = root["timings"];
   ExpectTime(timings["plan_duration_s"], plan.duration());
+  if (root.Has("schedule")) plan.schedule = ReadContactSchedule(root["schedule"]);
   plan.explored = ReadExplored(root["explored"]);
   CheckVertices(segments, plan);
   if (root.Has("search")) plan.search = ReadSearch(root["search"]);

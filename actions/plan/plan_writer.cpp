@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "actions/plan/contact_schedule_json.h"
 #include "actions/plan/plan_digits.h"
 #include "actions/plan/plan_series.h"
 #include "models/input/atomic_file.h"
@@ -21,12 +21,6 @@ using Json = nlohmann::ordered_json;
 
 /// Plans with more knots than this (about twenty minutes) are written with a table of courses.
 constexpr std::size_t kMostRows = 20000;
-
-double Rounded(double x) {
-  std::string text;
-  AppendRounded(x, PlanDigits::kPosition, &text);
-  return std::strtod(text.c_str(), nullptr);
-}
 
 double Exact(double x) {
   if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
@@ -275,6 +269,7 @@ Json Head(const Plan& plan, const std::filesystem::path& folder) {
 /// The part of the file after the segments.
 Json Tail(const Plan& plan) {
   Json json;
+  if (plan.schedule) json["schedule"] = ToJson(*plan.schedule);
   json["explored"] = ToJson(plan.explored);
   if (plan.search) json["search"] = ToJson(*plan.search);
   if (plan.no) json["no"] = ToJson(*plan.no);

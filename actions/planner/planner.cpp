@@ -12,6 +12,7 @@
 #include "actions/conditions/searched_manoeuvre.h"
 #include "actions/flood/flood_oracle.h"
 #include "actions/jump/long_jump.h"
+#include "actions/motion/motion_schedule.h"
 #include "actions/planner/passage_explanation.h"
 #include "actions/planner/plan_explanation.h"
 #include "actions/planner/request_checks.h"
@@ -128,7 +129,7 @@ class TraversalPlanner {
       try {
         if (Realise(path, &result)) return result;
       } catch (const Cancelled&) {
-        result.plan.segments.clear();
+        DropMotion(&result.plan);
         SayNo(PlanStatus::kTimeLimit,
               fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
                           "verified.",
@@ -299,8 +300,16 @@ class TraversalPlanner {
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
     result->plan.timings.motion_s += motion_clock.Seconds();
-    if (moved) NameVertices(path, &result->plan);
+    if (moved) {
+      NameVertices(path, &result->plan);
+      result->plan.schedule = ScheduleOfMotion(robot_, result->plan.segments);
+    }
     return moved && IsVerified(route, result);
+  }
+
+  static void DropMotion(actions::Plan* plan) {
+    plan->segments.clear();
+    plan->schedule.reset();
   }
 
   /// A pause is not an edge of the graph.
@@ -360,7 +369,7 @@ class TraversalPlanner {
       }
     }
     result->plan.statistics["routes refuted by verification"]++;
-    result->plan.segments.clear();
+    DropMotion(&result->plan);
     return false;
   }
 

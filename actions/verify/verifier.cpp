@@ -9,6 +9,7 @@
 #include "actions/verify/verifier_motion.h"
 #include "actions/verify/verifier_problem.h"
 #include "actions/verify/verifier_rollouts.h"
+#include "actions/verify/verifier_schedule.h"
 #include "actions/verify/verifier_structure.h"
 #include "common/stopwatch.h"
 #include "models/world/ground_map.h"
@@ -32,6 +33,7 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
                              ground,
                              FollowContacts(plan, robot, ground, &evaluator),
                              FollowFlights(plan, &evaluator)};
+  CheckSchedule(plan, robot, &evaluator, log);
   CheckImpacts(plan, robot, subject.contacts, &evaluator, log);
   VerifyMotion(subject, settings, log, report);
   if (settings.simulates && log->Worst().empty() && !report->cancelled) {
@@ -75,6 +77,8 @@ std::string ToString(ViolationKind kind) {
       return "contact_motion";
     case ViolationKind::kContactGround:
       return "contact_ground";
+    case ViolationKind::kSchedule:
+      return "schedule";
     case ViolationKind::kPenetration:
       return "penetration";
     case ViolationKind::kSelfCollision:

@@ -32,6 +32,7 @@ enum class ViolationKind {
   kJointCoupling,  ///< a mimic joint does not follow its master
   kContactMotion,  ///< a bearing point moves
   kContactGround,  ///< a bearing point is not on ground
+  kSchedule,       ///< the motion does not follow the plan's contact schedule
   kPenetration,    ///< a link is inside the environment
   kSelfCollision,
   kDynamics,  ///< tau and forces do not realise the motion

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kMotion = 1e-3;         // m, since the point was set down
 constexpr double kSlip = 2e-3;           // m/s
-constexpr double kPointHeight = 1e-3;         // m
+constexpr double kPointHeight = 1e-3;    // m
 constexpr double kEdgeTolerance = 1e-6;  // m
 constexpr double kLiftOffStep = 5e-3;    // s, between tests of a point that may leave the ground
 

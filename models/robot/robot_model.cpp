@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/input/input_error.h"
 #include "models/input/nearest_name.h"
@@ -28,6 +29,17 @@ Eigen::Vector3d ContactPatch::Centre() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points) sum += point;
   return sum / static_cast<double>(points.size());
+}
+
+Eigen::Isometry3d ContactPatch::Frame() const {
+  constexpr double kAlongX = 0.9;  // cosine
+  const bool is_along_x = std::abs(normal_L.x()) > kAlongX;
+  const Eigen::Vector3d forward = is_along_x ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+  Eigen::Isometry3d X_LP = Eigen::Isometry3d::Identity();
+  X_LP.translation() = Centre();
+  const Eigen::Vector3d y = -normal_L.cross(forward).normalized();
+  X_LP.linear() << -y.cross(normal_L), y, -normal_L;
+  return X_LP;
 }
 
 double RobotModel::TotalMass() const {

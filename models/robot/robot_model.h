@@ -58,6 +58,9 @@ struct ContactPatch {
   std::vector<Eigen::Vector3d> points;                   ///< in the link frame, m
   Eigen::Vector3d normal_L = -Eigen::Vector3d::UnitZ();  ///< unit, link frame, into the ground
   Eigen::Vector3d Centre() const;                        ///< mean of the points, link frame
+  /// Pose in the link frame: origin at the centre, z against the normal, x along the link's x, or
+  /// along its y if the normal is close to x.
+  Eigen::Isometry3d Frame() const;
 };
 
 /// A named whole-body posture above flat ground at z = 0 with the root at x = y = yaw = 0.

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "actions/gait/foothold_plan.h"
+#include "actions/motion/motion_schedule.h"
 #include "actions/motion/support_polygon.h"
 #include "dynamics/simbody/simbody_dynamics.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/message_of.h"
 
 namespace possibility::actions {
 namespace {
@@ -38,8 +40,8 @@ class PatternMotionTest : public testing::TestWithParam<WayCase> {
 
   ContactSchedule Schedule(const StepBounds& bounds = kBounds) const {
     const auto groups = SwingGroups(stance_);
-    return ScheduleOf(stance_, groups, start_, PlanSteps(stance_, groups, {start_, goal()}, bounds),
-                      kTiming);
+    return ScheduleOf(robot_, stance_, groups, start_,
+                      PlanSteps(stance_, groups, {start_, goal()}, bounds), kTiming);
   }
 
   std::vector<MotionPhase> Phases(int filter_passes = 2) const {
@@ -97,6 +99,23 @@ TEST_P(PatternMotionTest, CentreOfPressureStaysTwoCentimetresInsideTheSupport) {
   }
   RecordProperty("least_margin_mm", static_cast<int>(1000 * least));
   EXPECT_GT(least, 0.02);
+}
+
+TEST_P(PatternMotionTest, MotionFollowsTheSchedule) {
+  const ContactSchedule schedule = Schedule();
+  const ContactSchedule followed = ScheduleOfMotion(robot_, {{"walk", Motion()}});
+  EXPECT_EQ(followed.contacts, schedule.contacts);
+  ASSERT_EQ(followed.intervals.size(), schedule.intervals.size());
+  for (std::size_t k = 0; k < schedule.intervals.size(); ++k) {
+    EXPECT_NEAR(followed.intervals[k].duration, schedule.intervals[k].duration, 1e-9);
+    for (std::size_t limb = 0; limb < schedule.contacts.size(); ++limb) {
+      const auto& pose = followed.intervals[k].bearing[limb];
+      const auto& planned = schedule.intervals[k].bearing[limb];
+      ASSERT_EQ(pose.has_value(), planned.has_value());
+      if (!pose) continue;
+      EXPECT_LT((pose->matrix() - planned->matrix()).norm(), 1e-6);
+    }
+  }
 }
 
 TEST_P(PatternMotionTest, BeginsAndEndsAtRestInTheNominalPosture) {
@@ -215,6 +234,23 @@ TEST_P(PatternMotionRefusals, StepOutOfReachIsRefused) {
 
 TEST_P(PatternMotionRefusals, NoScheduleIsRefused) {
   EXPECT_THROW(PatternPhases(robot_, stance_, {}, {}), std::invalid_argument);
+}
+
+TEST_P(PatternMotionRefusals, ScheduleOfOtherContactsIsRefused) {
+  ContactSchedule schedule = Schedule();
+  schedule.contacts.front() = "tail";
+  const std::string message = MessageOf([&] { PatternPhases(robot_, stance_, schedule, {}); });
+  EXPECT_NE(message.find("contact schedule of tail, "), std::string::npos) << message;
+}
+
+TEST_P(PatternMotionRefusals, SwingInTheFirstOrTheLastIntervalIsRefused) {
+  for (const bool first : {true, false}) {
+    ContactSchedule schedule = Schedule();
+    ContactInterval& end = first ? schedule.intervals.front() : schedule.intervals.back();
+    end.bearing[1].reset();
+    EXPECT_EQ(MessageOf([&] { PatternPhases(robot_, stance_, schedule, {}); }),
+              "contact schedule: a limb swings in the first or the last interval");
+  }
 }
 
 TEST_P(PatternMotionRefusals, CancellationEndsTheWork) {

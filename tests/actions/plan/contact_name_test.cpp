@@ -68,6 +68,15 @@ TEST(BearingPatches, AreFoundByNameInOrder) {
   EXPECT_EQ(CountPoints(TwoPatches(), Bearing({})), 0);
 }
 
+TEST(BearingPatches, AreAPatchOfTheirPoints) {
+  const models::RobotModel robot = TwoPatches();
+  const models::ContactPatch part = PatchOf(robot, {0, {1, 2}});
+  EXPECT_EQ(part.link, 1);
+  EXPECT_EQ(part.points, (std::vector<Eigen::Vector3d>{{1, 0, 0}, {1, 1, 0}}));
+  EXPECT_EQ(part.normal_L, robot.contacts[0].normal_L);
+  EXPECT_EQ(PatchOf(robot, {1, {0}}).points, robot.contacts[1].points);
+}
+
 TEST(BearingPatches, RefuseUnknownRepeatedAndUnorderedContacts) {
   EXPECT_NE(Refusal({"tail"}).find("\"tail\" unknown"), std::string::npos);
   EXPECT_NE(Refusal({"tail[0]"}).find("\"tail[0]\" unknown"), std::string::npos);

@@ -27,6 +27,21 @@ void ExpectNear(const Eigen::MatrixXd& read, const Eigen::MatrixXd& written, dou
   EXPECT_LE((read - written).cwiseAbs().maxCoeff(), 0.51 * digit);
 }
 
+void ExpectSameSchedule(const ContactSchedule& schedule, const ContactSchedule& expected) {
+  EXPECT_EQ(schedule.contacts, expected.contacts);
+  ASSERT_EQ(schedule.intervals.size(), expected.intervals.size());
+  for (std::size_t k = 0; k < expected.intervals.size(); ++k) {
+    EXPECT_EQ(schedule.intervals[k].duration, expected.intervals[k].duration);
+    ASSERT_EQ(schedule.intervals[k].bearing.size(), expected.intervals[k].bearing.size());
+    for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
+      const auto& pose = schedule.intervals[k].bearing[i];
+      const auto& expected_pose = expected.intervals[k].bearing[i];
+      ASSERT_EQ(pose.has_value(), expected_pose.has_value());
+      if (pose) ExpectNear(pose->matrix(), expected_pose->matrix(), 1e-9);
+    }
+  }
+}
+
 class PlanFile : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -108,6 +123,7 @@ TEST_F(PlanFile, ReadsBackAsWritten) {
       }
     }
   }
+  ExpectSameSchedule(*read.schedule, *plan_.schedule);
   ASSERT_EQ(read.explored.vertices.size(), 2u);
   EXPECT_EQ(read.explored.vertices[1].position, plan_.explored.vertices[1].position);
   EXPECT_EQ(read.explored.vertices[1].yaw, plan_.explored.vertices[1].yaw);
@@ -325,6 +341,32 @@ TEST_F(PlanFile, NamesTheKnotThatIsWrong) {
   ExpectRefused([&](json* d) { phase(d)["q"][0][0] = 5; }, at + "q[0]: expected a unit quaternion");
   ExpectRefused([&](json* d) { phase(d)["contacts"][0] = 7; }, at + "contacts[0]: expected a str");
   ExpectRefused([&](json* d) { phase(d).erase("contacts"); }, "missing key \"contacts\"");
+}
+
+TEST_F(PlanFile, NamesThePartOfTheScheduleThatIsWrong) {
+  const auto interval = [](json* d) -> json& { return (*d)["schedule"]["intervals"][1]; };
+  const std::string at = "schedule.intervals[1].";
+  ExpectRefused([&](json* d) { interval(d)["bearing"].push_back(nullptr); },
+                at + "bearing: expected 3 entries, one per contact, got 4");
+  ExpectRefused([&](json* d) { interval(d)["bearing"][0].erase(0); },
+                at + "bearing[0]: expected [x, y, z, qw, qx, qy, qz] or null");
+  ExpectRefused([&](json* d) { interval(d)["bearing"][0][3] = 7; },
+                at + "bearing[0]: expected a unit quaternion");
+  ExpectRefused([&](json* d) { interval(d)["duration_s"] = 0; },
+                "schedule: contact schedule: interval 1 lasts 0 s, expected more than 0");
+  ExpectRefused([&](json* d) { interval(d)["bearing"][0][1] = 7; },
+                "schedule: contact schedule: left_sole moves at the start of interval 1");
+  ExpectRefused([](json* d) { (*d)["schedule"]["contacts"][1] = "peg[1,0]"; },
+                "schedule.contacts[1]: contact \"peg[1,0]\"");
+  ExpectRefused([](json* d) { (*d)["schedule"]["contacts"][1] = "left_sole"; },
+                "schedule: contact schedule: left_sole is listed twice");
+  ExpectRefused([](json* d) { (*d)["schedule"].erase("intervals"); },
+                "schedule: missing key \"intervals\"");
+}
+
+TEST_F(PlanFile, MayHoldNoSchedule) {
+  plan_.schedule.reset();
+  EXPECT_FALSE(ParsePlan(Written(plan_), file()).schedule);
 }
 
 TEST_F(PlanFile, NamesTheContactThatIsWrong) {

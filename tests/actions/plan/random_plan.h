@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <random>
 
 #include "actions/plan/plan.h"
@@ -25,6 +26,13 @@ inline Knot RandomKnot(double t, int num_joints, int num_points, std::mt19937* g
   const Eigen::VectorXd forces = 300 * random(3 * num_points);
   knot.forces = Eigen::Map<const Eigen::Matrix3Xd>(forces.data(), 3, num_points);
   return knot;
+}
+
+inline Eigen::Isometry3d RandomPose(std::mt19937* generator) {
+  const Eigen::VectorXd q = RandomKnot(0, 0, 0, generator).q;
+  Eigen::Isometry3d pose(Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+  pose.translation() = q.tail<3>();
+  return pose;
 }
 
 /// A plan that is valid in form only, with a flight and an impact. Its numbers mean nothing.
@@ -62,6 +70,12 @@ inline Plan RandomPlan(std::mt19937* generator) {
     }
     plan.segments.push_back(segment);
   }
+  const Eigen::Isometry3d place = RandomPose(generator);
+  plan.schedule =
+      ContactSchedule{{"left_sole", "right_peg", "left_sole[0,3]"},
+                      {{0.2, {place, RandomPose(generator), std::nullopt}},
+                       {0.1, {place, std::nullopt, std::nullopt}},
+                       {0.1, {std::nullopt, RandomPose(generator), RandomPose(generator)}}}};
   plan.explored.vertices = {{{1, 2, 0.7}, 0.1}, {{1.5, 2, 0.7}, -0.2}};
   plan.explored.edges = {{0, 1, "walk"}};
   return plan;

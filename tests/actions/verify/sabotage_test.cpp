@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(Mutations, Sabotage, ::testing::ValuesIn(PlanMutations(
                          [](const auto& info) { return info.param.name; });
 
 TEST(SabotageBaseline, TheUntouchedPlansAreAccepted) {
-  for (const VerifierSubject& subject : {ValidSubject(), WalkAndCrawl()}) {
+  for (VerifierSubject subject : {ValidSubject(), WalkAndCrawl()}) {
+    subject.plan.schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
     const VerificationReport report = Verify(subject.plan, subject.robot, subject.scenario);
     EXPECT_TRUE(report.accepted()) << FormatText(report);
   }

@@ -1,4 +1,4 @@
-#include "actions/motion/contact_schedule.h"
+#include "actions/plan/contact_schedule.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,7 @@ Eigen::Isometry3d Place(double x) { return Eigen::Isometry3d(Eigen::Translation3
 /// Two limbs: the first steps from 0 to 1, then the second from 2 to 3 in two intervals.
 ContactSchedule TwoSteps() {
   ContactSchedule schedule;
+  schedule.contacts = {"left", "right"};
   schedule.intervals = {{0.5, {Place(0), Place(2)}},       {0.25, {std::nullopt, Place(2)}},
                         {0.125, {Place(1), Place(2)}},     {0.25, {Place(1), std::nullopt}},
                         {0.375, {Place(1), std::nullopt}}, {0.5, {Place(1), Place(3)}}};
@@ -54,7 +55,17 @@ TEST(ContactScheduleTest, BearingLimbIsBeforeAndAfterWhereItBears) {
 TEST(ContactScheduleTest, AsDescribedIsAccepted) { EXPECT_EQ(FaultOf(TwoSteps()), "no error"); }
 
 TEST(ContactScheduleTest, WithoutIntervalsIsRefused) {
-  EXPECT_EQ(FaultOf({}), "contact schedule: fewer than two intervals");
+  EXPECT_EQ(FaultOf({{"left"}, {}}), "contact schedule: no intervals");
+}
+
+TEST(ContactScheduleTest, WithoutContactsIsRefused) {
+  EXPECT_EQ(FaultOf({}), "contact schedule: no contacts");
+}
+
+TEST(ContactScheduleTest, ContactListedTwiceIsRefused) {
+  ContactSchedule schedule = TwoSteps();
+  schedule.contacts = {"left", "left"};
+  EXPECT_EQ(FaultOf(schedule), "contact schedule: left is listed twice");
 }
 
 TEST(ContactScheduleTest, DurationThatIsNotPositiveIsRefusedByInterval) {
@@ -66,33 +77,25 @@ TEST(ContactScheduleTest, DurationThatIsNotPositiveIsRefusedByInterval) {
   }
 }
 
-TEST(ContactScheduleTest, OtherNumberOfLimbsIsRefusedByInterval) {
+TEST(ContactScheduleTest, OtherNumberOfEntriesIsRefusedByInterval) {
   ContactSchedule schedule = TwoSteps();
   schedule.intervals[2].bearing.push_back(Place(5));
-  EXPECT_EQ(FaultOf(schedule), "contact schedule: interval 2 has 3 limbs, expected 2");
+  EXPECT_EQ(FaultOf(schedule),
+            "contact schedule: interval 2 has 3 entries, expected 2, one per contact");
   schedule.intervals[2].bearing.resize(1);
-  EXPECT_EQ(FaultOf(schedule), "contact schedule: interval 2 has 1 limbs, expected 2");
+  EXPECT_EQ(FaultOf(schedule),
+            "contact schedule: interval 2 has 1 entries, expected 2, one per contact");
 }
 
-TEST(ContactScheduleTest, LimbThatMovesWhileItBearsIsRefusedByLimbAndInterval) {
+TEST(ContactScheduleTest, ContactThatMovesWhileItBearsIsRefusedByNameAndInterval) {
   ContactSchedule schedule = TwoSteps();
   schedule.intervals[2].bearing[1] = Place(2.001);
   EXPECT_EQ(FaultOf(schedule),
-            "contact schedule: limb 1 moves at the start of interval 2 without a swing");
+            "contact schedule: right moves at the start of interval 2 without a swing");
   schedule = TwoSteps();
   schedule.intervals[3].bearing[0]->rotate(Eigen::AngleAxisd(0.001, Eigen::Vector3d::UnitZ()));
   EXPECT_EQ(FaultOf(schedule),
-            "contact schedule: limb 0 moves at the start of interval 3 without a swing");
-}
-
-TEST(ContactScheduleTest, SwingInTheFirstOrTheLastIntervalIsRefused) {
-  for (const bool first : {true, false}) {
-    ContactSchedule schedule = TwoSteps();
-    ContactInterval& end = first ? schedule.intervals.front() : schedule.intervals.back();
-    end.bearing[1].reset();
-    EXPECT_EQ(FaultOf(schedule),
-              "contact schedule: a limb swings in the first or the last interval");
-  }
+            "contact schedule: left moves at the start of interval 3 without a swing");
 }
 
 }  // namespace

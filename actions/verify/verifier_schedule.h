@@ -1,0 +1,13 @@
+#pragma once
+
+#include "actions/verify/verifier_log.h"
+#include "actions/verify/verifier_state.h"
+
+namespace possibility::actions {
+
+/// Checks that the motion follows the plan's contact schedule, if it has one: when which contacts
+/// bear, and where.
+void CheckSchedule(const Plan& plan, const models::RobotModel& robot, StateEvaluator* evaluator,
+                   ViolationLog* log);
+
+}  // namespace possibility::actions
