@@ -10,7 +10,8 @@ namespace possibility::actions {
 
 /// The contact schedule that a motion follows: an interval for every stretch with the same
 /// contacts, with their poses where it begins. Contacts in the order in which they first bear.
-/// `segments`: contiguous in time. @throws InputError if a contact is not the robot's.
+/// `segments`: contiguous in time, each phase with knots of the robot's sizes. @throws InputError
+/// if a contact is not the robot's.
 ContactSchedule ScheduleOfMotion(const models::RobotModel& robot,
                                  const std::vector<Segment>& segments);
 

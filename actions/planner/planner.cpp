@@ -21,6 +21,7 @@
 #include "actions/route/route.h"
 #include "actions/route/route_motion.h"
 #include "actions/route/shortcut_explorer.h"
+#include "actions/verify/verifier_structure.h"
 #include "common/cancellation_token.h"
 #include "common/deadline.h"
 #include "common/stopwatch.h"
@@ -302,9 +303,17 @@ class TraversalPlanner {
     result->plan.timings.motion_s += motion_clock.Seconds();
     if (moved) {
       NameVertices(path, &result->plan);
-      result->plan.schedule = ScheduleOfMotion(robot_, result->plan.segments);
+      AddSchedule(&result->plan);
     }
     return moved && IsVerified(route, result);
+  }
+
+  /// Motion of other programs may be malformed. It gets no schedule, and the verifier rejects it.
+  void AddSchedule(actions::Plan* plan) const {
+    ViolationLog log;
+    if (CheckStructure(*plan, robot_, &log)) {
+      plan->schedule = ScheduleOfMotion(robot_, plan->segments);
+    }
   }
 
   static void DropMotion(actions::Plan* plan) {
