@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 
+#include "actions/checks/structure_check.h"
 #include "actions/conditions/exploration_pose.h"
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/quasi_static_action.h"
@@ -21,7 +22,6 @@
 #include "actions/route/route.h"
 #include "actions/route/route_motion.h"
 #include "actions/route/shortcut_explorer.h"
-#include "actions/verify/verifier_structure.h"
 #include "common/cancellation_token.h"
 #include "common/deadline.h"
 #include "common/stopwatch.h"

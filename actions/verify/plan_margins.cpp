@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "actions/verify/verifier_state.h"
+#include "actions/evidence/verifier_state.h"
 #include "actions/verify/zero_moment_point.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/world/collision.h"

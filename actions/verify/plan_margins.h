@@ -34,7 +34,6 @@ struct PlanMargins {
 /// `plan`: of valid structure for `robot`.
 /// @throws InputError if a contact is not the robot's.
 PlanMargins MeasureMargins(const Plan& plan, const models::RobotModel& robot,
-                           const models::Environment& environment,
-                           const models::GroundMap& ground);
+                           const models::Environment& environment, const models::GroundMap& ground);
 
 }  // namespace possibility::actions

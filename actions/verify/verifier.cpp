@@ -2,15 +2,15 @@
 
 #include <stdexcept>
 
-#include "actions/verify/verifier_contacts.h"
-#include "actions/verify/verifier_ends.h"
-#include "actions/verify/verifier_flight.h"
-#include "actions/verify/verifier_impact.h"
+#include "actions/checks/contacts_check.h"
+#include "actions/checks/ends_check.h"
+#include "actions/checks/flight_check.h"
+#include "actions/checks/impact_check.h"
+#include "actions/checks/problem_check.h"
+#include "actions/checks/schedule_check.h"
+#include "actions/checks/structure_check.h"
 #include "actions/verify/verifier_motion.h"
-#include "actions/verify/verifier_problem.h"
 #include "actions/verify/verifier_rollouts.h"
-#include "actions/verify/verifier_schedule.h"
-#include "actions/verify/verifier_structure.h"
 #include "common/stopwatch.h"
 #include "models/world/ground_map.h"
 
@@ -44,56 +44,6 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
 }
 
 }  // namespace
-
-std::string ToString(ViolationKind kind) {
-  switch (kind) {
-    case ViolationKind::kFileMismatch:
-      return "file_mismatch";
-    case ViolationKind::kStructure:
-      return "structure";
-    case ViolationKind::kAction:
-      return "action";
-    case ViolationKind::kStart:
-      return "start";
-    case ViolationKind::kGoal:
-      return "goal";
-    case ViolationKind::kBounds:
-      return "bounds";
-    case ViolationKind::kPositionContinuity:
-      return "position_continuity";
-    case ViolationKind::kVelocityContinuity:
-      return "velocity_continuity";
-    case ViolationKind::kImpact:
-      return "impact";
-    case ViolationKind::kJointPosition:
-      return "joint_position";
-    case ViolationKind::kJointSpeed:
-      return "joint_speed";
-    case ViolationKind::kJointTorque:
-      return "joint_torque";
-    case ViolationKind::kJointCoupling:
-      return "joint_coupling";
-    case ViolationKind::kContactMotion:
-      return "contact_motion";
-    case ViolationKind::kContactGround:
-      return "contact_ground";
-    case ViolationKind::kSchedule:
-      return "schedule";
-    case ViolationKind::kPenetration:
-      return "penetration";
-    case ViolationKind::kSelfCollision:
-      return "self_collision";
-    case ViolationKind::kDynamics:
-      return "dynamics";
-    case ViolationKind::kFriction:
-      return "friction";
-    case ViolationKind::kFlight:
-      return "flight";
-    case ViolationKind::kRollout:
-      return "rollout";
-  }
-  throw std::invalid_argument("unknown kind of violation");
-}
 
 VerificationReport Verify(const Plan& plan, const models::RobotModel& robot,
                           const models::Scenario& scenario, const VerifierSettings& settings) {

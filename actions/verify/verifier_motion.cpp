@@ -6,11 +6,11 @@
 #include <exception>
 #include <mutex>
 
+#include "actions/checks/collision_check.h"
+#include "actions/checks/forces_check.h"
+#include "actions/checks/limits_check.h"
+#include "actions/evidence/derivative_bounds.h"
 #include "actions/plan/interpolation.h"
-#include "actions/verify/derivative_bounds.h"
-#include "actions/verify/verifier_collision.h"
-#include "actions/verify/verifier_forces.h"
-#include "actions/verify/verifier_limits.h"
 #include "common/run_on_threads.h"
 #include "dynamics/tree/tree_kinematics.h"
 

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include "actions/checks/contacts_check.h"
+#include "actions/checks/flight_check.h"
+#include "actions/evidence/violation_log.h"
 #include "actions/verify/verifier.h"
-#include "actions/verify/verifier_contacts.h"
-#include "actions/verify/verifier_flight.h"
-#include "actions/verify/verifier_log.h"
 #include "models/world/ground_map.h"
 
 namespace possibility::actions {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actions/evidence/violation_log.h"
 #include "actions/verify/verifier.h"
-#include "actions/verify/verifier_log.h"
 #include "actions/verify/verifier_motion.h"
 
 namespace possibility::actions {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actions/checks/forces_check.h"
 #include "actions/plan/interpolation.h"
 #include "actions/verify/verification_report.h"
 #include "actions/verify/verifier.h"
-#include "actions/verify/verifier_forces.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/hop_plan.h"
 #include "tests/actions/plan_mutations.h"

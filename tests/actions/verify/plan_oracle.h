@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "actions/evidence/verifier_state.h"
 #include "actions/plan/plan.h"
-#include "actions/verify/verifier_state.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/robot/robot_model.h"
 #include "models/world/collision.h"

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "actions/checks/forces_check.h"
 #include "actions/plan/contact_name.h"
 #include "actions/plan/interpolation.h"
-#include "actions/verify/verifier_forces.h"
 #include "tests/actions/plan_mutations.h"
 
 namespace possibility::actions::testing {

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "actions/checks/forces_check.h"
 #include "actions/plan/interpolation.h"
 #include "actions/plan/plan_reader.h"
 #include "actions/plan/plan_writer.h"
 #include "actions/verify/verification_report.h"
-#include "actions/verify/verifier_forces.h"
 #include "tests/actions/plan_mutations.h"
 #include "tests/actions/standing_plan.h"
 

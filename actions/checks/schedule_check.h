@@ -1,7 +1,7 @@
 #pragma once
 
-#include "actions/verify/verifier_log.h"
-#include "actions/verify/verifier_state.h"
+#include "actions/evidence/verifier_state.h"
+#include "actions/evidence/violation_log.h"
 
 namespace possibility::actions {
 

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_log.h"
+#include "actions/evidence/violation_log.h"
 
 #include <cmath>
 #include <tuple>

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "actions/verify/derivative_bounds.h"
-#include "actions/verify/verifier_log.h"
-#include "actions/verify/verifier_state.h"
+#include "actions/evidence/derivative_bounds.h"
+#include "actions/evidence/verifier_state.h"
+#include "actions/evidence/violation_log.h"
 #include "models/world/collision.h"
 
 namespace possibility::actions {

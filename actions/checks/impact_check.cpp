@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_impact.h"
+#include "actions/checks/impact_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kEquationTolerance = 1e-6;  // of weight x 1 s (N s), or x 1 m (N m s)
-constexpr double kImpulseConeTolerance = 1e-6;      // of weight x 1 s
-constexpr double kStuckSpeed = 1e-4;          // m/s, of the points after the impact
-constexpr double kEnergyTolerance = 1e-6;    // of weight x 1 m
+constexpr double kEquationTolerance = 1e-6;     // of weight x 1 s (N s), or x 1 m (N m s)
+constexpr double kImpulseConeTolerance = 1e-6;  // of weight x 1 s
+constexpr double kStuckSpeed = 1e-4;            // m/s, of the points after the impact
+constexpr double kEnergyTolerance = 1e-6;       // of weight x 1 m
 
 struct Impact {
   const VectorXd& v_before;

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_contacts.h"
+#include "actions/checks/contacts_check.h"
 
 #include <fmt/format.h>
 

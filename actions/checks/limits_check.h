@@ -1,7 +1,7 @@
 #pragma once
 
+#include "actions/evidence/violation_log.h"
 #include "actions/plan/interpolation.h"
-#include "actions/verify/verifier_log.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

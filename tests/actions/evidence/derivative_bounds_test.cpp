@@ -1,10 +1,10 @@
-#include "actions/verify/derivative_bounds.h"
+#include "actions/evidence/derivative_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "actions/verify/bounded_maximum.h"
+#include "actions/evidence/bounded_maximum.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/dynamics/newton_euler.h"

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_state.h"
+#include "actions/evidence/verifier_state.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "actions/verify/verifier_forces.h"
+#include "actions/checks/forces_check.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "actions/verify/verifier_limits.h"
+#include "actions/checks/limits_check.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {

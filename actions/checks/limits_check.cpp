@@ -1,9 +1,9 @@
-#include "actions/verify/verifier_limits.h"
+#include "actions/checks/limits_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "actions/verify/bounded_maximum.h"
+#include "actions/evidence/bounded_maximum.h"
 #include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_problem.h"
+#include "actions/checks/problem_check.h"
 
 #include <fmt/format.h>
 

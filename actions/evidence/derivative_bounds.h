@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "actions/evidence/verifier_state.h"
 #include "actions/plan/interpolation.h"
-#include "actions/verify/verifier_state.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "actions/verify/verifier_log.h"
-#include "actions/verify/verifier_state.h"
+#include "actions/evidence/verifier_state.h"
+#include "actions/evidence/violation_log.h"
+#include "models/world/scenario.h"
 
 namespace possibility::actions {
 

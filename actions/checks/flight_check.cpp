@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_flight.h"
+#include "actions/checks/flight_check.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_structure.h"
+#include "actions/checks/structure_check.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_schedule.h"
+#include "actions/checks/schedule_check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

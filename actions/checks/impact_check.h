@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "actions/verify/verifier_contacts.h"
-#include "actions/verify/verifier_log.h"
-#include "actions/verify/verifier_state.h"
+#include "actions/checks/contacts_check.h"
+#include "actions/evidence/verifier_state.h"
+#include "actions/evidence/violation_log.h"
 
 namespace possibility::actions {
 

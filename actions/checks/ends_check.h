@@ -1,6 +1,7 @@
 #pragma once
 
-#include "actions/verify/verifier_structure.h"
+#include "actions/checks/structure_check.h"
+#include "models/world/scenario.h"
 
 namespace possibility::actions {
 

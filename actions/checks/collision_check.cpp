@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_collision.h"
+#include "actions/checks/collision_check.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Plans whose motion is sound, but which solve another problem than the scenario's.
 
-#include "actions/verify/verifier_problem.h"
+#include "actions/checks/problem_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "actions/verify/verifier_ends.h"
+#include "actions/checks/ends_check.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ constexpr double kPoseTolerance = 1e-3;  // m and rad
 /// rad (m if prismatic): a posture's contacts may be 0.1 mm off the ground, which the limbs' joints
 /// compensate. Other solutions of inverse kinematics are much farther away.
 constexpr double kLimbTolerance = 0.02;
-constexpr double kEndSpeed = 1e-6;         // m/s and rad/s
+constexpr double kEndSpeed = 1e-6;          // m/s and rad/s
 constexpr double kRestAcceleration = 1e-3;  // m/s^2 and rad/s^2
 
 /// One end of the plan and the scenario's requirements there.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/verify/verifier.h"
+#include "actions/evidence/violation.h"
 
 namespace possibility::actions {
 

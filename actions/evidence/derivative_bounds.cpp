@@ -1,9 +1,9 @@
-#include "actions/verify/derivative_bounds.h"
+#include "actions/evidence/derivative_bounds.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "actions/verify/bounded_maximum.h"
+#include "actions/evidence/bounded_maximum.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "actions/verify/verifier_log.h"
-#include "actions/verify/verifier_state.h"
+#include "actions/evidence/verifier_state.h"
+#include "actions/evidence/violation_log.h"
 
 namespace possibility::actions {
 
