@@ -8,6 +8,7 @@
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/gait/dynamic_gait.h"
+#include "actions/gait/pace_library.h"
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/transition/transition_motion.h"
@@ -29,11 +30,14 @@ constexpr double kChangeTime = 0.2;
 using GaitEntry = LocomotionModel::GaitEntry;
 using TransitionEntry = LocomotionModel::TransitionEntry;
 
-std::unique_ptr<GaitEntry> EntryOfRobot(const models::RobotModel& robot, const std::string& name) {
+std::unique_ptr<GaitEntry> EntryOfRobot(const models::RobotModel& robot, const std::string& name,
+                                        const PaceLibrary& paces) {
   auto entry = std::make_unique<GaitEntry>();
   entry->gait = robot.GaitNamed(name);
   entry->stance = SolveNominalStance(robot, entry->gait);
-  entry->motion = std::make_unique<DynamicGait>(robot, entry->stance);
+  std::optional<std::vector<Pace>> fitted = paces.Find(entry->gait);
+  entry->motion = fitted ? std::make_unique<DynamicGait>(robot, entry->stance, std::move(*fitted))
+                         : std::make_unique<DynamicGait>(robot, entry->stance);
   return entry;
 }
 
@@ -62,11 +66,12 @@ std::unique_ptr<GaitEntry> EntryOfFactory(const models::RobotModel& robot,
 }
 
 std::unique_ptr<GaitEntry> MakeEntry(const models::RobotModel& robot, const std::string& name,
+                                     const PaceLibrary& paces,
                                      const std::vector<GaitFactory>& further) {
   for (const GaitFactory& factory : further) {
     if (factory.name == name) return EntryOfFactory(robot, factory);
   }
-  return EntryOfRobot(robot, name);
+  return EntryOfRobot(robot, name, paces);
 }
 
 /// The robot stands still while it changes between gaits of one stance.
@@ -108,11 +113,12 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
   std::vector<std::string> names;
   for (const GaitFactory& factory : further) names.push_back(factory.name);
   models::CheckActionsOfRobot(actions, robot, robot.file.string(), names);
+  const PaceLibrary paces(robot, library);
   LocomotionModel model;
   model.robot = &robot;
   for (const std::string& action : actions) {
     if (IsJump(robot, action)) continue;
-    std::unique_ptr<GaitEntry> entry = MakeEntry(robot, action, further);
+    std::unique_ptr<GaitEntry> entry = MakeEntry(robot, action, paces, further);
     entry->volumes = SweepGait(robot, entry->stance, *entry->motion, cancellation);
     model.gaits.push_back(std::move(entry));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "models/world/collision.h"
 
@@ -132,19 +133,30 @@ std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
 
 }  // namespace
 
-DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
+DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance,
+                         std::vector<Pace> paces)
     : robot_(&robot),
       stance_(&stance),
       quasi_static_(robot, stance),
       groups_(SwingGroups(stance)),
-      reach_(Reach(stance)) {
-  for (const Pace& candidate : Candidates(stance.gait->parameters)) {
-    if (!paces_.empty() && candidate.speed() > kSlowPace * paces_.front().speed()) continue;
+      reach_(Reach(stance)),
+      paces_(std::move(paces)) {}
+
+DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
+    : DynamicGait(robot, stance, {}) {
+  paces_ = FittedPaces();
+}
+
+std::vector<Pace> DynamicGait::FittedPaces() const {
+  std::vector<Pace> paces;
+  for (const Pace& candidate : Candidates(stance_->gait->parameters)) {
+    if (!paces.empty() && candidate.speed() > kSlowPace * paces.front().speed()) continue;
     const std::optional<Pace> pace = Fitted(candidate);
     if (!pace) continue;
-    paces_.push_back(*pace);
-    if (paces_.size() == 2) break;
+    paces.push_back(*pace);
+    if (paces.size() == 2) break;
   }
+  return paces;
 }
 
 bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {

@@ -5,21 +5,13 @@
 
 #include "actions/gait/foothold_plan.h"
 #include "actions/gait/gait_motion.h"
+#include "actions/gait/pace.h"
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/pattern_motion.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
-
-/// Length and timing of a dynamic gait's steps.
-struct Pace {
-  StepBounds bounds;
-  StepTiming timing;
-  double speed() const {  ///< straight ahead, m/s
-    return bounds.forward / (timing.swing + timing.double_support);
-  }
-};
 
 /// A gait that flows: limbs swing in turn while the centre of mass falls from one support to the
 /// next (pattern_motion.h), without a rest from start to end. Its pace is the quickest of a family
@@ -28,6 +20,9 @@ class DynamicGait final : public GaitMotion {
  public:
   /// Fits the paces. `stance` must outlive this.
   DynamicGait(const models::RobotModel& robot, const NominalStance& stance);
+  /// With paces that were fitted before.
+  DynamicGait(const models::RobotModel& robot, const NominalStance& stance,
+              std::vector<Pace> paces);
 
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                             const CancellationToken& cancellation) const override;
@@ -56,6 +51,7 @@ class DynamicGait final : public GaitMotion {
   std::vector<Phase> MotionOf(const Pace& pace, const PlanarPose& start,
                               const std::vector<Step>& steps, const MotionSettings& settings,
                               const CancellationToken& cancellation) const;
+  std::vector<Pace> FittedPaces() const;
   /// Whether the robot can repeat a step at this pace, with margins.
   bool Fits(const Pace& pace, const PlanarPose& step) const;
   /// The pace with the longest sideways and turning steps that fit; none if it does not fit.

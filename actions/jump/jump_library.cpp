@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "actions/sagittal/motion_identity.h"
+#include "actions/motion/motion_folder.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "collocation/study/stored_solution_writer.h"
 #include "dynamics/tree/tree_kinematics.h"

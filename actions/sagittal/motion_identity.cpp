@@ -31,9 +31,4 @@ std::string MotionIdentity(const models::RobotModel& robot, const SagittalSettin
                               fmt::format("{}", fmt::join(own, " "))});
 }
 
-std::filesystem::path MotionFolder(const std::filesystem::path& library,
-                                   const std::string& identity) {
-  return library.empty() ? library : library / identity.substr(0, 16);
-}
-
 }  // namespace possibility::actions

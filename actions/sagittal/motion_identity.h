@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,9 +12,5 @@ namespace possibility::actions {
 /// `own`, the settings that a kind of motion adds. Solutions with another identity are stale.
 std::string MotionIdentity(const models::RobotModel& robot, const SagittalSettings& settings,
                            const std::vector<double>& own);
-
-/// Folder of a library for the motions of one identity; empty if `library` is.
-std::filesystem::path MotionFolder(const std::filesystem::path& library,
-                                   const std::string& identity);
 
 }  // namespace possibility::actions

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "actions/motion/motion_builder.h"
-#include "actions/sagittal/motion_identity.h"
+#include "actions/motion/motion_folder.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "collocation/study/stored_solution_writer.h"
 #include "models/input/input_error.h"

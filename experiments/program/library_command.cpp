@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "actions/gait/dynamic_gait.h"
+#include "actions/gait/pace_library.h"
 #include "actions/jump/jump_sweep.h"
 #include "actions/transition/transition_motion.h"
 #include "experiments/report/jump_reach_plot.h"
@@ -95,6 +97,14 @@ void SaveTransitions(const models::RobotModel& robot, const std::string& folder)
   }
 }
 
+void SavePaces(const models::RobotModel& robot, const std::string& folder) {
+  const actions::PaceLibrary library(robot, folder);
+  for (const models::Gait& gait : robot.gaits) {
+    const actions::NominalStance stance = actions::SolveNominalStance(robot, gait);
+    library.Save(gait, actions::DynamicGait(robot, stance).paces());
+  }
+}
+
 ExitCode RunLibrary(const LibraryOptions& options) {
   const models::RobotModel robot = models::LoadRobotModel(options.robot);
   const models::Jump& jump = OnlyJump(robot);
@@ -117,6 +127,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
   const actions::JumpReach reach = actions::ReachOf(entries);
   library.SaveReach(reach);
   SaveTransitions(robot, options.out);
+  SavePaces(robot, options.out);
   WriteOutput(library.folder() / "reach.svg", JumpReachPicture(entries));
   if (options.json) {
     PrintJson(entries, reach);
@@ -129,8 +140,9 @@ ExitCode RunLibrary(const LibraryOptions& options) {
 }  // namespace
 
 Command AddLibraryCommand(CLI::App& program) {
-  CommandOptions command(program, "library",
-                         "Solves a robot's jumps and transitions for later plans.");
+  CommandOptions command(
+      program, "library",
+      "Solves a robot's jumps and transitions, and fits its gaits, for later plans.");
   auto options = std::make_shared<LibraryOptions>();
   command.AddRequired("ROBOT", &options->robot, "Robot YAML");
   command.AddRequired("--out", &options->out, "Folder of the library");

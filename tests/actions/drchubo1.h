@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "actions/conditions/locomotion_model.h"
@@ -16,10 +17,19 @@ inline const models::RobotModel& DrcHubo1() {
   return robot;
 }
 
+/// The library that is shipped with it.
+inline std::filesystem::path DrcHubo1Library() { return DrcHubo1().file.parent_path() / "jumps"; }
+
 /// Its walking, crawling and transitions.
 inline const LocomotionModel& DrcHubo1Locomotion() {
-  static const LocomotionModel model = BuildLocomotionModel(DrcHubo1(), {"walk", "crawl"});
+  static const LocomotionModel model =
+      BuildLocomotionModel(DrcHubo1(), {"walk", "crawl"}, {}, DrcHubo1Library());
   return model;
+}
+
+/// Its walking alone.
+inline LocomotionModel DrcHubo1Walking() {
+  return BuildLocomotionModel(DrcHubo1(), {"walk"}, {}, DrcHubo1Library());
 }
 
 inline models::Scenario ShippedScenario(const std::string& name) {

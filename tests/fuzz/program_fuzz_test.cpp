@@ -48,7 +48,8 @@ const Kind kKinds[] = {
      &LibrarySubject,
      {"plan 'SOURCE/experiments/scenarios/double_jump.yaml' --out out --time-limit 1 --threads 1 "
       "--library library"},
-     "for f in library/*; do cp spoilt.json $f/reach.json; done;"},
+     "for f in library/*; do cp spoilt.json $f/reach.json; cp spoilt.json $f/paces_walk.json; "
+     "done;"},
 };
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {

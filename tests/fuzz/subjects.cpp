@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "actions/gait/pace_library.h"
 #include "actions/jump/jump_library.h"
+#include "actions/motion/motion_folder.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/plan/plan_reader.h"
 #include "actions/plan/plan_writer.h"
 #include "actions/planner/planner.h"
-#include "actions/sagittal/motion_identity.h"
 #include "actions/verify/verifier.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "experiments/program/loaded_plan.h"
@@ -238,12 +239,20 @@ Subject SolutionSubject(const fs::path& folder) {
 
 Subject LibrarySubject(const fs::path& folder) {
   const auto jumps = std::make_shared<const Jumps>();
-  const std::string text = models::ReadFileContents(jumps->shipped / "reach.json");
+  const std::string reach = models::ReadFileContents(jumps->shipped / "reach.json");
+  const models::Gait& gait = jumps->robot.gaits.front();
+  const actions::PaceLibrary paces(jumps->robot, folder / "library");
+  const actions::PaceLibrary shipped(jumps->robot, kRobotFolder / "jumps");
+  paces.Save(gait, shipped.Find(gait).value());
+  const std::string fitted = models::ReadFileContents(paces.FileOf(gait));
   const fs::path library = actions::MotionFolder(folder / "library", jumps->identity);
   fs::create_directories(library);
-  return {"library", ".json", Syntax::kJson, [text](std::uint64_t) { return text; },
-          [folder, jumps, library](std::uint64_t, const std::string& spoilt) {
-            Write(library / "reach.json", spoilt);
+  return {"library", ".json", Syntax::kJson,
+          [reach, fitted](std::uint64_t seed) { return seed % 2 == 0 ? reach : fitted; },
+          [=](std::uint64_t seed, const std::string& spoilt) {
+            Write(seed % 2 == 0 ? library / "reach.json" : paces.FileOf(gait), spoilt);
+            paces.Find(gait);
+            if (seed % 2 != 0) return;
             const actions::JumpLibrary reader(jumps->robot, jumps->solver, folder / "library");
             for (const double height : {-1e6, -0.2, 0.0, 0.05, 1e6}) {
               reader.reach().Distances(height);

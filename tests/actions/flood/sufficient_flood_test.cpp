@@ -50,7 +50,7 @@ double NarrowestStance() {
 }
 
 bool MayPass(double width, int halvings) {
-  static const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
+  static const LocomotionModel walking = DrcHubo1Walking();
   const models::Environment environment = Corridor(width);
   const models::GroundMap ground(environment);
   return FloodSufficient(walking, {&environment, &ground}, {0, {-1.8, 0, 0}, 0},

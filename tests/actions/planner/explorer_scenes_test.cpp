@@ -20,7 +20,7 @@ PlanResult PlanFor(const std::string& scene, std::uint64_t seed,
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
   request.explorers = explorers;
   request.preset = preset;
-  request.library = DrcHubo1().file.parent_path() / "jumps";
+  request.library = DrcHubo1Library();
   return PlanTraversal(DrcHubo1(), ShippedScenario(scene), request);
 }
 

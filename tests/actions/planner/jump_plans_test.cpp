@@ -15,7 +15,7 @@ PlanRequest Request(std::uint64_t seed, int threads) {
   request.threads = threads;
   request.actions = {"walk", "crawl", "jump"};
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
-  request.library = DrcHubo1().file.parent_path() / "jumps";
+  request.library = DrcHubo1Library();
   return request;
 }
 

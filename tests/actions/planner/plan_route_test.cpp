@@ -21,7 +21,7 @@ PlanResult PlanFor(const models::Scenario& scenario) {
   PlanRequest request;
   request.seed = 2;
   request.time_limit = 20;
-  request.library = DrcHubo1().file.parent_path() / "jumps";
+  request.library = DrcHubo1Library();
   return PlanTraversal(DrcHubo1(), scenario, request);
 }
 

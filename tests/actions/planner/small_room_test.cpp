@@ -169,7 +169,7 @@ TEST(SmallRoom, StandingNeedsTheRoomOfThePostureAlone) {
 
 /// A robot that leans from foot to foot so close to a wall would touch it.
 TEST(SmallRoom, AStanceThatNoStrideCanLeaveIsExhausted) {
-  const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
+  const LocomotionModel walking = DrcHubo1Walking();
   const GroundedStance beside{0, {0, 0, 0}, 0}, away{0, {0.5, -1, 0}, 0};
   for (const bool begins : {true, false}) {
     for (const double gap : {0.05, 0.1}) {
@@ -248,7 +248,7 @@ models::Environment Posts() {
 
 /// The places that the search examines may lie anywhere between the posts.
 TEST(SmallRoom, WaysBetweenPostsAreFoundWhereverTheyBegin) {
-  const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
+  const LocomotionModel walking = DrcHubo1Walking();
   const models::Environment environment = Posts();
   const models::GroundMap ground(environment);
   const World world{&environment, &ground};

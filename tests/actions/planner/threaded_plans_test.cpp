@@ -27,7 +27,7 @@ PlanRequest Request(int seed) {
   request.seed = static_cast<std::uint64_t>(seed);
   request.threads = 3;
   request.time_limit = 1000;  // sanitizers are slow
-  request.library = DrcHubo1().file.parent_path() / "jumps";
+  request.library = DrcHubo1Library();
   return request;
 }
 

@@ -86,7 +86,7 @@ class Scene {
     context.world = world_;
     context.gaits.assign(gaits_.begin(), gaits_.end());
     context.space = space_;
-    context.library = DrcHubo1().file.parent_path() / "jumps";
+    context.library = DrcHubo1Library();
     for (const auto& jump :
          MakeManoeuvres(JumpFactories(DrcHubo1()), scenario_.actions, context, "test")) {
       manoeuvres_.push_back(std::make_shared<SearchedManoeuvre>(jump));

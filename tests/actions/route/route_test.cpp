@@ -182,7 +182,7 @@ TEST_F(RouteTest, ABarTooLowForWalkingRulesOutWalkingAloneAndIsNamed) {
   const GroundedStance start{0, {scenario.start.x, scenario.start.y, 0}, 0};
   const GroundedStance goal{0, {scenario.goals[0].x, scenario.goals[0].y, 0}, 0};
   EXPECT_TRUE(FloodSufficient(model_, world_, start, {goal}, {}).route_may_exist);
-  const LocomotionModel walking = BuildLocomotionModel(DrcHubo1(), {"walk"});
+  const LocomotionModel walking = DrcHubo1Walking();
   const FloodResult flood = FloodSufficient(walking, world_, start, {goal}, {});
   EXPECT_FALSE(flood.route_may_exist);
   ASSERT_FALSE(flood.barrier.closed_by.empty());

@@ -1,0 +1,101 @@
+#include "actions/gait/pace_library.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "models/input/file_contents.h"
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/dynamic_gaits.h"
+#include "tests/models/temporary_folder.h"
+
+namespace possibility::actions {
+namespace {
+
+const models::Gait& Walk() { return DrcHubo1().GaitNamed("walk"); }
+
+void ExpectSame(const Pace& a, const Pace& b) {
+  EXPECT_EQ(a.bounds.forward, b.bounds.forward);
+  EXPECT_EQ(a.bounds.lateral, b.bounds.lateral);
+  EXPECT_EQ(a.bounds.turn, b.bounds.turn);
+  EXPECT_EQ(a.timing.swing, b.timing.swing);
+  EXPECT_EQ(a.timing.swing_length, b.timing.swing_length);
+  EXPECT_EQ(a.timing.double_support, b.timing.double_support);
+  EXPECT_EQ(a.timing.start, b.timing.start);
+}
+
+TEST(PaceLibrary, ReadsBackTheSamePaces) {
+  const models::TemporaryFolder folder;
+  const PaceLibrary library(DrcHubo1(), folder.path());
+  EXPECT_FALSE(library.Find(Walk()));
+  const std::vector<Pace>& paces = DrcHubo1Flowing("walk").motion().paces();
+  library.Save(Walk(), paces);
+  const std::optional<std::vector<Pace>> found = library.Find(Walk());
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), paces.size());
+  for (std::size_t i = 0; i < paces.size(); ++i) ExpectSame((*found)[i], paces[i]);
+}
+
+TEST(PaceLibrary, KeepsThatNoPaceFits) {
+  const models::TemporaryFolder folder;
+  const PaceLibrary library(DrcHubo1(), folder.path());
+  library.Save(Walk(), {});
+  const std::optional<std::vector<Pace>> found = library.Find(Walk());
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->empty());
+}
+
+TEST(PaceLibrary, ForgetsPacesOfAChangedRobot) {
+  const models::TemporaryFolder folder;
+  PaceLibrary(DrcHubo1(), folder.path()).Save(Walk(), {});
+  models::RobotModel changed = DrcHubo1();
+  changed.content_hash = std::string(64, '0');
+  EXPECT_FALSE(PaceLibrary(changed, folder.path()).Find(Walk()));
+}
+
+TEST(PaceLibrary, FindsNothingInADamagedFile) {
+  const models::TemporaryFolder folder;
+  const PaceLibrary library(DrcHubo1(), folder.path());
+  library.Save(Walk(), DrcHubo1Flowing("walk").motion().paces());
+  const std::string intact = models::ReadFileContents(library.FileOf(Walk()));
+  const auto find = [&](const std::string& text) {
+    std::ofstream(library.FileOf(Walk())) << text;
+    return library.Find(Walk());
+  };
+  ASSERT_TRUE(find(intact));
+  for (std::size_t length = 0; length + 2 < intact.size(); length += 7) {
+    EXPECT_FALSE(find(intact.substr(0, length))) << length;
+  }
+}
+
+TEST(PaceLibrary, FindsNoImplausiblePaces) {
+  const models::TemporaryFolder folder;
+  const PaceLibrary library(DrcHubo1(), folder.path());
+  for (const double wrong : {-1.0, 0.0, 1e-300, 1e300}) {
+    std::vector<Pace> paces = DrcHubo1Flowing("walk").motion().paces();
+    for (double* field : {&paces[0].bounds.forward, &paces[0].bounds.lateral, &paces[0].bounds.turn,
+                          &paces[0].timing.swing, &paces[0].timing.swing_length,
+                          &paces[0].timing.double_support, &paces[0].timing.start}) {
+      const double right = *field;
+      *field = wrong;
+      library.Save(Walk(), paces);
+      EXPECT_FALSE(library.Find(Walk())) << wrong;
+      *field = right;
+    }
+  }
+}
+
+/// Shipped paces must be those of today's fit. `possibility library` writes them anew.
+TEST(PaceLibrary, ShippedPacesAreThoseThatTheFitFinds) {
+  const PaceLibrary shipped(DrcHubo1(), DrcHubo1Library());
+  for (const std::string name : {"walk", "crawl"}) {
+    const std::optional<std::vector<Pace>> found = shipped.Find(DrcHubo1().GaitNamed(name));
+    const std::vector<Pace>& fitted = DrcHubo1Flowing(name).motion().paces();
+    ASSERT_TRUE(found) << name;
+    ASSERT_EQ(found->size(), fitted.size()) << name;
+    for (std::size_t i = 0; i < fitted.size(); ++i) ExpectSame((*found)[i], fitted[i]);
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions
