@@ -27,14 +27,15 @@ constexpr double kImpulse = 10;  // N s, typical
 std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings) {
   return MotionIdentity(robot, settings,
                         {settings.min_stance_pitch, settings.max_stance_pitch,
-                         settings.max_contact_speed, settings.leg_reach});
+                         settings.max_contact_speed, settings.leg_reach, settings.longest_toe_push,
+                         settings.settling.heel, settings.settling.toe});
 }
 
 JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
                          const JumpSettings& settings)
     : SagittalProblem(fmt::format("jump of {:.3f} m by {:.3f} m", task.distance, task.height),
                       model, task.distance, task.height, settings) {
-  AddPhases();
+  AddPhases(settings);
   Push(settings);
   Fly(settings);
   Land(settings);
@@ -47,9 +48,9 @@ JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
   GuessMotion();
 }
 
-void JumpProblem::AddPhases() {
+void JumpProblem::AddPhases(const JumpSettings& settings) {
   AddPhase("crouch", Feet(), {0.3, 1.0});
-  AddPhase("toes", {model_.toe()}, {0.03, 0.25});
+  AddPhase("toes", {model_.toe()}, {0.03, settings.longest_toe_push});
   AddPhase("rise", {}, {0.03, kLongestHalfFlight});
   AddPhase("descent", {}, {0.03, kLongestHalfFlight});
   AddPhase("settle", Feet(), {0.03, 1.2});
@@ -95,7 +96,7 @@ void JumpProblem::Land(const JumpSettings& settings) {
   AddImpact();
   KeepBent(kSettle, "leg", model_.leg(), settings.leg_reach, At::kStart);
   StartHeld(kSettle, HeldSoles());
-  HoldSoles(kSettle, At::kEverywhere);
+  HoldSoles(kSettle, At::kEverywhere, settings.settling);
   KeepHandsAbove(kSettle, settings.hand_approach, At::kBeforeEnd);
   // The feet stay in place; the hands are set down at zero speed.
   StartPlaced(kLanding, 2);

@@ -23,6 +23,12 @@ struct JumpSettings : SagittalSettings {
   /// Largest leg length at touchdown, as a fraction of the stretched leg's: nearly straight legs
   /// cannot absorb an impact.
   double leg_reach = 0.93;
+  /// s: the robot balances on the line of its toes for no longer. It falls over that line
+  /// meanwhile, and a slope or a push that the plan does not know grows with it.
+  double longest_toe_push = 0.15;
+  /// Least shares of the soles' load until the hands touch down. The way to the toes is what a
+  /// robot that lands too fast or leans too far has to stop in.
+  SoleShares settling = {.heel = 0.35, .toe = 0.15};
 };
 
 /// Hash of what solved jumps depend on (motion_identity.h).
@@ -46,7 +52,7 @@ class JumpProblem : public SagittalProblem {
   Eigen::Matrix2Xd Impulses(const collocation::Trajectory& trajectory) const;
 
  private:
-  void AddPhases();
+  void AddPhases(const JumpSettings& settings);
   void Push(const JumpSettings& settings);
   void Fly(const JumpSettings& settings);
   void Land(const JumpSettings& settings);

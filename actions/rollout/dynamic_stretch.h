@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "actions/plan/plan.h"
-#include "actions/rollout/rollout_check.h"
+#include "actions/rollout/rollout_drift.h"
 
 namespace possibility::actions {
 

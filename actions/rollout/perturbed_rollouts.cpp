@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "actions/rollout/perturbed_rollout.h"
 #include "common/run_on_threads.h"
 #include "models/world/ground_map.h"
 
@@ -16,7 +17,7 @@ bool PerturbedRollout::survives() const {
 std::vector<PerturbedRollout> RollOutPerturbed(const Plan& plan, const models::RobotModel& robot,
                                                const models::Scenario& scenario,
                                                const std::vector<Perturbation>& perturbations,
-                                               const PerturbedRolloutSettings& settings) {
+                                               const PerturbedRolloutsSettings& settings) {
   const models::GroundMap ground(scenario.environment);
   const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
   std::vector<PerturbedRollout> rollouts;
@@ -32,13 +33,11 @@ std::vector<PerturbedRollout> RollOutPerturbed(const Plan& plan, const models::R
     for (std::size_t i = next++; i < all && settings.cancellation.Proceed(); i = next++) {
       PerturbedRollout& rollout = rollouts[i / stretches.size()];
       const DynamicStretch& stretch = stretches[i % stretches.size()];
-      RolloutCheckSettings check;
-      check.cancellation = settings.cancellation;
-      check.perturbation = rollout.perturbation;
-      check.measures_friction = true;
+      PerturbedRolloutSettings simulation;
+      simulation.cancellation = settings.cancellation;
       rollout.stretches[i % stretches.size()] = {
           stretch.first_segment, stretch.last_segment,
-          RollOutSegment(stretch.motion, robot, ground, check)};
+          RollOutPerturbed(stretch.motion, robot, ground, rollout.perturbation, simulation)};
       const std::lock_guard lock(mutex);
       ++done;
       if (settings.progress) settings.progress(done, static_cast<int>(all));

@@ -20,7 +20,7 @@ struct PerturbedRollout {
   bool survives() const;  ///< all stretches do
 };
 
-struct PerturbedRolloutSettings {
+struct PerturbedRolloutsSettings {
   int threads = 1;  ///< the result does not depend on it
   CancellationToken cancellation;
   /// Called after every simulation, from any thread, one call at a time, with the number of
@@ -34,6 +34,6 @@ struct PerturbedRolloutSettings {
 std::vector<PerturbedRollout> RollOutPerturbed(const Plan& plan, const models::RobotModel& robot,
                                                const models::Scenario& scenario,
                                                const std::vector<Perturbation>& perturbations,
-                                               const PerturbedRolloutSettings& settings = {});
+                                               const PerturbedRolloutsSettings& settings = {});
 
 }  // namespace possibility::actions

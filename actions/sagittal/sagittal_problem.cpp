@@ -133,13 +133,16 @@ void SagittalProblem::HoldPoints(int phase, const std::vector<Bounds>& held, At 
 }
 
 void SagittalProblem::HoldSoles(int phase, At at) {
+  HoldSoles(phase, at, {settings_.sole_margin, settings_.sole_margin});
+}
+
+void SagittalProblem::HoldSoles(int phase, At at, const SoleShares& least) {
   const collocation::SagittalPhase& robot = phases_[phase];
-  const double margin = settings_.sole_margin;
   HoldPoints(phase, HeldSolesAnd(robot.points.size() - 2), at);
   robot.phase->Constrain("centre of pressure",
-                         Differentiated<2, 2>([margin](const auto& f, auto* g) {
-                           (*g)[0] = (1 - margin) * f[0] - margin * f[1];
-                           (*g)[1] = (1 - margin) * f[1] - margin * f[0];
+                         Differentiated<2, 2>([least](const auto& f, auto* g) {
+                           (*g)[0] = (1 - least.heel) * f[0] - least.heel * f[1];
+                           (*g)[1] = (1 - least.toe) * f[1] - least.toe * f[0];
                          }),
                          {robot.f[1], robot.f[3]}, {{0, kInfinity}}, At::kEverywhere, {kForce});
 }

@@ -11,6 +11,12 @@
 
 namespace possibility::actions {
 
+/// Shares of a flat sole's load at its two ends.
+struct SoleShares {
+  double heel = 0;
+  double toe = 0;
+};
+
 /// Limits and safety margins of a dynamic action in the sagittal plane.
 struct SagittalSettings {
   /// Keeps a reserve of every limit for the whole robot's asymmetry and for feedback.
@@ -65,7 +71,9 @@ class SagittalProblem {
   /// start, and an error there would persist through all later intervals. `held`: for x and z of
   /// each point.
   void HoldPoints(int phase, const std::vector<collocation::Bounds>& held, collocation::At at);
-  /// Heel and toe, the phase's first two points, do not move, and both bear.
+  /// Heel and toe, the phase's first two points, do not move, and each bears at least its share.
+  void HoldSoles(int phase, collocation::At at, const SoleShares& least);
+  /// With the shares of SagittalSettings::sole_margin.
   void HoldSoles(int phase, collocation::At at);
   /// Heel, toe and hands do not move; arms are never straight.
   void HoldFeetAndHands(int phase, collocation::At at);

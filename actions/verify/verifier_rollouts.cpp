@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "actions/rollout/rollout_check.h"
 #include "common/run_on_threads.h"
 
 namespace possibility::actions {

@@ -38,7 +38,7 @@ struct HybridMode {
   std::vector<std::string> guard_names;  ///< for messages; one per guard
   OdeGuardFunction guard_values;
   std::function<HybridTransition(const HybridEvent&)> reset;  ///< needed if there are guards
-  OdeJacobian jacobian = {};  ///< as in OdeProblem
+  OdeJacobian jacobian = {};                                  ///< as in OdeProblem
 };
 
 struct HybridSettings {

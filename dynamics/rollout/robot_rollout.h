@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/forward/forward_dynamics.h"
+#include "dynamics/rollout/applied_forces.h"
 #include "dynamics/rollout/hybrid_rollout.h"
 #include "dynamics/rollout/joint_control.h"
 
@@ -45,7 +46,7 @@ struct RobotRolloutSettings {
   double rest_time = 0.1;  ///< s
   /// N, world: a force on the root at its centre of mass, beside gravity and contacts. It must not
   /// change within less than `hybrid.integration.max_step`. May be empty. Floating bases only.
-  std::function<Eigen::Vector3d(double t)> push;
+  RootPush push;
 };
 
 enum class RobotRolloutEnd { kTime, kAtRest, kSlip, kCancelled, kZeno };

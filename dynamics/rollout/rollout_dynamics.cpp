@@ -12,11 +12,8 @@ RolloutDynamics::RolloutDynamics(std::shared_ptr<const MultibodyModel> model,
                                  std::vector<RolloutContact> contacts, JointControl control,
                                  const RobotRolloutSettings& settings)
     : forward_(std::move(model), settings.dynamics),
-      torques_(forward_.model(), std::move(control)),
-      contacts_(std::move(contacts)),
-      push_(settings.push) {
-  generalised_.setZero(nv());
-}
+      applied_(forward_.model(), std::move(control), settings.push),
+      contacts_(std::move(contacts)) {}
 
 bool RolloutDynamics::Lands(int contact, const VectorXd& state) const {
   return !contacts_[contact].lands || contacts_[contact].lands(state.head(nq()));
@@ -70,7 +67,7 @@ UnilateralContacts RolloutDynamics::UnilateralVelocities(const std::vector<int>&
 UnilateralContacts RolloutDynamics::UnilateralAccelerations(double t,
                                                             const Eigen::Ref<const VectorXd>& state,
                                                             const std::vector<int>& contacts) {
-  dynamics()->SetAcceleration(forward_.Free(JointForces(t, state, true)));
+  dynamics()->SetAcceleration(forward_.Free(Applied(t, state, true)));
   VectorXd accelerations(3 * contacts.size());
   for (size_t i = 0; i < contacts.size(); ++i) {
     accelerations.segment<3>(3 * i) = dynamics()->Acceleration(contacts_[contacts[i]].point);
@@ -92,23 +89,15 @@ UnilateralContacts RolloutDynamics::Unilateral(const std::vector<int>& contacts,
   return unilateral;
 }
 
-const VectorXd& RolloutDynamics::JointForces(double t, const Eigen::Ref<const VectorXd>& state,
-                                             bool has_landed) {
-  generalised_.tail(model().num_joints()) =
-      torques_.Evaluate(t, state.head(nq()), state.tail(nv()), has_landed, dynamics());
-  if (push_) {
-    const Eigen::Vector3d force = push_(t);
-    const Eigen::Matrix3d& R = dynamics()->kinematics().X_WL()[0].linear();
-    generalised_.head<3>() = (R * model().tree().links[0].inertial.p_LC).cross(force);
-    generalised_.segment<3>(3) = force;
-  }
-  return generalised_;
+const VectorXd& RolloutDynamics::Applied(double t, const Eigen::Ref<const VectorXd>& state,
+                                         bool has_landed) {
+  return applied_.Evaluate(t, state.head(nq()), state.tail(nv()), has_landed, dynamics());
 }
 
 VectorXd RolloutDynamics::Accelerate(double t, const Eigen::Ref<const VectorXd>& state,
                                      const RolloutStance& stance, Matrix3Xd* forces) {
   SetState(state);
-  const VectorXd& joint_forces = JointForces(t, state, stance.has_landed);
+  const VectorXd& joint_forces = Applied(t, state, stance.has_landed);
   if (forces != nullptr) forces->setZero(3, stance.points.size());
   if (stance.points.empty()) return forward_.Free(joint_forces);
   const ConstrainedMotion& motion = forward_.Held(joint_forces, stance.points);
@@ -126,24 +115,9 @@ void RolloutDynamics::DifferentiateRate(double t, const Eigen::Ref<const VectorX
   MatrixXd to_position = -rate * rate * response.to_drift;
   MatrixXd to_velocity = -2 * rate * response.to_drift;
   const auto to_torques = response.to_forces.rightCols(joints);
-  to_position.rightCols(joints) -= to_torques * torques_.Stiffness().asDiagonal();
-  to_velocity.rightCols(joints) -= to_torques * torques_.Damping().asDiagonal();
-
-  MatrixXd rates(nq(), nv());  // of the configuration, per velocity
-  for (int i = 0; i < nv(); ++i) {
-    rates.col(i) = model().ConfigurationRate(state.head(nq()), VectorXd::Unit(nv(), i));
-  }
-  jacobian.setZero();
-  jacobian.topRightCorner(nq(), nv()) = rates;
-  jacobian.bottomRightCorner(nv(), nv()) = to_velocity;
-  auto by_position = jacobian.bottomLeftCorner(nv(), nq());
-  if (nq() == nv()) {
-    by_position = to_position;
-    return;
-  }
-  // The columns of the rates of a unit quaternion are orthogonal and of length 1/2.
-  by_position.leftCols(4) = 4 * to_position.leftCols(3) * rates.topLeftCorner(4, 3).transpose();
-  by_position.rightCols(nv() - 3) = to_position.rightCols(nv() - 3);
+  to_position.rightCols(joints) -= to_torques * applied_.torques().Stiffness().asDiagonal();
+  to_velocity.rightCols(joints) -= to_torques * applied_.torques().Damping().asDiagonal();
+  StateRateJacobian(model(), state.head(nq()), to_position, to_velocity, jacobian);
 }
 
 RobotMotion RolloutDynamics::MotionAt(double t, const VectorXd& state,
@@ -166,8 +140,9 @@ double RolloutDynamics::AccelerationIfLetGo(const RolloutStance& stance, int con
   for (size_t i = 0; i < stance.held.size(); ++i) {
     if (stance.held[i] != contact) others.push_back(stance.points[i]);
   }
-  const VectorXd acceleration = others.empty() ? forward_.Free(generalised_)
-                                               : forward_.Held(generalised_, others).acceleration;
+  const VectorXd acceleration = others.empty()
+                                    ? forward_.Free(applied_.generalised())
+                                    : forward_.Held(applied_.generalised(), others).acceleration;
   dynamics()->SetAcceleration(acceleration);
   const ContactPoint& point = contacts_[contact].point;
   return point.normal_W.dot(dynamics()->Acceleration(point));

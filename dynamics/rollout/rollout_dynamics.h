@@ -8,6 +8,7 @@
 #include "dynamics/contact/bearing_points.h"
 #include "dynamics/contact/contact_patches.h"
 #include "dynamics/forward/forward_dynamics.h"
+#include "dynamics/rollout/applied_forces.h"
 #include "dynamics/rollout/joint_control.h"
 #include "dynamics/rollout/robot_rollout.h"
 #include "dynamics/rollout/rollout_stance.h"
@@ -59,23 +60,21 @@ class RolloutDynamics {
                          const RolloutStance& stance, Eigen::Ref<Eigen::MatrixXd> jacobian);
   RobotMotion MotionAt(double t, const Eigen::VectorXd& state, const RolloutStance& stance);
   /// Torques of the last Accelerate or MotionAt; num_joints.
-  auto joint_torques() const { return generalised_.tail(model().num_joints()); }
+  auto joint_torques() const { return applied_.generalised().tail(model().num_joints()); }
   /// Acceleration of a held contact along its normal while all others are held, under
   /// joint_torques().
   double AccelerationIfLetGo(const RolloutStance& stance, int contact);
 
  private:
   MultibodyDynamics* dynamics() { return forward_.dynamics(); }
-  /// Generalised forces of the joints and of the push at the current state; nv.
-  const Eigen::VectorXd& JointForces(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
-                                     bool has_landed);
+  /// At the current state, nv.
+  const Eigen::VectorXd& Applied(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+                                 bool has_landed);
   UnilateralContacts Unilateral(const std::vector<int>& contacts, Eigen::VectorXd unconstrained);
 
   ForwardDynamics forward_;
-  JointTorques torques_;
+  AppliedForces applied_;
   std::vector<RolloutContact> contacts_;
-  std::function<Eigen::Vector3d(double t)> push_;
-  Eigen::VectorXd generalised_;
 };
 
 }  // namespace possibility::dynamics

@@ -47,17 +47,15 @@ nlohmann::ordered_json ToJson(const StretchRollout& stretch) {
                                  {"end_s", drift.end},
                                  {"survives", drift.survives()},
                                  {"fell_at_s", nullptr},
-                                 {"slipped_at_s", nullptr},
                                  {"worst_position_m", drift.worst_position},
                                  {"worst_orientation_rad", drift.worst_orientation},
                                  {"worst_joint", drift.worst_joint},
                                  {"end_position_m", drift.end_position},
                                  {"end_orientation_rad", drift.end_orientation},
                                  {"torque_used", drift.torque_used},
-                                 {"friction_used", drift.friction_used},
+                                 {"slide_m", drift.slide},
                                  {"failure", drift.failure}};
   if (drift.fell_at) json["fell_at_s"] = *drift.fell_at;
-  if (drift.slipped_at) json["slipped_at_s"] = *drift.slipped_at;
   return json;
 }
 
@@ -105,7 +103,7 @@ ExitCode RunRollout(const RolloutOptions& options) {
   perturbations.reserve(cases.size());
   for (const NamedPerturbation& named : cases) perturbations.push_back(named.perturbation);
   const CountLine progress("simulation");
-  actions::PerturbedRolloutSettings settings;
+  actions::PerturbedRolloutsSettings settings;
   settings.threads = HardwareThreads();
   settings.progress = [&progress](int done, int all) { progress.Show(done, all); };
   const std::vector<PerturbedRollout> rollouts = actions::RollOutPerturbed(

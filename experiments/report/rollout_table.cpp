@@ -19,7 +19,6 @@ std::string OutcomeText(const actions::Plan& plan, const PerturbedRollout& rollo
     if (drift.survives()) continue;
     const std::string& action = plan.segments[stretch.segment].action;
     if (drift.fell_at) return fmt::format("falls at {:.2f} s ({})", *drift.fell_at, action);
-    if (drift.slipped_at) return fmt::format("slips at {:.2f} s ({})", *drift.slipped_at, action);
     return fmt::format("{} ({})", drift.failure, action);
   }
   return "survives";
@@ -35,7 +34,7 @@ std::vector<std::string> Row(const actions::Plan& plan, const std::string& name,
     worst.worst_joint = std::max(worst.worst_joint, drift.worst_joint);
     worst.end_position = std::max(worst.end_position, drift.end_position);
     worst.torque_used = std::max(worst.torque_used, drift.torque_used);
-    worst.friction_used = std::max(worst.friction_used, drift.friction_used);
+    worst.slide = std::max(worst.slide, drift.slide);
   }
   return {name.empty() ? "none" : name,
           OutcomeText(plan, rollout),
@@ -44,7 +43,7 @@ std::vector<std::string> Row(const actions::Plan& plan, const std::string& name,
           fmt::format("{:.4f}", worst.worst_joint),
           fmt::format("{:.4f}", worst.end_position),
           fmt::format("{:.2f}", worst.torque_used),
-          fmt::format("{:.2f}", worst.friction_used)};
+          fmt::format("{:.4f}", worst.slide)};
 }
 
 }  // namespace
@@ -54,7 +53,7 @@ TextTable RolloutTable(const actions::Plan& plan, const std::vector<std::string>
   TextTable table;
   table.text_columns = 2;
   table.header = {"perturbation", "outcome", "worst m", "worst rad",
-                  "worst joint",  "end m",   "torque",  "friction"};
+                  "worst joint",  "end m",   "torque",  "slide m"};
   for (std::size_t i = 0; i < names.size(); ++i) {
     table.rows.push_back(Row(plan, names[i], rollouts[i]));
   }

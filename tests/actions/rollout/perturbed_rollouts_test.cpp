@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "actions/rollout/rollout_check.h"
 #include "tests/actions/dynamic_gaits.h"
 #include "tests/actions/standing_plan.h"
 
@@ -25,16 +26,15 @@ class PerturbedRolloutsTest : public ::testing::Test {
   Plan plan_ = WalkTo({0.5, 0, 0}, scenario_);
 };
 
-TEST_F(PerturbedRolloutsTest, WithoutPerturbationTheResultIsTheVerifiers) {
+TEST_F(PerturbedRolloutsTest, WithoutPerturbationTheResultIsCloseToTheVerifiers) {
   const RolloutDrift drift = Drift({});
   const models::GroundMap ground(scenario_.environment);
   const RolloutDrift verified = RollOutSegment(plan_.segments.front(), DrcHubo1(), ground);
-  EXPECT_EQ(drift.worst_position, verified.worst_position);
-  EXPECT_EQ(drift.worst_joint, verified.worst_joint);
-  EXPECT_EQ(drift.end_position, verified.end_position);
+  EXPECT_NEAR(drift.worst_position, verified.worst_position, 3e-3);
+  EXPECT_NEAR(drift.end_position, verified.end_position, 3e-3);
   EXPECT_TRUE(drift.survives());
   EXPECT_GT(drift.torque_used, 0.1);
-  EXPECT_GT(drift.friction_used, 0.01);
+  EXPECT_LT(drift.slide, 3e-3);
 }
 
 TEST_F(PerturbedRolloutsTest, JointErrorsGrowInProportionToAddedMass) {
@@ -69,23 +69,18 @@ TEST_F(PerturbedRolloutsTest, WeakMotorsLetTheRobotFall) {
   EXPECT_FALSE(Drift(weak).survives());
 }
 
-TEST_F(PerturbedRolloutsTest, FeetSlipOnGroundWithLessFrictionThanTheyUse) {
-  const double used = Drift({}).friction_used * DrcHubo1().friction;
-  for (const double share : {0.9, 1.1}) {
-    Perturbation slippery;
-    slippery.friction = share * used;
-    const RolloutDrift drift = Drift(slippery);
-    EXPECT_EQ(drift.slipped_at.has_value(), share < 1);
-    EXPECT_EQ(drift.survives(), share > 1);
-    EXPECT_NEAR(drift.friction_used, 1 / share, 0.01);
-  }
+TEST_F(PerturbedRolloutsTest, FeetSlideOnIce) {
+  Perturbation ice;
+  ice.friction = 0.05;
+  const RolloutDrift drift = Drift(ice);
+  EXPECT_TRUE(drift.fell_at || drift.slide > 0.02);
 }
 
 TEST_F(PerturbedRolloutsTest, ResultsDoNotDependOnThreads) {
   Perturbation heavy;
   heavy.mass = 1.05;
   const std::vector<Perturbation> cases = {{}, heavy};
-  PerturbedRolloutSettings settings;
+  PerturbedRolloutsSettings settings;
   settings.threads = 2;
   const auto parallel = RollOutPerturbed(plan_, DrcHubo1(), scenario_, cases, settings);
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -94,7 +89,7 @@ TEST_F(PerturbedRolloutsTest, ResultsDoNotDependOnThreads) {
 }
 
 TEST_F(PerturbedRolloutsTest, CancellingThrows) {
-  PerturbedRolloutSettings settings;
+  PerturbedRolloutsSettings settings;
   settings.cancellation = CancellationToken([] { return false; });
   EXPECT_THROW(RollOutPerturbed(plan_, DrcHubo1(), scenario_, {{}}, settings), Cancelled);
 }

@@ -9,6 +9,7 @@
 #include "dynamics/rollout/rollout_dynamics.h"
 #include "models/robot/robot_yaml.h"
 #include "tests/dynamics/random_robot.h"
+#include "tests/dynamics/rollout/box.h"
 #include "tests/dynamics/rollout/compass_gait.h"
 #include "tests/dynamics/rollout/walking_models.h"
 
@@ -321,33 +322,6 @@ TEST(RobotRollout, CompassGaitAgreesWithLagrangesEquations) {
     EXPECT_NEAR(rates[stance], expected.events[i].after[2], 1e-7);
     EXPECT_NEAR(rates[1 - stance], expected.events[i].after[3], 1e-7);
   }
-}
-
-/// A box of 1 kg, 0.4 x 0.2 x 0.2 m, with contacts at its four lower corners; planar or in space.
-models::RobotModel Box() {
-  models::RobotModel robot;
-  robot.name = "box";
-  robot.links = {LinkOf("box", 1, Vector3d::Zero(), 0)};
-  robot.links[0].inertial.I_LC.diagonal() << 0.08 / 12, 0.2 / 12, 0.2 / 12;
-  return robot;
-}
-
-std::vector<RolloutContact> Corners(const Vector3d& normal) {
-  std::vector<RolloutContact> contacts;
-  for (const double x : {-0.2, 0.2}) {
-    for (const double y : {-0.1, 0.1}) {
-      contacts.push_back(ContactOn("corner", 0, {x, y, -0.1}, normal));
-    }
-  }
-  return contacts;
-}
-
-VectorXd BoxAt(double height, double roll = 0, double pitch = 0) {
-  VectorXd q = VectorXd::Zero(7);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(pitch, Vector3d::UnitY()) *
-                                Eigen::AngleAxisd(roll, Vector3d::UnitX()));
-  q << turn.w(), turn.x(), turn.y(), turn.z(), 0, 0, height;
-  return q;
 }
 
 TEST(RobotRollout, BoxDroppedFlatLandsInOneImpact) {

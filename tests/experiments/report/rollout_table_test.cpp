@@ -46,12 +46,9 @@ TEST_F(RolloutTableTest, DeviationsAreTheWorstOfAllStretches) {
 TEST_F(RolloutTableTest, TheOutcomeIsThatOfTheFirstStretchThatFails) {
   RolloutDrift falls;
   falls.fell_at = 4.213;
-  RolloutDrift slips;
-  slips.slipped_at = 1.5;
   RolloutDrift fails;
   fails.failure = "too many events";
   EXPECT_EQ(Row({}, falls)[1], "falls at 4.21 s (jump)");
-  EXPECT_EQ(Row(slips, falls)[1], "slips at 1.50 s (walk)");
   EXPECT_EQ(Row(fails, falls)[1], "too many events (walk)");
 }
 

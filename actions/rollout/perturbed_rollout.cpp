@@ -1,0 +1,121 @@
+#include "actions/rollout/perturbed_rollout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "dynamics/rollout/compliant_rollout.h"
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Points that bear less, as a share of the weight, may slide.
+constexpr double kBearing = 0.02;
+
+/// How far bearing points slide from where they came to bear.
+class SlideMeter {
+ public:
+  explicit SlideMeter(const RolloutReference& reference)
+      : model_(*reference.model()),
+        normal_(reference.normal()),
+        kinematics_(model_.tree()),
+        contacts_(reference.Contacts()),
+        places_(contacts_.size()) {}
+
+  void Measure(const dynamics::RobotMotion& motion, RolloutDrift* drift) {
+    const double least = kBearing * kinematics_.total_mass() * dynamics::kGravity;
+    kinematics_.SetPosition(model_.TreeConfiguration(motion.q));
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (normal_.dot(motion.forces.col(static_cast<Eigen::Index>(i))) < least) {
+        places_[i].reset();
+        continue;
+      }
+      const dynamics::ContactPoint& point = contacts_[i].point;
+      const Vector3d p = kinematics_.Position(point.link, point.p_L);
+      if (!places_[i]) places_[i] = p;
+      const Vector3d moved = p - *places_[i];
+      drift->slide = std::max(drift->slide, (moved - normal_.dot(moved) * normal_).norm());
+    }
+  }
+
+ private:
+  const dynamics::MultibodyModel& model_;
+  Vector3d normal_;
+  dynamics::TreeKinematics kinematics_;
+  std::vector<dynamics::RolloutContact> contacts_;
+  std::vector<std::optional<Vector3d>> places_;
+};
+
+double TorqueUsed(const VectorXd& torques, const VectorXd& limits) {
+  double used = 0;
+  for (Eigen::Index i = 0; i < limits.size(); ++i) {
+    if (limits[i] > 0 && std::isfinite(limits[i])) {
+      used = std::max(used, std::abs(torques[i]) / limits[i]);
+    }
+  }
+  return used;
+}
+
+dynamics::CompliantRolloutSettings SimulatorSettings(const RolloutReference& reference,
+                                                     const PerturbedRolloutSettings& settings) {
+  dynamics::CompliantRolloutSettings simulator;
+  simulator.integration.cancellation = settings.cancellation;
+  simulator.push = reference.Push();
+  simulator.until = [&reference](double t, const auto& q) { return reference.Uprightness(t, q); };
+  return simulator;
+}
+
+void Simulate(const RolloutReference& reference, const PerturbedRolloutSettings& settings,
+              RolloutDrift* drift) {
+  drift->ends_at_rest = reference.ends_at_rest();
+  dynamics::CompliantSimulator simulator(reference.model(), reference.Contacts(),
+                                         reference.Control(),
+                                         SimulatorSettings(reference, settings));
+  const double until = drift->end + (drift->ends_at_rest ? settings.settling_time : 0);
+  const dynamics::CompliantRollout rollout = simulator.Run(
+      reference.Configuration(drift->start), reference.Velocity(drift->start), drift->start, until);
+  const double end = rollout.trajectory.end_time();
+  SlideMeter slides(reference);
+  const auto samples = static_cast<int>(std::ceil((end - drift->start) / settings.sample_time));
+  for (int i = 0; i <= samples; ++i) {
+    const double t = std::min(end, drift->start + i * settings.sample_time);
+    const dynamics::RobotMotion motion = simulator.MotionAt(rollout, t);
+    if (t <= drift->end) reference.Compare(t, motion.q, drift);
+    slides.Measure(motion, drift);
+    drift->torque_used =
+        std::max(drift->torque_used, TorqueUsed(motion.torques, reference.model()->effort()));
+  }
+  reference.CompareEnd(rollout.Configuration(end), rollout.Velocity(end), drift);
+  if (rollout.end == dynamics::OdeEnd::kGuard) drift->fell_at = end;
+  if (rollout.end == dynamics::OdeEnd::kCancelled) {
+    drift->failure = fmt::format("ends at {:.3f} s: cancelled", end);
+  }
+}
+
+}  // namespace
+
+RolloutDrift RollOutPerturbed(const Segment& segment, const models::RobotModel& robot,
+                              const models::GroundMap& ground, const Perturbation& perturbation,
+                              const PerturbedRolloutSettings& settings) {
+  RolloutDrift drift;
+  drift.start = segment.phases.front().knots.front().t;
+  drift.end = segment.phases.back().knots.back().t;
+  try {
+    Simulate(RolloutReference(segment, robot, ground, perturbation, settings.gains), settings,
+             &drift);
+  } catch (const std::exception& error) {
+    drift.failure = error.what();
+  }
+  return drift;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,184 @@
+#include "actions/rollout/rollout_reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actions/plan/contact_name.h"
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kEdge = 0.01;  // m: a rigid sole bears on an edge that it overlaps
+constexpr double kRest = 1e-3;  // m/s and rad/s
+
+std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot,
+                         const models::GroundMap& ground) {
+  std::set<int> levels;
+  dynamics::TreeKinematics kinematics(robot);
+  for (const Phase& phase : segment.phases) {
+    kinematics.SetPosition(phase.knots.front().q);
+    for (const BearingPatch& bearing : BearingPatches(robot, phase)) {
+      const models::ContactPatch& patch = robot.contacts[bearing.patch];
+      for (const int i : bearing.points) {
+        const Vector3d p = kinematics.Position(patch.link, patch.points[i]);
+        const auto level = ground.LevelAt(p.head<2>(), p.z(), kTouching);
+        if (level) levels.insert(*level);
+      }
+    }
+  }
+  return levels;
+}
+
+double Turned(const Eigen::Ref<const VectorXd>& q, const VectorXd& planned) {
+  return Quaterniond(q[0], q[1], q[2], q[3])
+      .normalized()
+      .angularDistance(Quaterniond(planned[0], planned[1], planned[2], planned[3]));
+}
+
+}  // namespace
+
+RolloutReference::Track::Track(const Segment& segment) {
+  for (const Phase& phase : segment.phases) {
+    for (std::size_t i = 0; i + 1 < phase.knots.size(); ++i) {
+      starts_.push_back(phase.knots[i].t);
+      intervals_.emplace_back(phase.knots[i], phase.knots[i + 1]);
+    }
+  }
+}
+
+/// At the meeting of two phases: the later one's.
+Knot RolloutReference::Track::At(double t) const {
+  const auto after = std::upper_bound(starts_.begin() + 1, starts_.end(), t);
+  return intervals_[after - starts_.begin() - 1].At(t);
+}
+
+RolloutReference::RolloutReference(const Segment& segment, const models::RobotModel& robot,
+                                   const models::GroundMap& ground,
+                                   const Perturbation& perturbation, const RolloutGains& gains)
+    : segment_(segment),
+      ground_(ground),
+      perturbation_(perturbation),
+      gains_(gains),
+      origin_(segment.phases.front().knots.front().q.segment<3>(4)),
+      tilt_(perturbation.Tilt()),
+      planned_(dynamics::MultibodyModel::Spatial(robot)),
+      model_(dynamics::MultibodyModel::Spatial(perturbation.Perturbed(robot))),
+      track_(segment),
+      levels_(LevelsUsed(segment, robot, ground)) {}
+
+bool RolloutReference::ends_at_rest() const {
+  return segment_.phases.back().knots.back().v.lpNorm<Eigen::Infinity>() < kRest;
+}
+
+VectorXd RolloutReference::Configuration(double t) const { return Configuration(track_.At(t)); }
+VectorXd RolloutReference::Velocity(double t) const { return Velocity(track_.At(t)); }
+
+bool RolloutReference::IsTilted() const {
+  return perturbation_.slope != 0 || perturbation_.side_slope != 0;
+}
+
+VectorXd RolloutReference::Configuration(const Knot& knot) const {
+  VectorXd q(model_->nq());
+  q.head<7>() = knot.q.head<7>();
+  q.segment<3>(4) -= origin_;
+  if (IsTilted()) {
+    q.segment<3>(4) = tilt_ * q.segment<3>(4).eval();
+    const Quaterniond turned = Quaterniond(tilt_) * Quaterniond(q[0], q[1], q[2], q[3]);
+    q.head<4>() << turned.w(), turned.x(), turned.y(), turned.z();
+  }
+  for (int j = 0; j < model_->num_joints(); ++j) q[7 + j] = knot.q[7 + model_->joints()[j]];
+  return q;
+}
+
+VectorXd RolloutReference::Velocity(const Knot& knot) const {
+  VectorXd v(model_->nv());
+  v.head<6>() = knot.v.head<6>();
+  if (IsTilted()) {
+    v.head<3>() = tilt_ * v.head<3>().eval();
+    v.segment<3>(3) = tilt_ * v.segment<3>(3).eval();
+  }
+  for (int j = 0; j < model_->num_joints(); ++j) v[6 + j] = knot.v[6 + model_->joints()[j]];
+  return v;
+}
+
+std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
+  const models::RobotModel& robot = model_->tree();
+  const auto kinematics = std::make_shared<dynamics::TreeKinematics>(robot);
+  std::vector<dynamics::RolloutContact> contacts;
+  for (const int level : levels_) {
+    for (const models::ContactPatch& patch : robot.contacts) {
+      for (std::size_t i = 0; i < patch.points.size(); ++i) {
+        dynamics::RolloutContact contact;
+        contact.name = fmt::format("{} {}", patch.name, i);
+        contact.point = {patch.link, patch.points[i], normal()};
+        contact.offset = ground_.levels()[level] - origin_.z();
+        contact.friction = robot.friction;
+        if (levels_.size() > 1) {
+          contact.lands = [this, kinematics, level, point = contact.point](const VectorXd& q) {
+            kinematics->SetPosition(model_->TreeConfiguration(q));
+            const Vector3d p =
+                origin_ + tilt_.transpose() * kinematics->Position(point.link, point.p_L);
+            return ground_.Clearance(level, p.head<2>()) > -kEdge;
+          };
+        }
+        contacts.push_back(std::move(contact));
+      }
+    }
+  }
+  return contacts;
+}
+
+dynamics::JointControl RolloutReference::Control() const {
+  dynamics::JointControl control;
+  control.stiffness = planned_->effort() / gains_.full_effort_error;
+  // Joints without a limit would get an infinite gain.
+  for (double& k : control.stiffness) k = std::isfinite(k) ? k : 0;
+  control.damping = gains_.damping_time * control.stiffness;
+  control.command = [this](double t, dynamics::JointCommand* command) {
+    const Knot knot = track_.At(t);
+    const int n = model_->num_joints();
+    command->position = Configuration(knot).tail(n);
+    command->velocity = Velocity(knot).tail(n);
+    VectorXd forces = VectorXd::Zero(model_->tree().nv());
+    forces.tail(knot.tau.size()) = knot.tau;
+    command->torque = model_->IndependentForces(forces).tail(n);
+  };
+  return control;
+}
+
+dynamics::RootPush RolloutReference::Push() const {
+  if (perturbation_.push == 0) return {};
+  return [this](double t) { return perturbation_.PushAt(t, start(), end()); };
+}
+
+void RolloutReference::Compare(double t, const VectorXd& q, RolloutDrift* drift) const {
+  const VectorXd planned = Configuration(t);
+  const double turned = Turned(q, planned);
+  drift->worst_position = std::max(drift->worst_position, (q - planned).segment<3>(4).norm());
+  drift->worst_orientation = std::max(drift->worst_orientation, turned);
+  const double joint = (q - planned).tail(model_->num_joints()).lpNorm<Eigen::Infinity>();
+  drift->worst_joint = std::max(drift->worst_joint, joint);
+  if (!drift->fell_at && Uprightness(t, q) < 0) drift->fell_at = t;
+}
+
+void RolloutReference::CompareEnd(const VectorXd& q, const VectorXd& v, RolloutDrift* drift) const {
+  const VectorXd planned = Configuration(end());
+  drift->end_position = (q - planned).segment<3>(4).norm();
+  drift->end_orientation = Turned(q, planned);
+  drift->end_speed = std::max(v.head<3>().norm(), v.segment<3>(3).norm());
+}
+
+double RolloutReference::Uprightness(double t, const Eigen::Ref<const VectorXd>& q) const {
+  const VectorXd planned = Configuration(t);
+  const double sunk = std::abs(normal().dot((q - planned).segment<3>(4)));
+  return 1 - std::max(Turned(q, planned) / kFallOrientation, sunk / kFallHeight);
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "actions/plan/interpolation.h"
+#include "actions/plan/plan.h"
+#include "actions/rollout/perturbation.h"
+#include "actions/rollout/rollout_drift.h"
+#include "dynamics/rollout/joint_control.h"
+#include "dynamics/rollout/robot_rollout.h"
+#include "dynamics/tree/multibody_model.h"
+#include "models/robot/robot_model.h"
+#include "models/world/ground_map.h"
+
+namespace possibility::actions {
+
+/// A plan's points bear within 1 mm of their ground.
+inline constexpr double kTouching = 1.1e-3;  // m
+
+/// Joint feedback of the simulated robot.
+struct RolloutGains {
+  /// rad or m: joint error at which feedback alone would demand the full effort.
+  double full_effort_error = 0.02;
+  double damping_time = 0.03;  ///< s, damping over stiffness
+};
+
+/// A segment as a simulation follows it: the simulated robot, the ground, the motion, and the
+/// control that follows it by joint torques alone. The ground has the heights at which the plan
+/// bears. On tilted ground, the robot and its plan are tilted with it. Coordinates are relative to
+/// the segment's beginning: far from the origin, the integrator's relative tolerance would be too
+/// coarse for the motion. Arguments must outlive it; it must outlive its contacts and its control.
+class RolloutReference {
+ public:
+  RolloutReference(const Segment& segment, const models::RobotModel& robot,
+                   const models::GroundMap& ground, const Perturbation& perturbation,
+                   const RolloutGains& gains);
+  RolloutReference(const RolloutReference&) = delete;
+  RolloutReference& operator=(const RolloutReference&) = delete;
+
+  const std::shared_ptr<const dynamics::MultibodyModel>& model() const { return model_; }
+  double start() const { return segment_.phases.front().knots.front().t; }  ///< s
+  double end() const { return segment_.phases.back().knots.back().t; }      ///< s
+  bool ends_at_rest() const;
+  Eigen::Vector3d normal() const { return tilt_.col(2); }  ///< of the ground
+
+  /// At a time, clamped to the segment. Independent joints only; nq and nv of the model.
+  Eigen::VectorXd Configuration(double t) const;
+  Eigen::VectorXd Velocity(double t) const;
+
+  /// Every contact point of the robot with every ground level used. The extent of levels matters
+  /// only if there are several.
+  std::vector<dynamics::RolloutContact> Contacts() const;
+  dynamics::JointControl Control() const;
+  /// Empty without a push.
+  dynamics::RootPush Push() const;
+
+  /// Adds the state at time `t` to the worst deviations, and sets fell_at.
+  void Compare(double t, const Eigen::VectorXd& q, RolloutDrift* drift) const;
+  /// Deviations of the last state, once settled.
+  void CompareEnd(const Eigen::VectorXd& q, const Eigen::VectorXd& v, RolloutDrift* drift) const;
+  /// How far the root is from falling, at most 1, at q; below 0: fallen.
+  double Uprightness(double t, const Eigen::Ref<const Eigen::VectorXd>& q) const;
+
+ private:
+  /// The knots of a segment as one function of time.
+  class Track {
+   public:
+    explicit Track(const Segment& segment);
+    Knot At(double t) const;
+
+   private:
+    std::vector<double> starts_;
+    std::vector<KnotInterpolant> intervals_;
+  };
+
+  bool IsTilted() const;
+  Eigen::VectorXd Configuration(const Knot& knot) const;
+  Eigen::VectorXd Velocity(const Knot& knot) const;
+
+  const Segment& segment_;
+  const models::GroundMap& ground_;
+  const Perturbation& perturbation_;
+  RolloutGains gains_;
+  Eigen::Vector3d origin_;  ///< m
+  Eigen::Matrix3d tilt_;    ///< of the ground
+  std::shared_ptr<const dynamics::MultibodyModel> planned_;
+  std::shared_ptr<const dynamics::MultibodyModel> model_;  ///< perturbed
+  Track track_;
+  std::set<int> levels_;  ///< of the ground, on which the segment bears
+};
+
+}  // namespace possibility::actions
