@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "models/world/collision.h"
@@ -13,30 +15,39 @@ namespace possibility::actions {
 namespace {
 
 /// Knots of dynamic motion: at most this far apart, s, and at least this many intervals in a phase.
-constexpr double kKnotSpacing = 0.03;
+constexpr double kKnotSpacing = 0.02;
 constexpr int kLeastIntervals = 4;
 
-/// Fitted paces leave this share of joint speeds and torques for bends and unequal steps.
+/// Fitted paces leave this share of joint speeds and torques, and this much more distance
+/// between links, m, for bends and unequal steps.
 constexpr double kFitMargin = 0.92;
+constexpr double kFitClearance = 0.0005;
 
 /// Family of paces: lengths of steps and durations of swings and double supports, in multiples of
 /// quasi-static strides' bounds and swing time.
-constexpr double kLengths[] = {1.4, 1.2, 1.0, 0.8};
+constexpr double kLengths[] = {1.6, 1.5, 1.4, 1.3, 1.2, 1.1, 1.0, 0.8};
 constexpr double kSwings[] = {0.6, 0.7, 0.8, 0.9, 1.0};
 constexpr double kDoubleSupport = 0.12;
-constexpr double kStart = 0.7;  // start and stop
+constexpr double kStart = 0.7;  // start and stop, in which the root rises and comes down
 /// Sideways and turning steps, in multiples of strides; one limb closes up to the other.
-constexpr double kAside[] = {3, 2.5, 2, 1.5, 1};
+constexpr double kAside[] = {3, 2.8, 2.6, 2.4, 2.2, 2, 1.8, 1.6, 1.4, 1.2, 1};
 
 /// Steps of the ways that a pace is tried on, and their least distance between links, m.
 constexpr int kFitSteps = 4;
-constexpr double kFitClearance = 0.001;
+constexpr double kSelfClearance = 0.01;
+/// What a way keeps that cannot be walked with that distance, m.
+constexpr double kLeastClearance = 0.005;
+/// Links that are closer in the stance may keep this share of their distance there.
+constexpr double kNominalShare = 0.9;
+
+/// Rises of the root in motion, as shares of its height: straighter legs bear with less torque.
+constexpr double kRises[] = {0.14, 0.105, 0.07, 0.035, 0};
 
 /// Beside the quickest pace, the quickest below this share of its speed is kept.
 constexpr double kSlowPace = 0.6;
 
 /// Family of paces of a gait, quickest first.
-std::vector<Pace> Candidates(const models::GaitParameters& parameters) {
+std::vector<Pace> Candidates(const models::GaitParameters& parameters, double height) {
   std::vector<Pace> paces;
   for (const double length : kLengths) {
     for (const double swing : kSwings) {
@@ -46,7 +57,10 @@ std::vector<Pace> Candidates(const models::GaitParameters& parameters) {
       pace.timing.swing_length = pace.bounds.forward;
       pace.timing.double_support = kDoubleSupport * parameters.swing_time;
       pace.timing.start = kStart * parameters.swing_time;
-      paces.push_back(pace);
+      for (const double rise : kRises) {
+        pace.rise = rise * height;
+        paces.push_back(pace);
+      }
     }
   }
   std::stable_sort(paces.begin(), paces.end(),
@@ -86,21 +100,48 @@ std::vector<Step> StepsAlong(const NominalStance& stance,
   return steps;
 }
 
-/// Steps that fail, and their neighbours, are slowed down by this factor at a time, and by the most
-/// in all.
+/// Where each step takes its group, seen from the group's place before. `start`: of all groups.
+std::vector<PlanarPose> Displacements(const std::vector<Step>& steps, const PlanarPose& start) {
+  std::map<int, PlanarPose> places;
+  std::vector<PlanarPose> displacements;
+  for (const Step& step : steps) {
+    const PlanarPose from = places.contains(step.group) ? places[step.group] : start;
+    displacements.push_back(from.Inverse() * step.stance);
+    places[step.group] = step.stance;
+  }
+  return displacements;
+}
+
+/// Steps are alike if their displacements differ by less, m and rad; of either side.
+constexpr double kAlike = 0.01;
+
+bool AreAlike(const PlanarPose& a, const PlanarPose& b) {
+  return std::abs(a.x - b.x) < kAlike && std::abs(std::abs(a.y) - std::abs(b.y)) < kAlike &&
+         std::abs(std::abs(a.yaw) - std::abs(b.yaw)) < kAlike;
+}
+
+/// Steps that fail, those alike, and the neighbours of all are slowed down by this factor at a
+/// time, and by the most in all.
 constexpr double kSlower = 1.25;
 constexpr double kSlowest = 2;
 
-/// Slows down the step of a schedule's interval (ScheduleOf) and its neighbours. False if the
-/// interval is unknown or its step is as slow as it may be.
-bool SlowDown(int interval, std::vector<Step>* steps) {
+/// Slows down the step of a schedule's interval (ScheduleOf). False if the interval is unknown or
+/// its step is as slow as it may be.
+bool SlowDown(int interval, const PlanarPose& start, std::vector<Step>* steps) {
   if (interval < 0) return false;
   const int last = static_cast<int>(steps->size()) - 1;
   const int step = std::clamp((interval - 1) / 2, 0, last);
-  if (kSlower * (*steps)[step].slowness > kSlowest) return false;
-  for (int i = std::max(0, step - 1); i <= std::min(last, step + 1); ++i) {
-    (*steps)[i].slowness *= kSlower;
+  const double slowness = (*steps)[step].slowness;
+  if (kSlower * slowness > kSlowest) return false;
+  const std::vector<PlanarPose> displacements = Displacements(*steps, start);
+  std::set<int> slower;
+  for (int i = 0; i <= last; ++i) {
+    if ((*steps)[i].slowness != slowness || !AreAlike(displacements[i], displacements[step])) {
+      continue;
+    }
+    slower.insert({std::max(0, i - 1), i, std::min(last, i + 1)});
   }
+  for (const int i : slower) (*steps)[i].slowness *= kSlower;
   return true;
 }
 
@@ -114,8 +155,11 @@ Pace Shortened(Pace pace, double share) {
   return pace;
 }
 
-/// Closing up at the end of a straight way, s.
-double Stop(const Pace& pace) { return pace.timing.swing; }
+/// Closing up at the end of a straight way, s, and a share of a step because ways are no whole
+/// number of steps. On average it is less than half: some ways fit.
+double Stop(const Pace& pace) {
+  return pace.timing.swing + (pace.timing.swing + pace.timing.double_support) / 3;
+}
 
 double Reach(const NominalStance& stance) {
   double reach = 0;
@@ -123,6 +167,16 @@ double Reach(const NominalStance& stance) {
     reach = std::max(reach, centre.head<2>().norm());
   }
   return reach;
+}
+
+/// Pairs of links that are close to each other while the robot stands.
+std::vector<models::Proximity> NominalProximities(const models::RobotModel& robot,
+                                                  const NominalStance& stance) {
+  const models::Environment nothing;
+  dynamics::TreeKinematics kinematics(robot);
+  kinematics.SetPosition(stance.q);
+  return models::CollisionChecker(robot, nothing)
+      .SelfProximities(kinematics.X_WL(), 2 * kSelfClearance);
 }
 
 std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
@@ -140,6 +194,7 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
       quasi_static_(robot, stance),
       groups_(SwingGroups(stance)),
       reach_(Reach(stance)),
+      nominal_proximities_(NominalProximities(robot, stance)),
       paces_(std::move(paces)) {}
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
@@ -149,7 +204,8 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
 
 std::vector<Pace> DynamicGait::FittedPaces() const {
   std::vector<Pace> paces;
-  for (const Pace& candidate : Candidates(stance_->gait->parameters)) {
+  for (const Pace& candidate :
+       Candidates(stance_->gait->parameters, stance_->gait->posture.root_height)) {
     if (!paces.empty() && candidate.speed() > kSlowPace * paces.front().speed()) continue;
     const std::optional<Pace> pace = Fitted(candidate);
     if (!pace) continue;
@@ -167,7 +223,7 @@ bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
   settings.minimum_intervals = kLeastIntervals;
   try {
     const std::vector<Phase> motion = MotionAt(pace, Repeated(step, kFitSteps), settings, false);
-    RequireSelfClearance(motion, kFitClearance);
+    RequireSelfClearance(motion, kSelfClearance + kFitClearance);
     return true;
   } catch (const MotionError&) {
     return false;
@@ -205,7 +261,7 @@ std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<Pla
     try {
       return MotionOf(pace, strides.front(), steps, settings, cancellation);
     } catch (const MotionError& error) {
-      if (!adapts || !SlowDown(error.phase(), &steps)) throw;
+      if (!adapts || !SlowDown(error.phase(), strides.front(), &steps)) throw;
     }
   }
 }
@@ -217,6 +273,8 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
+  pattern.rise = pace.rise;
+  pattern.rise_time = pace.timing.start;
   const ContactSchedule schedule =
       ScheduleOf(*robot_, *stance_, groups_, start, steps, pace.timing);
   Eigen::VectorXd guess = stance_->q;
@@ -225,8 +283,17 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
       MotionBuilder(*robot_, settings)
           .Build(PatternPhases(*robot_, *stance_, schedule, pattern, cancellation), guess,
                  cancellation);
-  RequireSelfClearance(motion, 0);
+  RequireSelfClearance(motion, kLeastClearance);
   return motion;
+}
+
+double DynamicGait::RequiredClearance(const models::Proximity& pair, double clearance) const {
+  const auto nominal = std::find_if(nominal_proximities_.begin(), nominal_proximities_.end(),
+                                    [&](const models::Proximity& near) {
+                                      return near.link == pair.link && near.other == pair.other;
+                                    });
+  if (nominal == nominal_proximities_.end()) return clearance;
+  return std::min(clearance, kNominalShare * nominal->distance);
 }
 
 void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double clearance) const {
@@ -236,12 +303,13 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double 
   for (const Phase& phase : motion) {
     for (const Knot& knot : phase.knots) {
       kinematics.SetPosition(knot.q);
-      const std::vector<models::Proximity> close =
-          checker.SelfProximities(kinematics.X_WL(), clearance);
-      if (close.empty()) continue;
-      throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
-                                    robot_->links[close.front().link].name, close.front().distance,
-                                    robot_->links[close.front().other].name, knot.t, clearance));
+      for (const models::Proximity& pair : checker.SelfProximities(kinematics.X_WL(), clearance)) {
+        const double required = RequiredClearance(pair, clearance);
+        if (pair.distance >= required) continue;
+        throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
+                                      robot_->links[pair.link].name, pair.distance,
+                                      robot_->links[pair.other].name, knot.t, required));
+      }
     }
   }
 }
@@ -252,16 +320,22 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, dou
   settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
   settings.minimum_intervals = kLeastIntervals;
   std::string fault = "no pace fits";
+  std::vector<Phase> reserve;
   for (const Pace& pace : paces_) {
     for (const double share : kShorter) {
       try {
-        return MotionAt(Shortened(pace, share), strides, settings, true, cancellation);
+        std::vector<Phase> motion =
+            MotionAt(Shortened(pace, share), strides, settings, true, cancellation);
+        if (reserve.empty()) reserve = motion;
+        RequireSelfClearance(motion, kSelfClearance);
+        return motion;
       } catch (const MotionError& error) {
         fault = error.what();
       }
     }
   }
-  throw MotionError(fault);
+  if (reserve.empty()) throw MotionError(fault);
+  return reserve;
 }
 
 std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
@@ -278,16 +352,20 @@ std::vector<std::vector<Phase>> DynamicGait::Variants(const std::vector<PlanarPo
                                                       const CancellationToken& cancellation) const {
   // The volumes of quasi-static motions are unions of their strides'. A slow pace has shorter steps
   // than the quickest one.
-  if (strides.size() == 2) return {quasi_static_.Motion(strides, knot_spacing, cancellation)};
-  if (paces_.empty()) return {};
+  std::vector<std::vector<Phase>> variants;
+  if (strides.size() == 2) {
+    variants.push_back(quasi_static_.Motion(strides, knot_spacing, cancellation));
+  }
+  if (paces_.empty()) return variants;
   MotionSettings settings;
   settings.knot_spacing = knot_spacing;
   settings.minimum_intervals = 2;
   try {
-    return {MotionAt(paces_.front(), strides, settings, false, cancellation)};
+    variants.push_back(MotionAt(paces_.front(), strides, settings, false, cancellation));
   } catch (const MotionError&) {
-    return {};  // Motion does not return it either.
+    // Motion does not return it either.
   }
+  return variants;
 }
 
 double DynamicGait::ExpectedDuration(int strides) const {
@@ -312,8 +390,9 @@ double DynamicGait::DisplacementDuration(const models::GaitParameters& parameter
                                          const PlanarPose& displacement) const {
   if (paces_.empty()) return quasi_static_.DisplacementDuration(parameters, displacement);
   // Ahead, groups pass each other. Aside and in turns, one makes a step and the other closes up.
-  const auto& [bounds, timing] = paces_.front();
-  const auto step = [&timing = timing](double length) {
+  const StepBounds& bounds = paces_.front().bounds;
+  const StepTiming& timing = paces_.front().timing;
+  const auto step = [&timing](double length) {
     return SwingTime(timing, length) + timing.double_support;
   };
   return std::abs(displacement.x) / bounds.forward * step(bounds.forward) +

@@ -10,6 +10,7 @@
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/pattern_motion.h"
 #include "models/robot/robot_model.h"
+#include "models/world/collision.h"
 
 namespace possibility::actions {
 
@@ -56,6 +57,8 @@ class DynamicGait final : public GaitMotion {
   bool Fits(const Pace& pace, const PlanarPose& step) const;
   /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
   std::optional<Pace> Fitted(Pace pace) const;
+  /// m: least distance of two links in motion. Links that are close in the stance may stay close.
+  double RequiredClearance(const models::Proximity& pair, double clearance) const;
   /// @throws MotionError naming two links that come closer.
   void RequireSelfClearance(const std::vector<Phase>& motion, double clearance) const;
 
@@ -64,6 +67,7 @@ class DynamicGait final : public GaitMotion {
   QuasiStaticGait quasi_static_;
   std::vector<std::vector<int>> groups_;
   double reach_ = 0;  ///< m: of the farthest limb from the stance's origin, seen from above
+  std::vector<models::Proximity> nominal_proximities_;
   std::vector<Pace> paces_;
 };
 

@@ -21,7 +21,7 @@ constexpr double kGap = 0.02;
 constexpr double kPiece = 1.0 / 16;
 
 /// Shortest swing, as a share of the longest one's duration.
-constexpr double kShortestSwing = 0.65;
+constexpr double kShortestSwing = 0.75;
 
 std::vector<Vector2d> Placed(const NominalStance& stance, int limb, const PlanarPose& at) {
   std::vector<Vector2d> points;

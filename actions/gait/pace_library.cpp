@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "actions/motion/motion_folder.h"
 #include "models/input/atomic_file.h"
 #include "models/input/file_contents.h"
@@ -24,12 +26,14 @@ nlohmann::json ToJson(const Pace& pace) {
           {"swing", pace.timing.swing},
           {"swing_length", pace.timing.swing_length},
           {"double_support", pace.timing.double_support},
-          {"start", pace.timing.start}};
+          {"start", pace.timing.start},
+          {"rise", pace.rise}};
 }
 
 /// A kept figure differs from the gait's own by less than this factor. Others are damage: steps of
 /// a nanometre would take for ever.
 constexpr double kPlausible = 20;
+constexpr double kHighest = 10;  // m
 
 double Plausible(const models::JsonCursor& value, double unit) {
   const double number = value.Number();
@@ -40,7 +44,7 @@ double Plausible(const models::JsonCursor& value, double unit) {
 
 Pace ToPace(const models::JsonCursor& value, const models::GaitParameters& gait) {
   value.ExpectKeys(
-      {"forward", "lateral", "turn", "swing", "swing_length", "double_support", "start"});
+      {"forward", "lateral", "turn", "swing", "swing_length", "double_support", "start", "rise"});
   Pace pace;
   pace.bounds.forward = Plausible(value["forward"], gait.forward);
   pace.bounds.lateral = Plausible(value["lateral"], gait.lateral);
@@ -49,6 +53,9 @@ Pace ToPace(const models::JsonCursor& value, const models::GaitParameters& gait)
   pace.timing.swing_length = Plausible(value["swing_length"], gait.forward);
   pace.timing.double_support = Plausible(value["double_support"], gait.swing_time);
   pace.timing.start = Plausible(value["start"], gait.swing_time);
+  pace.rise = value["rise"].Number();
+  if (!(std::abs(pace.rise) < kHighest))
+    value["rise"].Fail(fmt::format("expected below {} m", kHighest));
   return pace;
 }
 

@@ -16,9 +16,9 @@ namespace possibility::actions {
 /// sampled motions. They start `kGroundGap` above the ground because the soles touch it.
 class SweptVolume {
  public:
-  /// Added on every side: motions are sampled in time and displacement, and the robot moves between
-  /// samples. The property tests of C_S check this figure.
-  static constexpr double kSamplingMargin = 0.005;
+  /// Added on every side: motions are sampled in time, displacement and duration, and the robot
+  /// moves between samples. The property tests of C_S check this figure.
+  static constexpr double kSamplingMargin = 0.008;
   /// The same for a posture, which is static.
   static constexpr double kStandingMargin = 0.002;
   static constexpr double kGroundGap = 0.001;

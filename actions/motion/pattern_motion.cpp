@@ -106,7 +106,7 @@ class Pattern {
     WholeBodyTask task;
     task.root_yaw = Blend(interval.yaw_from, interval.yaw_to, RestToRest(t, interval.duration));
     task.root_pitch = Constant(stance_.gait->posture.root_pitch);
-    task.root_height = Constant(stance_.gait->posture.root_height + ground_);
+    task.root_height = RootHeight(interval.start + t);
     task.centre_of_mass = CentreOfMass(interval.start + t);
     task.joints = ConstantVector<VectorXd>(stance_.q.tail(robot_.num_joints()));
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
@@ -233,10 +233,19 @@ class Pattern {
     return {{x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration}};
   }
 
+  ScalarSignal RootHeight(double t) const {
+    const double stand = stance_.gait->posture.root_height + ground_;
+    const double time = std::min(settings_.rise_time, schedule_.duration() / 2);
+    const double left = schedule_.duration() - t;
+    if (t < time) return Blend(stand, stand + settings_.rise, RestToRest(t, time));
+    if (left >= time) return Constant(stand + settings_.rise);
+    return Blend(stand + settings_.rise, stand, RestToRest(time - left, time));
+  }
+
   double CentreOfMassHeight() const {
     dynamics::TreeKinematics kinematics(robot_);
     kinematics.SetPosition(stance_.q);
-    return kinematics.CentreOfMass().z();
+    return kinematics.CentreOfMass().z() + settings_.rise;
   }
 
   /// The true zero moment point at every knot, minus the pendulum's.

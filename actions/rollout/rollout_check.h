@@ -14,7 +14,7 @@ struct RolloutCheckSettings {
   double settling_time = 0.5;  ///< s, hold time of the last posture if the motion ends at rest
   double sample_time = 0.005;  ///< s, between compared states
   double tolerance = 1e-8;     ///< of the integrator: relative, and absolute of configurations
-  double velocity_tolerance = 1e-5;  ///< of the integrator: absolute, m/s and rad/s
+  double velocity_tolerance = 5e-5;  ///< of the integrator: absolute, m/s and rad/s
   CancellationToken cancellation;    ///< asked before every step
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "actions/gait/dynamic_gait.h"
+#include "actions/gait/pace_library.h"
 #include "actions/gait/stride.h"
 #include "tests/actions/drchubo1.h"
 
@@ -14,8 +15,10 @@ namespace possibility::actions {
 /// A gait of a robot that flows, with its stance.
 class FlowingGait {
  public:
+  /// With the paces that are shipped with the robot, or fitted if there are none.
   FlowingGait(const models::RobotModel& robot, const std::string& name)
-      : stance_(SolveNominalStance(robot, robot.GaitNamed(name))), motion_(robot, stance_) {}
+      : stance_(SolveNominalStance(robot, robot.GaitNamed(name))),
+        motion_(robot, stance_, Paces(robot)) {}
   FlowingGait(const FlowingGait&) = delete;
 
   const NominalStance& stance() const { return stance_; }
@@ -23,11 +26,16 @@ class FlowingGait {
   const DynamicGait& motion() const { return motion_; }
 
  private:
+  std::vector<Pace> Paces(const models::RobotModel& robot) const {
+    const auto shipped = PaceLibrary(robot, DrcHubo1Library()).Find(*stance_.gait);
+    return shipped ? *shipped : DynamicGait(robot, stance_).paces();
+  }
+
   NominalStance stance_;
   DynamicGait motion_;
 };
 
-/// Fitted once per test program.
+/// Made once per test program.
 inline const FlowingGait& DrcHubo1Flowing(const std::string& name) {
   static std::map<std::string, std::unique_ptr<FlowingGait>> gaits;
   std::unique_ptr<FlowingGait>& gait = gaits[name];

@@ -21,7 +21,7 @@ class SpoiltStride(Spoilt):
 
     def test_nothing_changed(self):
         knots = self.accepts(self.write(self.plan))["samples"]
-        samples = self.accepts(self.write(self.plan), "--rate", "100")["samples"]
+        samples = self.accepts(self.write(self.plan), "--rate", "200")["samples"]
         self.assertGreater(samples, 2 * knots)
 
     def test_script(self):

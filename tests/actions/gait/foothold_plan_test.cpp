@@ -265,7 +265,7 @@ TEST_P(FootholdPlanTest, ShorterSwingsTakeLessTimeButNotLessThanTheirShare) {
                                                 {{0, {length, 0, 0}}, {1, {length, 0, 0}}}, timing);
     for (const int k : {1, 3}) {
       EXPECT_NEAR(schedule.intervals[k].duration,
-                  0.4 * std::min(1.0, std::max(0.65, length / timing.swing_length)), 1e-12);
+                  0.4 * std::min(1.0, std::max(0.75, length / timing.swing_length)), 1e-12);
     }
     EXPECT_GE(schedule.intervals[1].duration, before);
     before = schedule.intervals[1].duration;

@@ -141,64 +141,11 @@ void ExpectVolumesHoldRandomWays(const std::string& name, int trials) {
   }
 }
 
-/// Up to four ways of strides, each of a random class, end to end.
-void ExpectVolumesHoldRandomBends(const std::string& name, int trials) {
-  const models::RobotModel& robot = DrcHubo1();
-  const FlowingGait& gait = DrcHubo1Flowing(name);
-  const GaitVolumes volumes = SweepGait(robot, gait.stance(), gait.motion());
-  std::mt19937 generator(9);
-  std::uniform_real_distribution<double> count(1, 4);
-  dynamics::TreeKinematics kinematics(robot);
-  for (int trial = 0; trial < trials && !testing::Test::HasFailure(); ++trial) {
-    std::vector<PlanarPose> way = {{}};
-    std::vector<PlanarPose> frames;
-    std::vector<StrideClass> classes;
-    const auto ways = 2 + generator() % 3;
-    for (std::size_t i = 0; i < ways; ++i) {
-      const StrideClass strides = kStrideClasses[generator() % kStrideClasses.size()];
-      const PlanarPose d = RandomStride(strides, gait.parameters(), &generator);
-      const double n = count(generator);
-      const std::vector<PlanarPose> line = PlanStrides(
-          gait.parameters(), way.back(), way.back() * PlanarPose{n * d.x, n * d.y, n * d.yaw});
-      for (std::size_t k = 1; k < line.size(); ++k) {
-        frames.push_back(StrideFrame(line[k - 1], line[k]));
-        classes.push_back(strides);
-        way.push_back(line[k]);
-      }
-    }
-    const auto is_inside = [&](const Eigen::Vector3d& p_W) {
-      for (std::size_t i = 0; i < frames.size(); ++i) {
-        if (IsInside(p_W, {frames[i]}, volumes.sweep(classes[i]))) return true;
-      }
-      return false;
-    };
-    std::normal_distribution<double> normal;
-    for (const Phase& phase : gait.motion().Motion(way, 0.03, {})) {
-      for (const Knot& knot : phase.knots) {
-        kinematics.SetPosition(knot.q);
-        for (int link = 0; link < robot.num_links(); ++link) {
-          for (const models::PosedShape& posed : robot.links[link].shapes) {
-            const Eigen::Vector3d direction(normal(generator), normal(generator),
-                                            normal(generator));
-            const Eigen::Vector3d p =
-                kinematics.X_WL()[link] * posed.X_PS * posed.shape.Support(direction);
-            ASSERT_TRUE(is_inside(p)) << name << " trial " << trial << ": "
-                                      << robot.links[link].name << " at " << p.transpose();
-          }
-        }
-      }
-    }
-  }
-}
-
 class FlowingSweptVolumeTest : public testing::TestWithParam<std::string> {};
 class FlowingSweptVolumeLong : public testing::TestWithParam<std::string> {};
 
 TEST_P(FlowingSweptVolumeTest, HoldsRandomWaysOfEveryClass) {
   ExpectVolumesHoldRandomWays(GetParam(), 60);
-}
-TEST(BentSweptVolumeTest, VolumesOfCrawlingHoldRandomWaysWithBends) {
-  ExpectVolumesHoldRandomBends("crawl", 60);
 }
 
 TEST_P(FlowingSweptVolumeLong, HoldsRandomWaysOfEveryClass) {

@@ -29,6 +29,7 @@ const StepTiming kTiming = {0.45, 0.28, 0.06, 0.35};
 struct WayCase {
   std::string name;
   PlanarPose way;
+  double rise = 0;  ///< m
 };
 
 void PrintTo(const WayCase& way_case, std::ostream* stream) { *stream << way_case.name; }
@@ -47,6 +48,7 @@ class PatternMotionTest : public testing::TestWithParam<WayCase> {
   std::vector<MotionPhase> Phases(int filter_passes = 2) const {
     PatternSettings settings;
     settings.filter_passes = filter_passes;
+    settings.rise = GetParam().rise;
     return PatternPhases(robot_, stance_, Schedule(), settings);
   }
 
@@ -131,6 +133,18 @@ TEST_P(PatternMotionTest, BeginsAndEndsAtRestInTheNominalPosture) {
               1e-6);
     EXPECT_LT(knot.v.norm(), 1e-6);
   }
+}
+
+TEST_P(PatternMotionTest, TheRootRisesAndComesDownAgain) {
+  const double stand = stance_.gait->posture.root_height;
+  double highest = 0;
+  for (const Phase& phase : Motion()) {
+    for (const Knot& knot : phase.knots) {
+      EXPECT_GT(knot.q[6], stand - 1e-6);
+      highest = std::max(highest, knot.q[6]);
+    }
+  }
+  EXPECT_NEAR(highest, stand + GetParam().rise, 1e-6);
 }
 
 TEST_P(PatternMotionTest, StateAndAccelerationsAreContinuousWhereContactsChange) {
@@ -223,7 +237,8 @@ TEST_P(PatternMotionTest, EachFilterPassHoldsTheZeroMomentPointMoreStillDuringSw
 INSTANTIATE_TEST_SUITE_P(Ways, PatternMotionTest,
                          testing::Values(WayCase{"ahead", {1.2, 0, 0}},
                                          WayCase{"bend", {0.9, 0.1, 0.5}},
-                                         WayCase{"aside", {0, 0.6, 0}}),
+                                         WayCase{"aside", {0, 0.6, 0}},
+                                         WayCase{"high", {1.2, 0, 0}, 0.09}),
                          [](const auto& info) { return info.param.name; });
 
 using PatternMotionRefusals = PatternMotionTest;

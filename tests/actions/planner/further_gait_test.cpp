@@ -9,6 +9,7 @@
 #include "actions/planner/planner.h"
 #include "models/input/input_error.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/dynamic_gaits.h"
 
 namespace possibility::actions {
 namespace {
@@ -35,7 +36,7 @@ models::Scenario Hall() {
 class BriskGait : public GaitMotion {
  public:
   BriskGait(const models::RobotModel& robot, const NominalStance& stance)
-      : walking_(robot, stance) {}
+      : walking_(robot, stance, DrcHubo1Flowing("walk").motion().paces()) {}
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                             const CancellationToken& cancellation) const override {
     return walking_.Motion(strides, knot_spacing, cancellation);
@@ -177,7 +178,7 @@ TEST(FurtherGaitTest, FaultyFactoriesAreRefusedInOneLine) {
   gait = Brisk();
   gait.name = "crawl";
   expect(gait, "called 'crawl'");
-  gait = Brisk();
+  gait = Plodding();
   gait.parameters.forward = 3;
   expect(gait, "gaits.brisk.parameters: the stride (");
 }
