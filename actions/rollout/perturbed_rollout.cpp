@@ -74,31 +74,53 @@ dynamics::CompliantRolloutSettings SimulatorSettings(const RolloutReference& ref
   return simulator;
 }
 
-void Simulate(const RolloutReference& reference, const PerturbedRolloutSettings& settings,
-              RolloutDrift* drift) {
-  drift->ends_at_rest = reference.ends_at_rest();
-  dynamics::CompliantSimulator simulator(reference.model(), reference.Contacts(),
-                                         reference.Control(),
-                                         SimulatorSettings(reference, settings));
-  const double until = drift->end + (drift->ends_at_rest ? settings.settling_time : 0);
-  const dynamics::CompliantRollout rollout = simulator.Run(
-      reference.Configuration(drift->start), reference.Velocity(drift->start), drift->start, until);
+/// Adds a rollout's departures to the drift.
+void Record(const RolloutReference& reference, const dynamics::CompliantRollout& rollout,
+            double start, double sample_time, dynamics::CompliantSimulator* simulator,
+            SlideMeter* slides, RolloutDrift* drift) {
   const double end = rollout.trajectory.end_time();
-  SlideMeter slides(reference);
-  const auto samples = static_cast<int>(std::ceil((end - drift->start) / settings.sample_time));
+  const auto samples = static_cast<int>(std::ceil((end - start) / sample_time));
   for (int i = 0; i <= samples; ++i) {
-    const double t = std::min(end, drift->start + i * settings.sample_time);
-    const dynamics::RobotMotion motion = simulator.MotionAt(rollout, t);
+    const double t = std::min(end, start + i * sample_time);
+    const dynamics::RobotMotion motion = simulator->MotionAt(rollout, t);
     if (t <= drift->end) reference.Compare(t, motion.q, drift);
-    slides.Measure(motion, drift);
+    slides->Measure(motion, drift);
     drift->torque_used =
         std::max(drift->torque_used, TorqueUsed(motion.torques, reference.model()->effort()));
   }
-  reference.CompareEnd(rollout.Configuration(end), rollout.Velocity(end), drift);
-  if (rollout.end == dynamics::OdeEnd::kGuard) drift->fell_at = end;
-  if (rollout.end == dynamics::OdeEnd::kCancelled) {
-    drift->failure = fmt::format("ends at {:.3f} s: cancelled", end);
+}
+
+void Simulate(const RolloutReference& reference, const PerturbedRolloutSettings& settings,
+              RolloutDrift* drift) {
+  drift->ends_at_rest = reference.ends_at_rest();
+  StepFeedback steps(reference.segment(), reference.model()->tree());
+  dynamics::CompliantSimulator simulator(reference.model(), reference.Contacts(),
+                                         reference.Control(&steps),
+                                         SimulatorSettings(reference, settings));
+  std::vector<double> ends = steps.ticks();
+  ends.push_back(drift->end + (drift->ends_at_rest ? settings.settling_time : 0));
+  SlideMeter slides(reference);
+  VectorXd q = reference.Configuration(drift->start);
+  VectorXd v = reference.Velocity(drift->start);
+  double time = drift->start;
+  for (const double until : ends) {
+    const dynamics::CompliantRollout rollout = simulator.Run(q, v, time, until);
+    const double end = rollout.trajectory.end_time();
+    Record(reference, rollout, time, settings.sample_time, &simulator, &slides, drift);
+    q = rollout.Configuration(end);
+    v = rollout.Velocity(end);
+    time = end;
+    if (rollout.end == dynamics::OdeEnd::kGuard) drift->fell_at = end;
+    if (rollout.end == dynamics::OdeEnd::kCancelled) {
+      drift->failure = fmt::format("ends at {:.3f} s: cancelled", end);
+    }
+    if (rollout.end != dynamics::OdeEnd::kTime) break;
+    if (until < ends.back()) {
+      steps.Sense(time, reference.Tilt(time, q, v),
+                  reference.TreeConfiguration(steps.LandingAfter(time)), reference.normal());
+    }
   }
+  reference.CompareEnd(q, v, drift);
 }
 
 }  // namespace

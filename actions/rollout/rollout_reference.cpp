@@ -7,6 +7,7 @@
 
 #include "actions/plan/contact_name.h"
 #include "dynamics/tree/tree_kinematics.h"
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
 namespace {
@@ -135,17 +136,36 @@ std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
   return contacts;
 }
 
-dynamics::JointControl RolloutReference::Control() const {
+VectorXd RolloutReference::TreeConfiguration(double t) const {
+  return model_->TreeConfiguration(Configuration(t));
+}
+
+RootTilt RolloutReference::Tilt(double t, const VectorXd& q, const VectorXd& v) const {
+  const VectorXd planned = Configuration(t);
+  const Quaterniond now = Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+  const Quaterniond then = Quaterniond(planned[0], planned[1], planned[2], planned[3]).normalized();
+  return {models::RotationVector(Quaterniond(now * then.conjugate())),
+          v.head<3>() - Velocity(t).head<3>()};
+}
+
+dynamics::JointControl RolloutReference::Control(const StepFeedback* steps) const {
   dynamics::JointControl control;
   control.stiffness = planned_->effort() / gains_.full_effort_error;
   // Joints without a limit would get an infinite gain.
   for (double& k : control.stiffness) k = std::isfinite(k) ? k : 0;
   control.damping = gains_.damping_time * control.stiffness;
-  control.command = [this](double t, dynamics::JointCommand* command) {
+  control.command = [this, steps](double t, dynamics::JointCommand* command) {
     const Knot knot = track_.At(t);
     const int n = model_->num_joints();
-    command->position = Configuration(knot).tail(n);
+    const VectorXd q = Configuration(knot);
+    command->position = q.tail(n);
     command->velocity = Velocity(knot).tail(n);
+    const auto correction =
+        steps ? steps->CorrectionAt(t, model_->TreeConfiguration(q)) : std::nullopt;
+    for (int j = 0; correction && j < n; ++j) {
+      command->position[j] += correction->position[model_->joints()[j]];
+      command->velocity[j] += correction->velocity[model_->joints()[j]];
+    }
     VectorXd forces = VectorXd::Zero(model_->tree().nv());
     forces.tail(knot.tau.size()) = knot.tau;
     command->torque = model_->IndependentForces(forces).tail(n);

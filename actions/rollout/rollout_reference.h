@@ -9,6 +9,7 @@
 #include "actions/plan/plan.h"
 #include "actions/rollout/perturbation.h"
 #include "actions/rollout/rollout_drift.h"
+#include "actions/rollout/step_feedback.h"
 #include "dynamics/rollout/joint_control.h"
 #include "dynamics/rollout/robot_rollout.h"
 #include "dynamics/tree/multibody_model.h"
@@ -40,6 +41,7 @@ class RolloutReference {
   RolloutReference(const RolloutReference&) = delete;
   RolloutReference& operator=(const RolloutReference&) = delete;
 
+  const Segment& segment() const { return segment_; }
   const std::shared_ptr<const dynamics::MultibodyModel>& model() const { return model_; }
   double start() const { return segment_.phases.front().knots.front().t; }  ///< s
   double end() const { return segment_.phases.back().knots.back().t; }      ///< s
@@ -53,7 +55,12 @@ class RolloutReference {
   /// Every contact point of the robot with every ground level used. The extent of levels matters
   /// only if there are several.
   std::vector<dynamics::RolloutContact> Contacts() const;
-  dynamics::JointControl Control() const;
+  /// `steps`: feedback that moves the feet; must outlive the control. May be null.
+  dynamics::JointControl Control(const StepFeedback* steps = nullptr) const;
+  /// Departure of the root from its planned orientation.
+  RootTilt Tilt(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v) const;
+  /// At a time, clamped to the segment; of all joints, nq of the tree.
+  Eigen::VectorXd TreeConfiguration(double t) const;
   /// Empty without a push.
   dynamics::RootPush Push() const;
 
