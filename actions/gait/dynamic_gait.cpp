@@ -169,14 +169,25 @@ double Reach(const NominalStance& stance) {
   return reach;
 }
 
-/// Pairs of links that are close to each other while the robot stands.
-std::vector<models::Proximity> NominalProximities(const models::RobotModel& robot,
-                                                  const NominalStance& stance) {
+/// Pairs of links that are close to each other at q.
+std::vector<models::Proximity> CloseLinks(const models::RobotModel& robot,
+                                          const Eigen::VectorXd& q) {
   const models::Environment nothing;
   dynamics::TreeKinematics kinematics(robot);
-  kinematics.SetPosition(stance.q);
+  kinematics.SetPosition(q);
   return models::CollisionChecker(robot, nothing)
       .SelfProximities(kinematics.X_WL(), 2 * kSelfClearance);
+}
+
+/// m: least distance of two links in motion.
+double RequiredClearance(const std::vector<models::Proximity>& close_at_rest,
+                         const models::Proximity& pair, double clearance) {
+  for (const models::Proximity& close : close_at_rest) {
+    if (close.link == pair.link && close.other == pair.other) {
+      clearance = std::min(clearance, kNominalShare * close.distance);
+    }
+  }
+  return clearance;
 }
 
 std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
@@ -194,7 +205,6 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
       quasi_static_(robot, stance),
       groups_(SwingGroups(stance)),
       reach_(Reach(stance)),
-      nominal_proximities_(NominalProximities(robot, stance)),
       paces_(std::move(paces)) {}
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
@@ -222,8 +232,9 @@ bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
   settings.knot_spacing = kKnotSpacing;
   settings.minimum_intervals = kLeastIntervals;
   try {
-    const std::vector<Phase> motion = MotionAt(pace, Repeated(step, kFitSteps), settings, false);
-    RequireSelfClearance(motion, kSelfClearance + kFitClearance);
+    const Demands demands = DemandsOf(settings, {});
+    const std::vector<Phase> motion = MotionAt(pace, Repeated(step, kFitSteps), demands, false, {});
+    RequireSelfClearance(motion, demands, kSelfClearance + kFitClearance);
     return true;
   } catch (const MotionError&) {
     return false;
@@ -253,13 +264,30 @@ std::optional<Pace> DynamicGait::Fitted(Pace pace) const {
   return pace;
 }
 
+DynamicGait::Demands DynamicGait::DemandsOf(const MotionSettings& settings,
+                                            const FlowEnd& end) const {
+  Demands demands{settings, end, CloseLinks(*robot_, stance_->q)};
+  if (end.joints.size() == 0) return demands;
+  Eigen::VectorXd q = stance_->q;
+  q.tail(robot_->num_joints()) = end.joints;
+  const std::vector<models::Proximity> close = CloseLinks(*robot_, q);
+  demands.close_at_rest.insert(demands.close_at_rest.end(), close.begin(), close.end());
+  return demands;
+}
+
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                                          const MotionSettings& settings, bool adapts,
+                                         const CancellationToken& cancellation) const {
+  return MotionAt(pace, strides, DemandsOf(settings, {}), adapts, cancellation);
+}
+
+std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
+                                         const Demands& demands, bool adapts,
                                          const CancellationToken& cancellation) const {
   std::vector<Step> steps = StepsAlong(*stance_, groups_, strides, pace.bounds);
   while (true) {
     try {
-      return MotionOf(pace, strides.front(), steps, settings, cancellation);
+      return MotionOf(pace, strides.front(), steps, demands, cancellation);
     } catch (const MotionError& error) {
       if (!adapts || !SlowDown(error.phase(), strides.front(), &steps)) throw;
     }
@@ -267,36 +295,29 @@ std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<Pla
 }
 
 std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& start,
-                                         const std::vector<Step>& steps,
-                                         const MotionSettings& settings,
+                                         const std::vector<Step>& steps, const Demands& demands,
                                          const CancellationToken& cancellation) const {
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
   pattern.rise = pace.rise;
   pattern.rise_time = pace.timing.start;
+  pattern.end_joints = demands.end.joints;
+  pattern.turning_time = demands.end.turning_time;
   const ContactSchedule schedule =
       ScheduleOf(*robot_, *stance_, groups_, start, steps, pace.timing);
   Eigen::VectorXd guess = stance_->q;
   guess.segment<2>(4) = start.position();
   std::vector<Phase> motion =
-      MotionBuilder(*robot_, settings)
+      MotionBuilder(*robot_, demands.settings)
           .Build(PatternPhases(*robot_, *stance_, schedule, pattern, cancellation), guess,
                  cancellation);
-  RequireSelfClearance(motion, kLeastClearance);
+  RequireSelfClearance(motion, demands, kLeastClearance);
   return motion;
 }
 
-double DynamicGait::RequiredClearance(const models::Proximity& pair, double clearance) const {
-  const auto nominal = std::find_if(nominal_proximities_.begin(), nominal_proximities_.end(),
-                                    [&](const models::Proximity& near) {
-                                      return near.link == pair.link && near.other == pair.other;
-                                    });
-  if (nominal == nominal_proximities_.end()) return clearance;
-  return std::min(clearance, kNominalShare * nominal->distance);
-}
-
-void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double clearance) const {
+void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands,
+                                       double clearance) const {
   const models::Environment nothing;
   models::CollisionChecker checker(*robot_, nothing);
   dynamics::TreeKinematics kinematics(*robot_);
@@ -304,7 +325,7 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double 
     for (const Knot& knot : phase.knots) {
       kinematics.SetPosition(knot.q);
       for (const models::Proximity& pair : checker.SelfProximities(kinematics.X_WL(), clearance)) {
-        const double required = RequiredClearance(pair, clearance);
+        const double required = RequiredClearance(demands.close_at_rest, pair, clearance);
         if (pair.distance >= required) continue;
         throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
                                       robot_->links[pair.link].name, pair.distance,
@@ -314,20 +335,22 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, double 
   }
 }
 
-std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, double knot_spacing,
+std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, const FlowEnd& end,
+                                     double knot_spacing,
                                      const CancellationToken& cancellation) const {
   MotionSettings settings;
   settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
   settings.minimum_intervals = kLeastIntervals;
+  const Demands demands = DemandsOf(settings, end);
   std::string fault = "no pace fits";
   std::vector<Phase> reserve;
   for (const Pace& pace : paces_) {
     for (const double share : kShorter) {
       try {
         std::vector<Phase> motion =
-            MotionAt(Shortened(pace, share), strides, settings, true, cancellation);
+            MotionAt(Shortened(pace, share), strides, demands, true, cancellation);
         if (reserve.empty()) reserve = motion;
-        RequireSelfClearance(motion, kSelfClearance);
+        RequireSelfClearance(motion, demands, kSelfClearance);
         return motion;
       } catch (const MotionError& error) {
         fault = error.what();
@@ -341,7 +364,7 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, dou
 std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                                        const CancellationToken& cancellation) const {
   try {
-    return Flow(strides, knot_spacing, cancellation);
+    return Flow(strides, {}, knot_spacing, cancellation);
   } catch (const MotionError&) {
     return quasi_static_.Motion(strides, knot_spacing, cancellation);
   }

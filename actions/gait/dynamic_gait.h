@@ -28,7 +28,8 @@ class DynamicGait final : public GaitMotion {
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                             const CancellationToken& cancellation) const override;
   bool Flows() const override { return !paces_.empty(); }
-  std::vector<Phase> Flow(const std::vector<PlanarPose>& strides, double knot_spacing,
+  std::vector<Phase> Flow(const std::vector<PlanarPose>& strides, const FlowEnd& end,
+                          double knot_spacing,
                           const CancellationToken& cancellation) const override;
   std::vector<std::vector<Phase>> Variants(const std::vector<PlanarPose>& strides,
                                            double knot_spacing,
@@ -49,25 +50,34 @@ class DynamicGait final : public GaitMotion {
                               const CancellationToken& cancellation = {}) const;
 
  private:
+  /// What a motion must keep, besides its pace.
+  struct Demands {
+    MotionSettings settings;
+    FlowEnd end;
+    /// Pairs of links that are close to each other at rest may stay close.
+    std::vector<models::Proximity> close_at_rest;
+  };
+  Demands DemandsOf(const MotionSettings& settings, const FlowEnd& end) const;
+  std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
+                              const Demands& demands, bool adapts,
+                              const CancellationToken& cancellation) const;
   std::vector<Phase> MotionOf(const Pace& pace, const PlanarPose& start,
-                              const std::vector<Step>& steps, const MotionSettings& settings,
+                              const std::vector<Step>& steps, const Demands& demands,
                               const CancellationToken& cancellation) const;
   std::vector<Pace> FittedPaces() const;
   /// Whether the robot can repeat a step at this pace, with margins.
   bool Fits(const Pace& pace, const PlanarPose& step) const;
   /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
   std::optional<Pace> Fitted(Pace pace) const;
-  /// m: least distance of two links in motion. Links that are close in the stance may stay close.
-  double RequiredClearance(const models::Proximity& pair, double clearance) const;
-  /// @throws MotionError naming two links that come closer.
-  void RequireSelfClearance(const std::vector<Phase>& motion, double clearance) const;
+  /// @throws MotionError naming two links that come closer than `clearance`, m.
+  void RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands,
+                            double clearance) const;
 
   const models::RobotModel* robot_;
   const NominalStance* stance_;
   QuasiStaticGait quasi_static_;
   std::vector<std::vector<int>> groups_;
   double reach_ = 0;  ///< m: of the farthest limb from the stance's origin, seen from above
-  std::vector<models::Proximity> nominal_proximities_;
   std::vector<Pace> paces_;
 };
 

@@ -16,6 +16,14 @@
 
 namespace possibility::actions {
 
+/// How a flow ends at rest, if not in the nominal stance: so that a manoeuvre can follow without a
+/// pause.
+struct FlowEnd {
+  /// num_joints; those of limbs as in the nominal stance. Empty: that stance.
+  Eigen::VectorXd joints;
+  double turning_time = 1;  ///< s before the end, in which the joints turn; less in a shorter flow
+};
+
 /// How a gait executes strides: what distinguishes two gaits of one nominal stance. Immutable, used
 /// from several threads at once.
 class GaitMotion {
@@ -34,9 +42,9 @@ class GaitMotion {
   virtual bool Flows() const { return false; }
 
   /// Motion along several straight ways, end to end, without a rest where they meet. `strides`: of
-  /// PlanStrides for each way, their common stances once. Otherwise as Motion.
+  /// PlanStrides for each way, their common stances once. `end`: how it ends. Otherwise as Motion.
   virtual std::vector<Phase> Flow(const std::vector<PlanarPose>& /*strides*/,
-                                  double /*knot_spacing*/,
+                                  const FlowEnd& /*end*/, double /*knot_spacing*/,
                                   const CancellationToken& /*cancellation*/) const {
     throw MotionError("the gait rests where straight ways meet");
   }

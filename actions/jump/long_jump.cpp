@@ -22,6 +22,12 @@ constexpr double kSameHeading = 1e-6;
 constexpr double kRiseSpacing = 0.05;
 constexpr double kArcSpacing = 0.05;
 
+/// Ground that the bearing points at both ends of a jump keep around them where the robot's reach
+/// allows, m; how far and how finely ends are moved for that, m.
+constexpr double kWideEnds = 0.05;
+constexpr double kFarthestMove = 0.2;
+constexpr int kMoves = 20;
+
 /// Ground that extends this far to all sides is wide enough for every stance, m. Narrower ground is
 /// tested in detail.
 constexpr double kWideGround = 0.4;
@@ -71,6 +77,7 @@ class LongJump::Job : public graph::ConfirmationJob {
         FirstHit(*action_.model().robot, *action_.world().environment, *action_.checker(),
                  *solved.poses, leap_.launch.pose.At(leap_.launch.z), control->token());
     if (!control->Checkpoint()) return graph::JobVerdict::kUndecided;
+    if (!hit.empty()) action_.RecordRefuted(leap_);
     return Decide(hit.empty(), hit);
   }
 
@@ -161,6 +168,12 @@ bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& la
 
 std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
                                                  bool forward) const {
+  const std::optional<GroundedStance> wide = OtherEnd(stance, distance, forward, kWideEnds);
+  return wide ? wide : OtherEnd(stance, distance, forward, 0);
+}
+
+std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
+                                                 bool forward, double clearance) const {
   std::optional<GroundedStance> best;
   double longest = 0;
   for (const double level : world().ground->levels()) {
@@ -173,7 +186,7 @@ std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, d
       if (d < reach->first - kSamePose || d <= longest) break;
       const GroundedStance end{forward ? to() : from(),
                                stance.pose * PlanarPose{forward ? d : -d, 0, 0}, level};
-      if (!(forward ? landing_gait() : launch_gait()).GroundHolds(end, 0) ||
+      if (!(forward ? landing_gait() : launch_gait()).GroundHolds(end, clearance) ||
           IsImpossible(JumpLibrary::OnGrid({d, height}))) {
         continue;
       }
@@ -221,8 +234,72 @@ std::optional<graph::Point> LongJump::LinedUp(const graph::Point& v, const Vecto
   // Algorithm 4 asks this for every vertex, so the cheapest test comes first.
   const std::optional<GroundedStance> other = OtherEnd(*stance, way.norm(), launches);
   if (!other) return std::nullopt;
-  if (launches ? IsNeedless(*stance, *other) : IsNeedless(*other, *stance)) return std::nullopt;
+  const GroundedStance& launch = launches ? *stance : *other;
+  const GroundedStance& landing = launches ? *other : *stance;
+  if (IsNeedless(launch, landing)) return std::nullopt;
+  if (const std::optional<Leap> leap = AsLeap({PointOf(launch), PointOf(landing)})) {
+    if (const std::optional<Leap> wide = Widened(*leap)) {
+      const GroundedStance& moved = launches ? wide->launch : wide->landing;
+      if ((moved.pose.position() - stance->pose.position()).norm() > kSamePose) {
+        return PointOf(moved);
+      }
+    }
+  }
   return is_lined_up ? v : PointOf(*stance);
+}
+
+std::optional<LongJump::Leap> LongJump::Widened(const Leap& leap) const {
+  if (launch_gait().GroundHolds(leap.launch, kWideEnds) &&
+      landing_gait().GroundHolds(leap.landing, kWideEnds)) {
+    return std::nullopt;
+  }
+  const auto steps = static_cast<int>(2 * kFarthestMove / JumpLibrary::kDistanceStep);
+  for (int i = 0; i <= 2 * steps; ++i) {
+    // Similar distances first, longer before shorter ones.
+    const double change = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2) * JumpLibrary::kDistanceStep;
+    const JumpTask task = JumpLibrary::OnGrid({leap.task.distance + change, leap.task.height});
+    if (!reach_.Allows(task) || IsImpossible(task)) continue;
+    if (std::optional<Leap> wide = WidenedTo(leap, task)) return wide;
+  }
+  return std::nullopt;
+}
+
+bool LongJump::LandingsConnect(const GroundedStance& from, const GroundedStance& to) const {
+  if (landing_gait().CS(from, to)) return true;
+  if (transition_ == nullptr) return false;
+  const auto standing = [this](GroundedStance landing) {
+    landing.gait = this->from();
+    landing.pose = landing.pose * transition_->displacement.Inverse();
+    return landing;
+  };
+  const GroundedStance stand = standing(from);
+  return landing_gait().CS(graph::Edge{PointOf(from), PointOf(stand)}) &&
+         launch_gait().CS(stand, standing(to));
+}
+
+/// The middle of the first run of moves that are wide enough.
+std::optional<LongJump::Leap> LongJump::WidenedTo(const Leap& leap, const JumpTask& task) const {
+  const auto moved = [&](int move) {
+    Leap wide = leap;
+    wide.task = task;
+    wide.launch.pose = leap.launch.pose * PlanarPose{move * kFarthestMove / kMoves, 0, 0};
+    wide.landing.pose = wide.launch.pose * PlanarPose{wide.task.distance, 0, 0};
+    return wide;
+  };
+  const auto serves = [&](const Leap& wide) {
+    return launch_gait().GroundHolds(wide.launch, kWideEnds) &&
+           landing_gait().GroundHolds(wide.landing, kWideEnds) && !IsRefuted(wide) &&
+           launch_gait().CS(leap.launch, wide.launch) &&
+           LandingsConnect(wide.landing, leap.landing);
+  };
+  int first = -kMoves;
+  while (first <= kMoves && !serves(moved(first))) ++first;
+  if (first > kMoves) return std::nullopt;
+  int last = first;
+  while (last < kMoves && serves(moved(last + 1))) ++last;
+  Leap wide = moved((first + last) / 2);
+  if (!SomeParabolaIsFree({PointOf(wide.launch), PointOf(wide.landing)})) return std::nullopt;
+  return wide;
 }
 
 std::optional<LongJump::Leap> LongJump::AsLeap(const graph::Edge& edge) const {
@@ -270,7 +347,7 @@ bool LongJump::ParabolaIsFree(const graph::Edge& edge, double rise) const {
 bool LongJump::Explorable(const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
   if (!leap || IsImpossible(leap->task) || IsNeedless(leap->launch, leap->landing)) return false;
-  return Manoeuvre::Explorable(edge);
+  return Manoeuvre::Explorable(edge) && !Widened(*leap);
 }
 
 double LongJump::ExpectedDuration(const graph::Edge& edge) const {
@@ -317,6 +394,21 @@ bool LongJump::ReplaceGuesses(const CancellationToken& cancellation) {
 
 void LongJump::RefuteEverywhere(const graph::Edge& edge) {
   if (const std::optional<Leap> leap = AsLeap(edge)) RecordImpossible(leap->task);
+}
+
+void LongJump::RecordRefuted(const Leap& leap) const {
+  const std::lock_guard lock(mutex_);
+  refuted_.push_back(leap);
+}
+
+bool LongJump::IsRefuted(const Leap& leap) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(refuted_.begin(), refuted_.end(), [&](const Leap& other) {
+    return SameTask(leap.task, other.task) &&
+           std::abs(leap.launch.z - other.launch.z) < kSamePose &&
+           (leap.launch.pose.position() - other.launch.pose.position()).norm() < kSamePose &&
+           std::abs(WrapAngle(leap.launch.pose.yaw - other.launch.pose.yaw)) < kSameHeading;
+  });
 }
 
 void LongJump::RecordImpossible(const JumpTask& task) const {

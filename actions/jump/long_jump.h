@@ -43,8 +43,8 @@ class LongJump : public Manoeuvre {
   using Manoeuvre::CN;
   using Manoeuvre::Explorable;
   bool CN(const graph::Edge& edge) const override;
-  /// C_N, unless such a jump is known to be impossible anywhere or the gaits can go straight on
-  /// without a jump.
+  /// C_N, unless such a jump is known to be impossible anywhere, the gaits can go straight on
+  /// without a jump, or a jump beside it keeps farther from the edges of the ground.
   bool Explorable(const graph::Edge& edge) const override;
 
   double ExpectedDuration(const graph::Edge& edge) const override;
@@ -74,17 +74,30 @@ class LongJump : public Manoeuvre {
   };
   std::optional<Leap> AsLeap(const graph::Edge& edge) const;
   /// The other end of the longest jump from `stance`, of at most `distance` (m), that has ground to
-  /// bear on there: forward from a launch, or backward from a landing.
+  /// bear on there, wide ground (kWideEnds) if there is any: forward from a launch, or backward
+  /// from a landing.
   std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
                                          bool forward) const;
-  /// The stance at v (a launch or a landing) turned along `way` (m); none unless a jump of at most
-  /// that length connects there and is not needless.
+  /// The longest such jump with ground `clearance` (m) around the bearing points there.
+  std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
+                                         bool forward, double clearance) const;
+  /// The stance at v (a launch or a landing) turned along `way` (m), and moved along it if that
+  /// widens the ground at the jump's ends; none unless a jump of at most that length connects there
+  /// and is not needless.
   std::optional<graph::Point> LinedUp(const graph::Point& v, const Eigen::Vector2d& way,
                                       bool launches) const;
   /// Whether C_S allows walking straight on from the launch and changing gait into the landing, or
   /// in the opposite order. Such a jump leads nowhere new, and Algorithm 4 would make one from
   /// every new landing.
   bool IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const;
+  /// A jump with wide ground at both ends (kWideEnds) over the same gap as a jump without. The
+  /// launch gait goes straight from one launch to the other, and LandingsConnect. None if the jump
+  /// has wide ground itself, or nothing is better.
+  std::optional<Leap> Widened(const Leap& leap) const;
+  /// Whether the robot gets from one landing straight to the other, or stands up and walks straight
+  /// to where it would stand up from the other.
+  bool LandingsConnect(const GroundedStance& from, const GroundedStance& to) const;
+  std::optional<Leap> WidenedTo(const Leap& leap, const JumpTask& task) const;
   bool GroundIsWide(const GroundedStance& launch, double begin, double end) const;
   /// Sufficient: the straight way on from `launch`, `distance` (m) long, is free all around and on
   /// wide ground.
@@ -92,6 +105,8 @@ class LongJump : public Manoeuvre {
   bool SomeParabolaIsFree(const graph::Edge& edge) const;
   bool ParabolaIsFree(const graph::Edge& edge, double rise) const;
 
+  void RecordRefuted(const Leap& leap) const;
+  bool IsRefuted(const Leap& leap) const;
   void RecordImpossible(const JumpTask& task) const;
   bool IsImpossible(const JumpTask& task) const;
   /// A solved jump, its poses, and what it hits even on bare ground; empty if nothing.
@@ -115,6 +130,7 @@ class LongJump : public Manoeuvre {
   /// Results of jobs; everything below is guarded by mutex_.
   mutable std::mutex mutex_;
   mutable std::vector<JumpTask> impossible_;
+  mutable std::vector<Leap> refuted_;  ///< at their places
   mutable std::vector<Solved> solved_;
   mutable std::vector<std::shared_ptr<SharedJumpSolve>> solves_;
 };

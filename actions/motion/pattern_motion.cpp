@@ -69,6 +69,8 @@ class Pattern {
       : robot_(robot), stance_(stance), schedule_(schedule), settings_(settings) {
     RequireSchedule(robot_, stance_, schedule_);
     ground_ = schedule_.intervals.front().bearing.front()->translation().z();
+    if (settings_.end_joints.size() == 0)
+      settings_.end_joints = stance_.q.tail(robot_.num_joints());
     LayOutIntervals();
     LayOutZmp();
     const auto steps = static_cast<int>(std::ceil(schedule_.duration() / settings_.grid));
@@ -108,7 +110,7 @@ class Pattern {
     task.root_pitch = Constant(stance_.gait->posture.root_pitch);
     task.root_height = RootHeight(interval.start + t);
     task.centre_of_mass = CentreOfMass(interval.start + t);
-    task.joints = ConstantVector<VectorXd>(stance_.q.tail(robot_.num_joints()));
+    task.joints = Joints(interval.start + t);
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
       task.limbs.push_back(TaskOf(k, static_cast<int>(limb), t));
     }
@@ -157,14 +159,26 @@ class Pattern {
     }
   }
 
-  /// The centre of mass at rest over the limbs that bear in interval `k`.
-  Vector2d Balanced(int k) const {
+  /// The centre of mass, in the stance frame, when the robot rests at the end.
+  Vector2d CentreOfMassAtEnd() const {
+    VectorXd q = stance_.q;
+    q.tail(robot_.num_joints()) = settings_.end_joints;
+    dynamics::TreeKinematics kinematics(robot_);
+    kinematics.SetPosition(q);
+    return kinematics.CentreOfMass().head<2>();
+  }
+
+  Vector2d Balanced(int k) const { return Balanced(k, stance_.centre_of_mass); }
+
+  /// The centre of mass at rest over the limbs that bear in interval `k`. `centre`: of mass, in the
+  /// stance frame.
+  Vector2d Balanced(int k, const Vector2d& centre) const {
     Vector2d sum = Vector2d::Zero();
     int count = 0;
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
       const auto& bearing = schedule_.intervals[k].bearing[limb];
       if (!bearing) continue;
-      sum += StanceOf(static_cast<int>(limb), *bearing) * stance_.centre_of_mass;
+      sum += StanceOf(static_cast<int>(limb), *bearing) * centre;
       ++count;
     }
     return sum / count;
@@ -194,7 +208,7 @@ class Pattern {
         continue;
       }
       interval.zmp_from = k == 0 ? Balanced(k) : SupportedZmp(k - 1);
-      interval.zmp_to = k == last ? Balanced(k) : SupportedZmp(k + 1);
+      interval.zmp_to = k == last ? Balanced(k, CentreOfMassAtEnd()) : SupportedZmp(k + 1);
     }
   }
 
@@ -240,6 +254,15 @@ class Pattern {
     if (t < time) return Blend(stand, stand + settings_.rise, RestToRest(t, time));
     if (left >= time) return Constant(stand + settings_.rise);
     return Blend(stand + settings_.rise, stand, RestToRest(time - left, time));
+  }
+
+  /// The joints of limbs do not matter: their tasks determine them.
+  Signal<VectorXd> Joints(double t) const {
+    const VectorXd nominal = stance_.q.tail(robot_.num_joints());
+    const double time = std::min(settings_.turning_time, schedule_.duration());
+    const double turning = std::min(time, t - (schedule_.duration() - time));
+    if (turning <= 0) return ConstantVector<VectorXd>(nominal);
+    return BlendVector<VectorXd>(nominal, settings_.end_joints, RestToRest(turning, time));
   }
 
   double CentreOfMassHeight() const {

@@ -16,6 +16,11 @@ using Eigen::Vector3d;
 /// Radius that makes a length of a heading, m.
 constexpr double kHeadingRadius = 0.3;
 
+/// A phase only turns joints if the root and limbs move less, m and rad, and it ends at rest, in SI
+/// units.
+constexpr double kUnmoved = 1e-6;
+constexpr double kAtRest = 1e-6;
+
 /// Heights of one run differ by less, m.
 constexpr double kSameHeight = 1e-9;
 
@@ -93,10 +98,10 @@ int RunLength(const LocomotionModel& model, const Route& route, int first) {
 }
 
 std::vector<std::vector<Phase>> FlowAlong(const LocomotionModel& model, const Route& route,
-                                          int first, int count,
+                                          int first, int count, const FlowEnd& end,
                                           const CancellationToken& cancellation) {
   std::vector<Phase> motion = model.gaits[route[first].gait]->motion->Flow(
-      StridesOf(model, route, first, count), MotionSettings().knot_spacing, cancellation);
+      StridesOf(model, route, first, count), end, MotionSettings().knot_spacing, cancellation);
   const Vector3d place(route[first].from.x, route[first].from.y, route[first].z);
   std::vector<std::vector<Phase>> legs(count);
   int phase = 0;
@@ -110,6 +115,29 @@ std::vector<std::vector<Phase>> FlowAlong(const LocomotionModel& model, const Ro
     ShiftTime(-start, &legs[leg++]);
   }
   return legs;
+}
+
+std::optional<FlowEnd> EndReadyFor(const NominalStance& stance,
+                                   const std::vector<Phase>& manoeuvre) {
+  if (manoeuvre.size() < 2 || manoeuvre[1].impulses.cols() > 0) return std::nullopt;
+  const Phase& phase = manoeuvre.front();
+  const Knot& first = phase.knots.front();
+  const Knot& last = phase.knots.back();
+  const auto rests = [](const Knot& knot) {
+    return knot.v.lpNorm<Eigen::Infinity>() < kAtRest && knot.a.lpNorm<Eigen::Infinity>() < kAtRest;
+  };
+  if (!rests(first) || !rests(last)) return std::nullopt;
+  if ((last.q - first.q).head<7>().lpNorm<Eigen::Infinity>() > kUnmoved) return std::nullopt;
+  const Eigen::Index joints = last.q.size() - 7;
+  FlowEnd end{last.q.tail(joints), last.t - first.t};
+  for (const models::GaitLimb& limb : stance.gait->limbs) {
+    for (const int joint : limb.joints) {
+      double& position = end.joints[joint];
+      if (std::abs(position - stance.q[7 + joint]) > kUnmoved) return std::nullopt;
+      position = stance.q[7 + joint];
+    }
+  }
+  return end;
 }
 
 }  // namespace possibility::actions

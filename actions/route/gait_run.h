@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "actions/gait/gait_motion.h"
 #include "actions/plan/plan.h"
 #include "actions/route/route.h"
 #include "common/cancellation_token.h"
@@ -13,10 +15,16 @@ namespace possibility::actions {
 int RunLength(const LocomotionModel& model, const Route& route, int first);
 
 /// One motion through `count` legs of a run, cut where it passes their ends: the phases of every
-/// leg, times from 0. The robot rests where the run begins and ends only.
+/// leg, times from 0. The robot rests where the run begins and ends only. `end`: how it ends.
 /// @throws MotionError if there is none; Cancelled.
 std::vector<std::vector<Phase>> FlowAlong(const LocomotionModel& model, const Route& route,
-                                          int first, int count,
+                                          int first, int count, const FlowEnd& end,
                                           const CancellationToken& cancellation);
+
+/// How a run that leads to a manoeuvre may end so that the first phase of the manoeuvre's motion
+/// can be left out: that phase must do nothing but turn joints of no limb of the gait, from rest to
+/// rest. None otherwise.
+std::optional<FlowEnd> EndReadyFor(const NominalStance& stance,
+                                   const std::vector<Phase>& manoeuvre);
 
 }  // namespace possibility::actions

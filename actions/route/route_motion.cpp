@@ -67,17 +67,18 @@ std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg
   return leg.backwards ? Reversed(phases) : phases;
 }
 
-/// @throws MotionError unless the robot is at rest in the stance at this knot.
+/// @throws MotionError unless the robot is at rest in the stance at this knot. `joints`: in place
+/// of the stance's unless empty.
 void RequireStance(const LocomotionModel& model, int gait, const PlanarPose& pose, double z,
-                   const Knot& knot, const char* where) {
+                   const Knot& knot, const char* where, const Eigen::VectorXd& joints = {}) {
   const NominalStance& stance = model.gaits[gait]->stance;
   const Eigen::Isometry3d X_WR = stance.RootPose(pose, z);
-  const auto joints = model.robot->num_joints();
+  const auto n = model.robot->num_joints();
+  const Eigen::VectorXd posture = joints.size() > 0 ? joints : stance.q.tail(n).eval();
   const Eigen::Quaterniond turn(knot.q[0], knot.q[1], knot.q[2], knot.q[3]);
-  const double off =
-      std::max({(knot.q.segment<3>(4) - X_WR.translation()).norm(),
-                turn.angularDistance(Eigen::Quaterniond(X_WR.linear())),
-                (knot.q.tail(joints) - stance.q.tail(joints)).lpNorm<Eigen::Infinity>()});
+  const double off = std::max({(knot.q.segment<3>(4) - X_WR.translation()).norm(),
+                               turn.angularDistance(Eigen::Quaterniond(X_WR.linear())),
+                               (knot.q.tail(n) - posture).lpNorm<Eigen::Infinity>()});
   if (!(off < kContinuity)) {
     throw MotionError(fmt::format("the motion {} {:.2g} (m or rad) off the stance of '{}'", where,
                                   off, stance.gait->name));
@@ -124,14 +125,15 @@ struct RunContext {
 };
 
 /// @throws MotionError unless the robot begins and ends in the route's stances and hits nothing.
-void RequireFreeRun(const RunContext& context, int first,
+void RequireFreeRun(const RunContext& context, int first, const FlowEnd& end,
                     const std::vector<std::vector<Phase>>& legs,
                     const CancellationToken& cancellation) {
   const RouteLeg& from = context.route[first];
   const RouteLeg& to = context.route[first + legs.size() - 1];
   RequireStance(context.model, from.gait, from.from, from.z, legs.front().front().knots.front(),
                 "begins");
-  RequireStance(context.model, to.gait, to.to, to.z_to, legs.back().back().knots.back(), "ends");
+  RequireStance(context.model, to.gait, to.to, to.z_to, legs.back().back().knots.back(), "ends",
+                end.joints);
   const models::RobotModel& robot = *context.model.robot;
   const models::CollisionChecker checker(robot, context.environment);
   for (const std::vector<Phase>& leg : legs) {
@@ -142,31 +144,78 @@ void RequireFreeRun(const RunContext& context, int first,
   }
 }
 
-/// Motions of `count` legs from `first` on, times of each from 0: one flow if there is one, else
-/// that of each half.
-void GenerateRun(const RunContext& context, int first, int count,
-                 const CancellationToken& cancellation, std::vector<std::vector<Phase>>* motions) {
-  if (count == 1) {
-    try {
-      (*motions)[first] = GenerateLeg(context.model, context.route[first], cancellation);
-    } catch (const MotionError& error) {
-      throw LegError(first, error.what());
-    }
-    return;
-  }
+std::vector<Phase> MotionOfLeg(const RunContext& context, int leg,
+                               const CancellationToken& cancellation) {
   try {
-    std::vector<std::vector<Phase>> legs =
-        FlowAlong(context.model, context.route, first, count, cancellation);
-    RequireFreeRun(context, first, legs, cancellation);
-    std::move(legs.begin(), legs.end(), motions->begin() + first);
-    return;
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const std::exception&) {
-    // The robot rests where the halves meet.
+    return GenerateLeg(context.model, context.route[leg], cancellation);
+  } catch (const MotionError& error) {
+    throw LegError(leg, error.what());
   }
-  GenerateRun(context, first, count / 2, cancellation, motions);
-  GenerateRun(context, first + count / 2, count - count / 2, cancellation, motions);
+}
+
+/// Motions of `count` legs from `first` on, times of each from 0: one flow if there is one, else
+/// that of each half. Returns whether the last leg ends like `end`; otherwise in its stance.
+bool GenerateRun(const RunContext& context, int first, int count, const FlowEnd& end,
+                 const CancellationToken& cancellation, std::vector<std::vector<Phase>>* motions) {
+  if (count > 1 || end.joints.size() > 0) {
+    try {
+      std::vector<std::vector<Phase>> legs =
+          FlowAlong(context.model, context.route, first, count, end, cancellation);
+      RequireFreeRun(context, first, end, legs, cancellation);
+      std::move(legs.begin(), legs.end(), motions->begin() + first);
+      return true;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::exception&) {
+      // The robot rests where the halves meet.
+    }
+  }
+  if (count == 1) {
+    (*motions)[first] = MotionOfLeg(context, first, cancellation);
+    return false;
+  }
+  GenerateRun(context, first, count / 2, {}, cancellation, motions);
+  return GenerateRun(context, first + count / 2, count - count / 2, end, cancellation, motions);
+}
+
+/// A run of legs, or a run and the manoeuvre that it leads to.
+struct Run {
+  int first = 0;
+  int count = 1;  ///< of legs, without the manoeuvre
+  bool has_manoeuvre = false;
+  std::optional<LegError> error;
+
+  int length() const { return count + (has_manoeuvre ? 1 : 0); }
+};
+
+Run RunFrom(const RunContext& context, int first) {
+  Run run;
+  run.first = first;
+  run.count = RunLength(context.model, context.route, first);
+  const RouteLeg& leg = context.route[first];
+  const int next = first + run.count;
+  run.has_manoeuvre = leg.manoeuvre == nullptr && leg.transition < 0 &&
+                      context.model.gaits[leg.gait]->motion->Flows() &&
+                      next < static_cast<int>(context.route.size()) &&
+                      context.route[next].manoeuvre != nullptr;
+  return run;
+}
+
+/// The robot prepares for a manoeuvre on the way to it, if it can.
+void GenerateWithManoeuvre(const RunContext& context, const Run& run,
+                           const CancellationToken& cancellation,
+                           std::vector<std::vector<Phase>>* motions) {
+  const int manoeuvre = run.first + run.count;
+  std::vector<Phase> motion = MotionOfLeg(context, manoeuvre, cancellation);
+  const NominalStance& stance = context.model.gaits[context.route[run.first].gait]->stance;
+  const std::optional<FlowEnd> ready = EndReadyFor(stance, motion);
+  const bool is_ready =
+      GenerateRun(context, run.first, run.count, ready.value_or(FlowEnd()), cancellation, motions);
+  if (ready && is_ready) {
+    motion.erase(motion.begin());
+    ShiftTime(-motion.front().knots.front().t, &motion);
+  }
+  (*motions)[manoeuvre] = std::move(motion);
 }
 
 /// Distributes runs of legs to workers; the first failure in route order wins.
@@ -178,8 +227,8 @@ class RunQueue {
         cancellation_(cancellation),
         progress_(progress),
         motions_(context.route.size()) {
-    for (int leg = 0; leg < static_cast<int>(context.route.size()); leg += runs_.back().count) {
-      runs_.push_back({leg, RunLength(context.model, context.route, leg), std::nullopt});
+    for (int leg = 0; leg < static_cast<int>(context.route.size()); leg += runs_.back().length()) {
+      runs_.push_back(RunFrom(context_, leg));
     }
   }
 
@@ -188,13 +237,17 @@ class RunQueue {
     for (size_t i = next_++; i < runs_.size() && !cancelled_; i = next_++) {
       Run& run = runs_[i];
       try {
-        GenerateRun(context_, run.first, run.count, own, &motions_);
+        if (run.has_manoeuvre) {
+          GenerateWithManoeuvre(context_, run, own, &motions_);
+        } else {
+          GenerateRun(context_, run.first, run.count, {}, own, &motions_);
+        }
       } catch (const LegError& error) {
         run.error = error;
       } catch (const Cancelled&) {
         cancelled_ = true;
       }
-      done_ += run.count;
+      done_ += run.length();
     }
   }
 
@@ -207,12 +260,6 @@ class RunQueue {
   }
 
  private:
-  struct Run {
-    int first = 0;
-    int count = 1;
-    std::optional<LegError> error;
-  };
-
   /// Reports progress as often as a leg asks: legs may take long.
   bool Proceed() const {
     const double fraction = static_cast<double>(done_) / static_cast<double>(motions_.size());

@@ -99,7 +99,7 @@ constexpr double kGap = 0.3;
 
 TEST(LongJumpTest, NecessaryConditionsHoldAcrossAGap) {
   const JumpScene scene(TwoFloors(kGap));
-  const graph::Edge edge = JumpScene::Edge(-0.2, 0.75);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.8);
   EXPECT_TRUE(scene.jump().CN(edge));
   EXPECT_TRUE(scene.jump().Explorable(edge));
   EXPECT_FALSE(scene.jump().CS(edge)) << "nobody has confirmed it";
@@ -139,8 +139,11 @@ TEST(LongJumpTest, ExtensionsFaceTheTargetAndStayOnTheGrid) {
   const graph::Point target = JumpScene::At(0, 2, 0.3, 1);
   const auto launch = scene.jump().FindLaunchPoint(v, target);
   ASSERT_TRUE(launch.has_value());
-  EXPECT_LT((launch->head<3>() - v.head<3>()).norm(), 1e-9);
-  EXPECT_NEAR(Heading(ToPose(*launch).linear()), std::atan2(0.2, 2.2), 1e-9);
+  const double heading = std::atan2(0.2, 2.2);
+  const Eigen::Vector2d moved = (*launch - v).head<2>();
+  EXPECT_LE(moved.norm(), 0.2);
+  EXPECT_NEAR(moved.y() * std::cos(heading) - moved.x() * std::sin(heading), 0, 1e-9);
+  EXPECT_NEAR(Heading(ToPose(*launch).linear()), heading, 1e-9);
   const graph::Point landing = scene.jump().ExtendTowards(*launch, target);
   EXPECT_TRUE(scene.jump().CN(graph::Edge{*launch, landing}));
   const double distance = (landing - *launch).head<2>().norm();
@@ -156,6 +159,59 @@ TEST(LongJumpTest, ReverseExtensionsComeFromTheTarget) {
   ASSERT_TRUE(landing.has_value());
   const graph::Point launch = scene.jump().ReverseExtend(*landing, target);
   EXPECT_TRUE(scene.jump().CN(graph::Edge{launch, *landing}));
+}
+
+/// m: ground around the bearing points of both ends. Their places on the way are those of the gap's
+/// edges in TwoFloors.
+double Margin(const graph::Edge& edge, double gap) {
+  double margin = std::numeric_limits<double>::infinity();
+  for (const bool launches : {true, false}) {
+    const NominalStance& stance = JumpScene::Model().gaits[launches ? 0 : 1]->stance;
+    const double x = (launches ? edge.from : edge.to).x() - stance.X_SR.translation().x();
+    for (const auto& points : stance.bearing_points) {
+      for (const Eigen::Vector2d& p : points) {
+        margin = std::min(margin, launches ? -(x + p.x()) : x + p.x() - gap);
+      }
+    }
+  }
+  return margin;
+}
+
+TEST(LongJumpTest, EndsAreMovedAwayFromTheEdgesOfTheGround) {
+  const JumpScene scene(TwoFloors(kGap));
+  const graph::Point target = JumpScene::At(1, 1.5, 0, 0);
+  // From -0.21 m no jump on the grid of 0.05 m keeps 50 mm at both ends without a move.
+  for (const double x : {-0.145, -0.16, -0.18, -0.21, -0.25}) {
+    const auto launch = scene.jump().FindLaunchPoint(JumpScene::At(0, x, 0, 0), target);
+    ASSERT_TRUE(launch) << x;
+    const graph::Edge edge{*launch, scene.jump().ExtendTowards(*launch, target)};
+    EXPECT_GE(Margin(edge, kGap), 0.05 - 1e-9) << x;
+    EXPECT_TRUE(scene.jump().CN(edge)) << x;
+    EXPECT_TRUE(scene.jump().Explorable(edge)) << x;
+    EXPECT_EQ(scene.jump().FindLaunchPoint(*launch, target), *launch) << x;
+  }
+}
+
+TEST(LongJumpTest, AThinLandingIsExploredOnlyWhereReachAllowsNoWideOne) {
+  const graph::Edge thin = JumpScene::Edge(-0.16, 0.75);
+  EXPECT_LT(Margin(thin, kGap), 0.05);
+  const JumpScene scene(TwoFloors(kGap));
+  EXPECT_TRUE(scene.jump().CN(thin));
+  EXPECT_FALSE(scene.jump().Explorable(thin));
+  // A gap that leaves no room for 50 mm at both ends of the longest jump.
+  const double farthest = scene.jump().reach().Distances(0)->second;
+  const double shortest_ends = -Margin(JumpScene::Edge(0, 0), 0);
+  ASSERT_GT(shortest_ends, 0);
+  bool found = false;
+  for (double gap = kGap; gap < farthest; gap += 0.01) {
+    const JumpScene wide(TwoFloors(gap));
+    for (double x = -0.3; x < -0.1; x += 0.01) {
+      const graph::Edge edge = JumpScene::Edge(x, farthest);
+      if (!wide.jump().CN(edge) || Margin(edge, gap) > 0.02) continue;
+      found = found || wide.jump().Explorable(edge);
+    }
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST(LongJumpTest, FarFromTheGapNoLaunchIsFound) {
@@ -216,15 +272,15 @@ TEST(LongJumpTest, WithoutWorkersAJumpTakesTheSameNumberOfTurnsEveryTime) {
 
 TEST(LongJumpTest, AForbiddenJumpIsNeitherConfirmedNorExplored) {
   JumpScene scene(TwoFloors(kGap));
-  const graph::Edge edge = JumpScene::Edge(-0.2, 0.75);
-  const graph::Edge same_elsewhere = JumpScene::Edge(-0.21, 0.75);
+  const graph::Edge edge = JumpScene::Edge(-0.2, 0.8);
+  const graph::Edge same_elsewhere = JumpScene::Edge(-0.21, 0.8);
   scene.mutable_searched()->Forbid(edge, "a reason", false);
   EXPECT_FALSE(scene.searched().Explorable(edge));
   EXPECT_FALSE(scene.searched().CS(edge));
   EXPECT_TRUE(scene.searched().Explorable(same_elsewhere));
   scene.mutable_searched()->Forbid(edge, "a reason", true);
   EXPECT_FALSE(scene.searched().Explorable(same_elsewhere));
-  EXPECT_TRUE(scene.searched().Explorable(JumpScene::Edge(-0.2, 0.8)));
+  EXPECT_TRUE(scene.searched().Explorable(JumpScene::Edge(-0.2, 0.85)));
 }
 
 TEST(JumpReachTest, GuessesLieOnTheGrid) {

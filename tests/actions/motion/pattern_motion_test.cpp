@@ -52,6 +52,15 @@ class PatternMotionTest : public testing::TestWithParam<WayCase> {
     return PatternPhases(robot_, stance_, Schedule(), settings);
   }
 
+  /// The posture with its wrists turned, which walking does not use.
+  VectorXd TurnedWrists() const {
+    VectorXd joints = stance_.q.tail(robot_.num_joints());
+    for (const char* wrist : {"LWP", "RWP"}) {
+      joints[robot_.JointIndex(wrist)] -= 0.5;
+    }
+    return joints;
+  }
+
   VectorXd Guess() const {
     VectorXd q = stance_.q;
     q.segment<2>(4) = start_.position();
@@ -132,6 +141,32 @@ TEST_P(PatternMotionTest, BeginsAndEndsAtRestInTheNominalPosture) {
     EXPECT_LT((knot.q.tail(robot_.num_joints()) - stance_.q.tail(robot_.num_joints())).norm(),
               1e-6);
     EXPECT_LT(knot.v.norm(), 1e-6);
+  }
+}
+
+TEST_P(PatternMotionTest, EndsAtRestInTheStanceWithOtherJointsTurned) {
+  PatternSettings settings;
+  settings.rise = GetParam().rise;
+  settings.end_joints = TurnedWrists();
+  settings.turning_time = 0.8;
+  const std::vector<Phase> motion =
+      MotionBuilder(robot_).Build(PatternPhases(robot_, stance_, Schedule(), settings), Guess());
+  const Knot& first = motion.front().knots.front();
+  const Knot& last = motion.back().knots.back();
+  const Eigen::Isometry3d X_WR = stance_.RootPose(goal(), 0);
+  EXPECT_LT((first.q.tail(robot_.num_joints()) - stance_.q.tail(robot_.num_joints())).norm(), 1e-6);
+  EXPECT_LT((last.q.segment<3>(4) - X_WR.translation()).norm(), 1e-6);
+  EXPECT_LT((last.q.tail(robot_.num_joints()) - settings.end_joints).norm(), 1e-6);
+  EXPECT_LT(last.v.norm(), 1e-6);
+  EXPECT_LT(last.a.norm(), 1e-6);
+  for (const Phase& phase : motion) {
+    for (const Knot& knot : phase.knots) {
+      if (last.t - knot.t < settings.turning_time) continue;
+      EXPECT_LT(
+          (knot.q - first.q).segment(7 + robot_.JointIndex("LWP"), 1).lpNorm<Eigen::Infinity>(),
+          1e-9)
+          << knot.t;
+    }
   }
 }
 

@@ -13,7 +13,7 @@
 
 namespace possibility::actions {
 
-/// A world with the gaits of a robot in it, and the verifier's verdict on single legs.
+/// A world with the gaits of a robot in it, and the verifier's verdict on legs and routes.
 class LegScene {
  public:
   LegScene(const LocomotionModel& model, models::Environment environment)
@@ -36,15 +36,20 @@ class LegScene {
   const QuasiStaticAction& action(int gait) const { return *gaits_[gait]; }
 
   /// The verifier's report on the leg as a whole plan.
-  VerificationReport VerifyLeg(const RouteLeg& leg) const {
+  VerificationReport VerifyLeg(const RouteLeg& leg) const { return VerifyRoute({leg}); }
+
+  /// The verifier's report on the route as a whole plan.
+  VerificationReport VerifyRoute(const Route& route) const {
     Plan plan;
     plan.robot_hash = model_.robot->content_hash;
     for (const models::Joint& joint : model_.robot->joints) plan.joints.push_back(joint.name);
-    plan.segments = GenerateMotion(model_, environment_, {leg}, 1, {});
+    plan.segments = GenerateMotion(model_, environment_, route, 1, {});
     models::Scenario scenario;
     scenario.environment = environment_;
-    scenario.start = StanceOf(StartGait(model_, leg), leg.from, leg.z);
-    scenario.goals = {StanceOf(EndGait(model_, leg), leg.to, leg.z)};
+    const RouteLeg& first = route.front();
+    const RouteLeg& last = route.back();
+    scenario.start = StanceOf(StartGait(model_, first), first.from, first.z);
+    scenario.goals = {StanceOf(EndGait(model_, last), last.to, last.z)};
     return Verify(plan, *model_.robot, scenario);
   }
 

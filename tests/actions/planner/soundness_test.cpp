@@ -54,6 +54,35 @@ void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_le
   }
 }
 
+/// Random routes of one gait, each of two to five legs end to end that meet C_S. The robot flows
+/// through bends, where it may leave the volumes of the legs. Each route must have a motion, and it
+/// must verify.
+void ExpectSufficientRoutesVerify(int count, unsigned seed, int gait) {
+  const LocomotionModel& model = DrcHubo1Locomotion();
+  std::mt19937 generator(seed);
+  int verified = 0;
+  while (verified < count) {
+    const LegScene scene(model, RandomEnvironment(&generator, 12));
+    for (int attempt = 0; attempt < 50 && verified < count; ++attempt) {
+      const std::size_t legs = 2 + generator() % 4;
+      Route route;
+      for (int i = 0; i < 40 && route.size() < legs; ++i) {
+        RouteLeg leg = RandomExtension(&generator, gait);
+        if (!route.empty()) {
+          const PlanarPose way = leg.from.Inverse() * leg.to;
+          leg.from = route.back().to;
+          leg.to = leg.from * way;
+        }
+        if (scene.action(gait).CS(LegEdge(model, leg))) route.push_back(leg);
+      }
+      if (route.size() < legs) continue;
+      const VerificationReport report = scene.VerifyRoute(route);
+      ASSERT_TRUE(report.accepted()) << FormatText(report);
+      ++verified;
+    }
+  }
+}
+
 /// Random legs, whether or not they meet C_S. Those that verify must meet C_N. Obstacles are close,
 /// so that C_S often refuses what is possible.
 void ExpectVerifiedLegsMeetNecessaryConditions(int count, unsigned seed) {
@@ -85,6 +114,10 @@ TEST(SoundnessTest, SufficientCrawlingVerifies) {
 TEST(SoundnessTest, SufficientTransitionsVerify) {
   ExpectSufficientLegsVerify(6, 3, [](auto* g) { return RandomTransition(g); });
 }
+TEST(SoundnessTest, RoutesOfSufficientLegsVerify) {
+  ExpectSufficientRoutesVerify(4, 5, 0);
+  ExpectSufficientRoutesVerify(4, 6, 1);
+}
 TEST(SoundnessTest, VerifiedLegsMeetNecessaryConditions) {
   ExpectVerifiedLegsMeetNecessaryConditions(5, 4);
 }
@@ -98,6 +131,8 @@ TEST(SoundnessLong, FiveHundredSufficientCrawlingEdgesVerify) {
 TEST(SoundnessLong, FiveHundredSufficientTransitionsVerify) {
   ExpectSufficientLegsVerify(500, 13, [](auto* g) { return RandomTransition(g); });
 }
+TEST(SoundnessLong, FiveHundredWalkingRoutesVerify) { ExpectSufficientRoutesVerify(500, 15, 0); }
+TEST(SoundnessLong, FiveHundredCrawlingRoutesVerify) { ExpectSufficientRoutesVerify(500, 16, 1); }
 TEST(SoundnessLong, VerifiedLegsMeetNecessaryConditions) {
   ExpectVerifiedLegsMeetNecessaryConditions(200, 14);
 }
