@@ -26,7 +26,7 @@ constexpr double kArcSpacing = 0.05;
 /// allows, m; how far and how finely ends are moved for that, m.
 constexpr double kWideEnds = 0.05;
 constexpr double kFarthestMove = 0.2;
-constexpr int kMoves = 20;
+constexpr int kMoves = 10;
 
 /// Ground that extends this far to all sides is wide enough for every stance, m. Narrower ground is
 /// tested in detail.

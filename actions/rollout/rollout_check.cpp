@@ -20,6 +20,7 @@ dynamics::RobotRolloutSettings SimulatorSettings(const RolloutCheckSettings& che
                                                  const dynamics::MultibodyModel& model) {
   dynamics::RobotRolloutSettings settings;
   settings.touching = kTouching;
+  settings.utilisation_interval = check.sample_time;
   dynamics::OdeSettings& integration = settings.hybrid.integration;
   integration.relative_tolerance = check.tolerance;
   integration.absolute_tolerances.resize(model.nq() + model.nv());

@@ -9,6 +9,13 @@ namespace possibility::dynamics {
 
 namespace {
 
+void RequireFinite(double value, int guard, double time) {
+  if (std::isfinite(value)) return;
+  throw OdeError(
+      "guard " + std::to_string(guard) + " is not finite at t = " + std::to_string(time) + " s",
+      time, -1);
+}
+
 double Sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 }  // namespace
@@ -25,18 +32,18 @@ GuardSearch::GuardSearch(const OdeProblem& problem, const OdeSettings& settings)
 void GuardSearch::Evaluate(double time, const Eigen::VectorXd& state, Eigen::VectorXd* values) {
   ++evaluations_;
   problem_.guard_values(time, state, *values);
-  for (Eigen::Index i = 0; i < values->size(); ++i) {
-    if (!std::isfinite((*values)[i])) {
-      throw OdeError(
-          "guard " + std::to_string(i) + " is not finite at t = " + std::to_string(time) + " s",
-          time, -1);
-    }
-  }
+  for (int i = 0; i < static_cast<int>(values->size()); ++i) RequireFinite((*values)[i], i, time);
 }
 
 double GuardSearch::ValueAt(const OdePiece& piece, double time, int guard) {
-  Evaluate(time, piece.State(time), &values_);
-  return values_[guard];
+  if (!problem_.guard_value) {
+    Evaluate(time, piece.State(time), &values_);
+    return values_[guard];
+  }
+  ++evaluations_;
+  const double value = problem_.guard_value(time, piece.State(time), guard);
+  RequireFinite(value, guard, time);
+  return value;
 }
 
 bool GuardSearch::Watched(int guard, double from_side) const {

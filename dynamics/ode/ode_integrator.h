@@ -20,6 +20,9 @@ using OdeRate = std::function<void(double t, const Eigen::Ref<const Eigen::Vecto
 /// Writes the values of all guards at time t (s) and state x (n).
 using OdeGuardFunction = std::function<void(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                                             Eigen::Ref<Eigen::VectorXd> values)>;
+/// Value of one guard.
+using OdeGuardValue =
+    std::function<double(double t, const Eigen::Ref<const Eigen::VectorXd>& x, int guard)>;
 
 /// Writes an approximation of the derivative of the rate with respect to the state (n x n) at time
 /// t (s) and state x (n). It decides how fast the integrator converges, not to what.
@@ -45,9 +48,10 @@ struct OdeProblem {
   OdeJacobian jacobian;  ///< for kBdf; empty: by differences, n evaluations of the rate each
   double start_time = 0;
   double end_time = 0;
-  Eigen::VectorXd start;          ///< n
-  std::vector<OdeGuard> guards;   ///< the first that crosses zero ends the integration
-  OdeGuardFunction guard_values;  ///< needed if there are guards
+  Eigen::VectorXd start;           ///< n
+  std::vector<OdeGuard> guards;    ///< the first that crosses zero ends the integration
+  OdeGuardFunction guard_values;   ///< needed if there are guards
+  OdeGuardValue guard_value = {};  ///< for speed; empty: guard_values serves
 };
 
 struct OdeSettings {

@@ -62,6 +62,7 @@ class Runner {
     problem.start = rollout_.state;
     problem.guards = mode_->guards;
     problem.guard_values = mode_->guard_values;
+    problem.guard_value = mode_->guard_value;
     for (const int guard : watched_) problem.guards[guard].fires_from_zero = false;
     return problem;
   }

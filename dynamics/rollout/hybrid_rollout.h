@@ -39,6 +39,7 @@ struct HybridMode {
   OdeGuardFunction guard_values;
   std::function<HybridTransition(const HybridEvent&)> reset;  ///< needed if there are guards
   OdeJacobian jacobian = {};                                  ///< as in OdeProblem
+  OdeGuardValue guard_value = {};                             ///< likewise
 };
 
 struct HybridSettings {

@@ -20,9 +20,6 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::VectorXd;
 
-/// s: utilisations are recorded this far apart at least.
-constexpr double kUtilisationInterval = 1e-3;
-
 [[noreturn]] void Reject(const std::string& what) {
   throw std::invalid_argument("RobotSimulator: " + what);
 }
@@ -48,6 +45,7 @@ void CheckSettings(const RobotRolloutSettings& settings) {
   if (!(settings.rest_speed >= 0)) Reject("`rest_speed` must not be negative");
   if (!(settings.rest_energy >= 0)) Reject("`rest_energy` must not be negative");
   if (!(settings.rest_time > 0)) Reject("`rest_time` must be positive");
+  if (!(settings.utilisation_interval >= 0)) Reject("`utilisation_interval` must not be negative");
 }
 
 }  // namespace
@@ -149,7 +147,7 @@ class RobotSimulator::Impl {
     for (const HybridSegment& segment : hybrid.segments) {
       double recorded = -std::numeric_limits<double>::infinity();
       for (const double t : segment.trajectory.StepTimes()) {
-        if (t - recorded < kUtilisationInterval) continue;
+        if (t - recorded < settings_.utilisation_interval) continue;
         RecordUtilisation(t, segment.trajectory.State(t), modes_.StanceOf(segment));
         recorded = t;
       }

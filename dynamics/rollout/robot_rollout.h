@@ -43,7 +43,8 @@ struct RobotRolloutSettings {
   /// J: the rollout ends (kAtRest) when the kinetic energy has been below this for rest_time. 0:
   /// never.
   double rest_energy = 0;
-  double rest_time = 0.1;  ///< s
+  double rest_time = 0.1;              ///< s
+  double utilisation_interval = 1e-3;  ///< s: utilisations are recorded this far apart at least
   /// N, world: a force on the root at its centre of mass, beside gravity and contacts. It must not
   /// change within less than `hybrid.integration.max_step`. May be empty. Floating bases only.
   RootPush push;
@@ -80,7 +81,7 @@ struct RobotRollout {
   Eigen::VectorXd q, v;
   std::vector<RobotContactEvent> events;
   /// By contact: greatest (tangential / normal force) / friction of the resultant of its patch (the
-  /// held points of its link on its plane) at the ends of integration steps, 1 ms apart or more.
+  /// held points of its link on its plane) at ends of integration steps (utilisation_interval).
   /// Impacts are in the events. Torsion about the normal is not included.
   Eigen::VectorXd friction_utilisation;
   /// By joint: greatest |torque| over effort limit, at the same times; 0 for joints without a

@@ -97,6 +97,20 @@ void RolloutGuards::Evaluate(double t, const Eigen::Ref<const VectorXd>& state,
   for (size_t i = 0; i < guards_.size(); ++i) values[i] = Value(t, state, forces, guards_[i]);
 }
 
+double RolloutGuards::EvaluateOne(double t, const Eigen::Ref<const VectorXd>& state,
+                                  int index) const {
+  const RolloutGuard& guard = guards_[index];
+  Matrix3Xd forces;
+  // Where a point is takes no dynamics.
+  const bool is_place = guard.kind == Kind::kTouchdown || guard.kind == Kind::kClearing;
+  if (is_place || stance_->points.empty()) {
+    robot_->SetState(state);
+  } else {
+    robot_->Accelerate(t, state, *stance_, &forces);
+  }
+  return Value(t, state, forces, guard);
+}
+
 double RolloutGuards::Value(double t, const Eigen::Ref<const VectorXd>& state,
                             const Matrix3Xd& forces, const RolloutGuard& guard) const {
   switch (guard.kind) {

@@ -40,6 +40,8 @@ class RolloutGuards {
   /// `values`: size().
   void Evaluate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                 Eigen::Ref<Eigen::VectorXd> values) const;
+  /// The same of one guard.
+  double EvaluateOne(double t, const Eigen::Ref<const Eigen::VectorXd>& state, int index) const;
 
  private:
   double Value(double t, const Eigen::Ref<const Eigen::VectorXd>& state,

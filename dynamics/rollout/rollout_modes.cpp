@@ -34,6 +34,9 @@ std::shared_ptr<const HybridMode> RolloutModes::Make(RolloutStance made) {
   mode->guard_values = [guards](double t, const auto& state, auto values) {
     guards->Evaluate(t, state, values);
   };
+  mode->guard_value = [guards](double t, const auto& state, int guard) {
+    return guards->EvaluateOne(t, state, guard);
+  };
   const std::weak_ptr<const HybridMode> self = mode;
   mode->reset = [this, self, guards](const HybridEvent& event) {
     return Reset(event, self.lock(), *guards);

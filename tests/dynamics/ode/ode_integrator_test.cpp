@@ -271,6 +271,30 @@ TEST(OdeIntegrator, AGuardThatStartsBelowZeroFiresAfterItHasRisen) {
   EXPECT_NEAR(solution.time, std::acos(2 / amplitude) - shift + 2 * std::numbers::pi, 1e-9);
 }
 
+TEST(OdeIntegrator, AGuardEvaluatedAloneGivesTheSameBytes) {
+  const auto values = [](double t, State x, Output out) {
+    out << x[0] - 0.3, x[1] + 0.2 * t, x[0] * x[1] - 0.4;
+  };
+  OdeProblem problem = Watching(
+      Oscillator(10),
+      {{GuardDirection::kFalling}, {GuardDirection::kRising}, {GuardDirection::kBoth}}, values);
+  const OdeSolution all = Integrate(problem, Accurate());
+  int calls = 0;
+  problem.guard_value = [&](double t, State x, int guard) {
+    ++calls;
+    Eigen::VectorXd out(3);
+    values(t, x, out);
+    return out[guard];
+  };
+  const OdeSolution alone = Integrate(problem, Accurate());
+  EXPECT_GT(calls, 0);
+  EXPECT_EQ(alone.time, all.time);
+  EXPECT_EQ(alone.state, all.state);
+  EXPECT_EQ(alone.guards, all.guards);
+  problem.guard_value = [](double, State, int) { return std::nan(""); };
+  EXPECT_THROW(Integrate(problem, Accurate()), OdeError);
+}
+
 TEST(OdeIntegrator, GuardThatStaysZeroNeverFires) {
   const auto value = [](double, State, Output out) { out[0] = 0; };
   EXPECT_EQ(Integrate(Watching(Oscillator(3), {{GuardDirection::kBoth}}, value)).end,
