@@ -168,14 +168,10 @@ bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& la
 
 std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
                                                  bool forward) const {
-  const std::optional<GroundedStance> wide = OtherEnd(stance, distance, forward, kWideEnds);
-  return wide ? wide : OtherEnd(stance, distance, forward, 0);
-}
-
-std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, double distance,
-                                                 bool forward, double clearance) const {
+  const QuasiStaticAction& gait = forward ? landing_gait() : launch_gait();
   std::optional<GroundedStance> best;
   double longest = 0;
+  bool is_wide = false;
   for (const double level : world().ground->levels()) {
     const double height = forward ? level - stance.z : stance.z - level;
     const auto reach = reach_.Distances(JumpLibrary::OnGrid({0, height}).height);
@@ -183,16 +179,17 @@ std::optional<GroundedStance> LongJump::OtherEnd(const GroundedStance& stance, d
     const double limit = std::min(distance, reach->second) + kSamePose;
     for (int i = static_cast<int>(limit / JumpLibrary::kDistanceStep);; --i) {
       const double d = i * JumpLibrary::kDistanceStep;
-      if (d < reach->first - kSamePose || d <= longest) break;
+      if (d < reach->first - kSamePose || (is_wide && d <= longest)) break;
       const GroundedStance end{forward ? to() : from(),
                                stance.pose * PlanarPose{forward ? d : -d, 0, 0}, level};
-      if (!(forward ? landing_gait() : launch_gait()).GroundHolds(end, clearance) ||
-          IsImpossible(JumpLibrary::OnGrid({d, height}))) {
-        continue;
-      }
+      const bool counts = d > longest && !is_wide;
+      if (!gait.GroundHolds(end, 0) || IsImpossible(JumpLibrary::OnGrid({d, height}))) continue;
+      const bool wide = gait.GroundHolds(end, kWideEnds);
+      if (!wide && !counts) continue;
       best = end;
       longest = d;
-      break;
+      is_wide = wide;
+      if (wide) break;
     }
   }
   return best;
@@ -237,15 +234,20 @@ std::optional<graph::Point> LongJump::LinedUp(const graph::Point& v, const Vecto
   const GroundedStance& launch = launches ? *stance : *other;
   const GroundedStance& landing = launches ? *other : *stance;
   if (IsNeedless(launch, landing)) return std::nullopt;
-  if (const std::optional<Leap> leap = AsLeap({PointOf(launch), PointOf(landing)})) {
-    if (const std::optional<Leap> wide = Widened(*leap)) {
-      const GroundedStance& moved = launches ? wide->launch : wide->landing;
-      if ((moved.pose.position() - stance->pose.position()).norm() > kSamePose) {
-        return PointOf(moved);
-      }
-    }
+  const double distance = (landing.pose.position() - launch.pose.position()).norm();
+  if (const std::optional<Leap> wide =
+          Widened({launch, landing, JumpLibrary::OnGrid({distance, landing.z - launch.z})})) {
+    const GroundedStance& moved = launches ? wide->launch : wide->landing;
+    // Not to be moved: then the other end of the wide jump lies beyond the way.
+    if ((moved.pose.position() - stance->pose.position()).norm() < kSamePose) return std::nullopt;
+    return PointOf(moved);
   }
   return is_lined_up ? v : PointOf(*stance);
+}
+
+GroundedStance LongJump::Moved(GroundedStance stance, int move) {
+  stance.pose = stance.pose * PlanarPose{move * kFarthestMove / kMoves, 0, 0};
+  return stance;
 }
 
 std::optional<LongJump::Leap> LongJump::Widened(const Leap& leap) const {
@@ -253,15 +255,46 @@ std::optional<LongJump::Leap> LongJump::Widened(const Leap& leap) const {
       landing_gait().GroundHolds(leap.landing, kWideEnds)) {
     return std::nullopt;
   }
+  std::vector<int> moves;
+  for (int move = -kMoves; move <= kMoves; ++move) {
+    const GroundedStance launch = Moved(leap.launch, move);
+    if (launch_gait().GroundHolds(launch, kWideEnds) && launch_gait().CS(leap.launch, launch)) {
+      moves.push_back(move);
+    }
+  }
   const auto steps = static_cast<int>(2 * kFarthestMove / JumpLibrary::kDistanceStep);
-  for (int i = 0; i <= 2 * steps; ++i) {
+  for (int i = 0; i <= 2 * steps && !moves.empty(); ++i) {
     // Similar distances first, longer before shorter ones.
     const double change = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2) * JumpLibrary::kDistanceStep;
     const JumpTask task = JumpLibrary::OnGrid({leap.task.distance + change, leap.task.height});
     if (!reach_.Allows(task) || IsImpossible(task)) continue;
-    if (std::optional<Leap> wide = WidenedTo(leap, task)) return wide;
+    if (std::optional<Leap> wide = WidenedTo(leap, task, moves)) return wide;
   }
   return std::nullopt;
+}
+
+/// The middle of the first run of moves that are wide enough.
+std::optional<LongJump::Leap> LongJump::WidenedTo(const Leap& leap, const JumpTask& task,
+                                                  const std::vector<int>& moves) const {
+  const auto moved = [&](int move) {
+    Leap wide = leap;
+    wide.task = task;
+    wide.launch = Moved(leap.launch, move);
+    wide.landing.pose = wide.launch.pose * PlanarPose{task.distance, 0, 0};
+    return wide;
+  };
+  std::vector<int> run;
+  for (const int move : moves) {
+    const Leap wide = moved(move);
+    const bool serves = landing_gait().GroundHolds(wide.landing, kWideEnds) && !IsRefuted(wide) &&
+                        LandingsConnect(wide.landing, leap.landing);
+    if (!run.empty() && (!serves || move > run.back() + 1)) break;
+    if (serves) run.push_back(move);
+  }
+  if (run.empty()) return std::nullopt;
+  Leap wide = moved(run[run.size() / 2]);
+  if (!SomeParabolaIsFree({PointOf(wide.launch), PointOf(wide.landing)})) return std::nullopt;
+  return wide;
 }
 
 bool LongJump::LandingsConnect(const GroundedStance& from, const GroundedStance& to) const {
@@ -275,31 +308,6 @@ bool LongJump::LandingsConnect(const GroundedStance& from, const GroundedStance&
   const GroundedStance stand = standing(from);
   return landing_gait().CS(graph::Edge{PointOf(from), PointOf(stand)}) &&
          launch_gait().CS(stand, standing(to));
-}
-
-/// The middle of the first run of moves that are wide enough.
-std::optional<LongJump::Leap> LongJump::WidenedTo(const Leap& leap, const JumpTask& task) const {
-  const auto moved = [&](int move) {
-    Leap wide = leap;
-    wide.task = task;
-    wide.launch.pose = leap.launch.pose * PlanarPose{move * kFarthestMove / kMoves, 0, 0};
-    wide.landing.pose = wide.launch.pose * PlanarPose{wide.task.distance, 0, 0};
-    return wide;
-  };
-  const auto serves = [&](const Leap& wide) {
-    return launch_gait().GroundHolds(wide.launch, kWideEnds) &&
-           landing_gait().GroundHolds(wide.landing, kWideEnds) && !IsRefuted(wide) &&
-           launch_gait().CS(leap.launch, wide.launch) &&
-           LandingsConnect(wide.landing, leap.landing);
-  };
-  int first = -kMoves;
-  while (first <= kMoves && !serves(moved(first))) ++first;
-  if (first > kMoves) return std::nullopt;
-  int last = first;
-  while (last < kMoves && serves(moved(last + 1))) ++last;
-  Leap wide = moved((first + last) / 2);
-  if (!SomeParabolaIsFree({PointOf(wide.launch), PointOf(wide.landing)})) return std::nullopt;
-  return wide;
 }
 
 std::optional<LongJump::Leap> LongJump::AsLeap(const graph::Edge& edge) const {

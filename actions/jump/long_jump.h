@@ -78,9 +78,6 @@ class LongJump : public Manoeuvre {
   /// from a landing.
   std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
                                          bool forward) const;
-  /// The longest such jump with ground `clearance` (m) around the bearing points there.
-  std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, double distance,
-                                         bool forward, double clearance) const;
   /// The stance at v (a launch or a landing) turned along `way` (m), and moved along it if that
   /// widens the ground at the jump's ends; none unless a jump of at most that length connects there
   /// and is not needless.
@@ -97,7 +94,11 @@ class LongJump : public Manoeuvre {
   /// Whether the robot gets from one landing straight to the other, or stands up and walks straight
   /// to where it would stand up from the other.
   bool LandingsConnect(const GroundedStance& from, const GroundedStance& to) const;
-  std::optional<Leap> WidenedTo(const Leap& leap, const JumpTask& task) const;
+  /// The same by one jump. `moves`: of the launch, ascending.
+  std::optional<Leap> WidenedTo(const Leap& leap, const JumpTask& task,
+                                const std::vector<int>& moves) const;
+  /// The stance moved ahead by a number of steps.
+  static GroundedStance Moved(GroundedStance stance, int move);
   bool GroundIsWide(const GroundedStance& launch, double begin, double end) const;
   /// Sufficient: the straight way on from `launch`, `distance` (m) long, is free all around and on
   /// wide ground.

@@ -129,6 +129,8 @@ std::optional<FlowEnd> EndReadyFor(const NominalStance& stance,
   if (!rests(first) || !rests(last)) return std::nullopt;
   if ((last.q - first.q).head<7>().lpNorm<Eigen::Infinity>() > kUnmoved) return std::nullopt;
   const Eigen::Index joints = last.q.size() - 7;
+  const Eigen::VectorXd turned = (last.q - first.q).tail(joints);
+  if (turned.lpNorm<Eigen::Infinity>() < kUnmoved) return std::nullopt;  // A pause is meant.
   FlowEnd end{last.q.tail(joints), last.t - first.t};
   for (const models::GaitLimb& limb : stance.gait->limbs) {
     for (const int joint : limb.joints) {

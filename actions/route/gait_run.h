@@ -22,8 +22,8 @@ std::vector<std::vector<Phase>> FlowAlong(const LocomotionModel& model, const Ro
                                           const CancellationToken& cancellation);
 
 /// How a run that leads to a manoeuvre may end so that the first phase of the manoeuvre's motion
-/// can be left out: that phase must do nothing but turn joints of no limb of the gait, from rest to
-/// rest. None otherwise.
+/// can be left out: that phase must turn joints of no limb of the gait, from rest to rest, and do
+/// nothing else. None otherwise.
 std::optional<FlowEnd> EndReadyFor(const NominalStance& stance,
                                    const std::vector<Phase>& manoeuvre);
 

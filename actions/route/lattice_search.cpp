@@ -258,7 +258,7 @@ void LatticeSearch::Manoeuvres(int node) {
       ++examined_;
       if (!stance || (*space_.gaits)[manoeuvre.to()]->Examine(*stance) != StanceFault::kNone)
         continue;
-      if (!Launches(manoeuvre, v, *end) || !manoeuvre.Explorable(graph::Edge{v, *end})) continue;
+      if (!Launches(manoeuvre, v, *end)) continue;
       const double duration = manoeuvre.ExpectedDuration({v, *end});
       if (Offer(node, *stance, static_cast<int>(num_gaits() + i), duration)) break;
     }

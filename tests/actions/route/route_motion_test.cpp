@@ -19,7 +19,7 @@ const char* const kWrists[] = {"LWP", "RWP"};
 /// still and does something, and then slides.
 class PreparedLeapTest : public ::testing::Test {
  protected:
-  /// The first phase turns the wrists, and moves the root by `shift`, m.
+  /// The first phase turns the wrists by `turn_`, and moves the root by `shift`, m.
   std::vector<Phase> Motion(const Leap& leap, double shift) const {
     std::vector<Phase> slide = leap.Slide();
     Phase standing;
@@ -46,9 +46,9 @@ class PreparedLeapTest : public ::testing::Test {
   void Turn(const ScalarSignal& share, Knot* knot) const {
     for (const char* wrist : kWrists) {
       const int joint = robot_.JointIndex(wrist);
-      knot->q[7 + joint] -= 0.4 * share.value;
-      knot->v[6 + joint] -= 0.4 * share.rate;
-      knot->a[6 + joint] -= 0.4 * share.acceleration;
+      knot->q[7 + joint] -= turn_ * share.value;
+      knot->v[6 + joint] -= turn_ * share.rate;
+      knot->a[6 + joint] -= turn_ * share.acceleration;
     }
   }
 
@@ -67,6 +67,7 @@ class PreparedLeapTest : public ::testing::Test {
     return GenerateMotion(DrcHubo1Locomotion(), scene_.environment, route, 1, {});
   }
 
+  double turn_ = 0.4;  ///< rad
   const models::RobotModel& robot_ = DrcHubo1();
   models::Scenario scene_ = PitScene(false);
 };
@@ -83,12 +84,17 @@ TEST_F(PreparedLeapTest, TheRobotPreparesOnTheWay) {
   EXPECT_NEAR(arrived.t, leaps.t, 1e-12);
   for (const char* wrist : kWrists) {
     const int joint = robot_.JointIndex(wrist);
-    EXPECT_NEAR(arrived.q[7 + joint], DrcHubo1Locomotion().gaits[0]->stance.q[7 + joint] - 0.4,
+    EXPECT_NEAR(arrived.q[7 + joint], DrcHubo1Locomotion().gaits[0]->stance.q[7 + joint] - turn_,
                 1e-9);
   }
   // The preparation takes no time of its own.
   EXPECT_NEAR(segments[1].phases.back().knots.back().t - leaps.t,
               alone[0].phases.back().knots.back().t - kPreparation, 1e-9);
+}
+
+TEST_F(PreparedLeapTest, APauseIsKept) {
+  turn_ = 0;
+  EXPECT_EQ(Generate(0, true).at(1).phases.size(), 2u);
 }
 
 TEST_F(PreparedLeapTest, APreparationThatMovesTheRootIsKept) {
