@@ -18,6 +18,10 @@ using Eigen::VectorXd;
 // Fractions of what a constraint balances: the residual that is tolerated, and the residual above
 // which the slower, more exact solver is used.
 constexpr double kUnmet = 1e-8;
+// The same of the feedback of drift, over kUnmet. A rigid body that has turned by e since it was
+// held cannot give all its points the feedback that each asks for: e/2 of it is left. Feedback need
+// not be exact.
+constexpr double kUnmetDrift = 1e-3 / kUnmet;
 constexpr double kRefine = 1e-12;
 
 /// Per joint, the independent velocities that move its link: only these share mass.
@@ -134,7 +138,7 @@ const ConstrainedMotion& ForwardDynamics::Held(const Eigen::Ref<const VectorXd>&
               rate * rate * (dynamics_.Position(point) - points[i].anchor);
     }
     required_.segment<3>(3 * i) = -(unforced + bias + drift);
-    for (const Vector3d& term : {unforced, bias, drift}) {
+    for (const Vector3d& term : {unforced, bias, Vector3d(kUnmetDrift * drift)}) {
       scale = std::max(scale, term.lpNorm<Eigen::Infinity>());
     }
   }

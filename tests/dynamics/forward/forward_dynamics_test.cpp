@@ -242,6 +242,36 @@ TEST(ForwardDynamics, CoincidentPointsShareForcesAndCollinearOnesAddNothing) {
   EXPECT_LT((with_ends - with_line).norm(), 1e-8 * with_ends.norm());
 }
 
+/// A rigid sole that has turned since it was held: its points ask for feedback that no rigid motion
+/// gives, by half the angle.
+TEST(ForwardDynamics, SolesThatHaveTurnedAreStillHeld) {
+  const auto model = MultibodyModel::Spatial(DrcHubo());
+  const std::vector<ContactPoint> points = PatchPoints(model->tree(), {"left_sole", "right_sole"});
+  ForwardDynamics dynamics(model);
+  std::mt19937 random(5);
+  VectorXd q = VectorXd::Zero(model->nq());
+  q[0] = 1;
+  for (const char* knee : {"LKP", "RKP"}) q[7 + model->tree().JointIndex(knee)] = 1;
+  const VectorXd rest = VectorXd::Zero(model->nv());
+  const double rate = 1 / dynamics.settings().drift_time;
+  for (int trial = 0; trial < 50; ++trial) {
+    dynamics.SetState(q, rest);
+    const std::vector<HeldPoint> held = Hold(&dynamics, points);
+    VectorXd turn = VectorXd::Zero(model->nv());
+    turn.head<3>() = RandomVector(&random, 3, 1).normalized() * 1e-3;
+    dynamics.SetState(model->Displaced(q, turn), rest);
+    const VectorXd a = dynamics.Held(rest, held).acceleration;
+    const VectorXd given = Jacobians(&dynamics, points) * a;
+    double asked = 0, missing = 0;
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      const Vector3d drift = dynamics.dynamics()->Position(points[i]) - held[i].anchor;
+      asked = std::max(asked, rate * rate * drift.norm());
+      missing = std::max(missing, (given.segment<3>(3 * i) + rate * rate * drift).norm());
+    }
+    EXPECT_LT(missing, 1e-3 * asked) << trial;
+  }
+}
+
 /// The drift of a held point decays as (1 + t / T) exp(-t / T) times its displacement.
 TEST(ForwardDynamics, DriftIsFedBackCriticallyDamped) {
   std::mt19937 random(6);
