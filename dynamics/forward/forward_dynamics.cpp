@@ -24,6 +24,9 @@ constexpr double kUnmet = 1e-8;
 constexpr double kUnmetDrift = 1e-3 / kUnmet;
 constexpr double kRefine = 1e-12;
 
+// Columns of a rigid body's basis: three translations, three rotations.
+constexpr int kMostColumns = 6;
+
 /// Per joint, the independent velocities that move its link: only these share mass.
 std::vector<std::vector<int>> VelocityCliques(const MultibodyModel& model) {
   const std::vector<models::Joint>& joints = model.tree().joints;
@@ -60,7 +63,6 @@ ForwardDynamics::ForwardDynamics(std::shared_ptr<const MultibodyModel> model,
                     settings.drift_time));
   }
   zero_.setZero(dynamics_.model().nv());
-  jacobian_.resize(3, dynamics_.model().nv());
 }
 
 void ForwardDynamics::SetState(const Eigen::Ref<const VectorXd>& q,
@@ -99,7 +101,7 @@ ConstrainedResponse ForwardDynamics::Response() {
   }
   response.to_drift.setZero(nv, nv);
   if (!has_points_) return response;
-  // With Z = M^-1 J' and the Gram matrix G = J Z: M^-1 - Z G^+ Z', and Z G^+ J.
+  // With Z = M^-1 J' Q and the Gram matrix G = Q' J Z: M^-1 - Z G^+ Z', and Z G^+ Q' J.
   MatrixXd Z = half_solved_;
   for (Eigen::Index i = 0; i < Z.cols(); ++i) mass_factor_.SolveLower(Z.col(i));
   const MatrixXd shares = gram_.SolveRoughly(Z.transpose());
@@ -123,14 +125,12 @@ const ConstrainedMotion& ForwardDynamics::Held(const Eigen::Ref<const VectorXd>&
   Factor();
   AccelerateFreely(forces);
   dynamics_.SetAcceleration(zero_);
-  half_solved_.resize(model().nv(), 3 * points.size());
-  required_.resize(3 * points.size());
+  Constrain(points);
   const double rate = feedback ? 1 / settings_.drift_time : 0;
   double scale = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& point = points[i].point;
-    Constrain(i, point);
-    const Vector3d unforced = jacobian_ * free_;
+    const Vector3d unforced = jacobians_.middleRows<3>(3 * i) * free_;
     const Vector3d bias = dynamics_.Acceleration(point);
     Vector3d drift = Vector3d::Zero();
     if (feedback) {
@@ -154,19 +154,17 @@ const Impact& ForwardDynamics::Hit(const std::vector<ContactPoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) CheckPoint(i, points[i]);
   Factor();
   has_points_ = false;
-  half_solved_.resize(model().nv(), 3 * points.size());
-  required_.resize(3 * points.size());
+  Constrain(points);
   double scale = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    Constrain(i, points[i]);
-    required_.segment<3>(3 * i).noalias() = -(jacobian_ * velocity_);
-    scale = std::max(scale, (jacobian_.cwiseAbs() * velocity_.cwiseAbs()).maxCoeff());
+  if (!points.empty()) {
+    required_.noalias() = -(jacobians_ * velocity_);
+    scale = (jacobians_.cwiseAbs() * velocity_.cwiseAbs()).maxCoeff();
   }
   SolveMultipliers(points, scale, "m/s");
   impact_.velocity = velocity_ + change_;
   impact_.impulses = Eigen::Map<const Eigen::Matrix3Xd>(multipliers_.data(), 3, points.size());
   // With J v+ = 0: T- - T+ is the kinetic energy of v- - v+, half the square of Y Lambda.
-  impact_.energy_lost = 0.5 * (half_solved_ * multipliers_).squaredNorm();
+  impact_.energy_lost = 0.5 * (half_solved_ * reduced_).squaredNorm();
   return impact_;
 }
 
@@ -221,13 +219,70 @@ void ForwardDynamics::AccelerateFreely(const Eigen::Ref<const VectorXd>& forces)
       "ForwardDynamics: forces, q or v is so large that the acceleration is not finite");
 }
 
-void ForwardDynamics::Constrain(std::size_t index, const ContactPoint& point) {
-  dynamics_.Jacobian(point, jacobian_);
-  for (int axis = 0; axis < 3; ++axis) {
-    auto column = half_solved_.col(3 * index + axis);
-    column = jacobian_.row(axis).transpose();
-    mass_factor_.SolveTransposed(column);
+template <typename Points>
+void ForwardDynamics::Constrain(const Points& points) {
+  const auto same = [](const ContactPoint& a, const ContactPoint& b) {
+    return a.link == b.link && a.p_L == b.p_L;
+  };
+  const bool known =
+      std::equal(points.begin(), points.end(), points_.begin(), points_.end(),
+                 [&](const auto& held, const ContactPoint& b) { return same(PointOf(held), b); });
+  if (!known) {
+    points_.clear();
+    for (const auto& held : points) points_.push_back(PointOf(held));
+    groups_ = GroupByLink(points_);
   }
+  Eigen::Index columns = 0;
+  for (const RigidPoints& group : groups_) columns += group.basis.cols();
+  jacobians_.resize(3 * points.size(), model().nv());
+  bases_.setZero(3 * points.size(), kMostColumns);
+  half_solved_.setZero(model().nv(), columns);
+  required_.resize(3 * points.size());
+  Eigen::Index column = 0;
+  for (const RigidPoints& group : groups_) {
+    const Eigen::Index rank = group.basis.cols();
+    const Eigen::Matrix3d& R = dynamics_.kinematics().X_WL()[group.link].linear();
+    auto Y = half_solved_.middleCols(column, rank);
+    for (std::size_t k = 0; k < group.points.size(); ++k) {
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(group.points[k]);
+      dynamics_.Jacobian(points_[group.points[k]], jacobians_.middleRows<3>(row));
+      auto basis = bases_.block<3, Eigen::Dynamic>(row, 0, 3, rank);
+      basis.noalias() = R * group.BasisOf(k);
+      Y.noalias() += jacobians_.middleRows<3>(row).transpose() * basis;
+    }
+    for (Eigen::Index i = 0; i < rank; ++i) mass_factor_.SolveTransposed(Y.col(i));
+    column += rank;
+  }
+}
+
+VectorXd ForwardDynamics::Reduced(const VectorXd& x) const {
+  VectorXd reduced = VectorXd::Zero(half_solved_.cols());
+  Eigen::Index column = 0;
+  for (const RigidPoints& group : groups_) {
+    const Eigen::Index rank = group.basis.cols();
+    for (const std::size_t point : group.points) {
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(point);
+      reduced.segment(column, rank).noalias() +=
+          bases_.block<3, Eigen::Dynamic>(row, 0, 3, rank).transpose() * x.segment<3>(row);
+    }
+    column += rank;
+  }
+  return reduced;
+}
+
+VectorXd ForwardDynamics::Expanded(const VectorXd& x) const {
+  VectorXd expanded(bases_.rows());
+  Eigen::Index column = 0;
+  for (const RigidPoints& group : groups_) {
+    const Eigen::Index rank = group.basis.cols();
+    for (const std::size_t point : group.points) {
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(point);
+      expanded.segment<3>(row).noalias() =
+          bases_.block<3, Eigen::Dynamic>(row, 0, 3, rank) * x.segment(column, rank);
+    }
+    column += rank;
+  }
+  return expanded;
 }
 
 template <typename Points>
@@ -237,14 +292,19 @@ void ForwardDynamics::SolveMultipliers(const Points& points, double scale, const
         "ForwardDynamics: the points, q or v are so large that the constraints are not finite");
   }
   gram_.Factor(half_solved_);
-  gram_.Solve(required_, kRefine * scale, &multipliers_, &unmet_);
+  const VectorXd wanted = Reduced(required_);
+  VectorXd left;
+  gram_.Solve(wanted, kRefine * scale, &reduced_, &left);
+  multipliers_ = Expanded(reduced_);
+  // Neither a rigid body nor the joints can give the points what is left.
+  unmet_ = required_ - Expanded(wanted - left);
   Eigen::Index worst = 0;
   if (unmet_.size() > 0 && !(unmet_.cwiseAbs().maxCoeff(&worst) <= kUnmet * scale)) {
     throw std::runtime_error(fmt::format(
         "ForwardDynamics: {} cannot be held together with the others: {:.3g} {} are left there",
         Described(worst / 3, PointOf(points[worst / 3])), std::abs(unmet_[worst]), unit));
   }
-  change_.noalias() = half_solved_ * multipliers_;
+  change_.noalias() = half_solved_ * reduced_;
   mass_factor_.SolveLower(change_);
   if (change_.allFinite()) return;
   throw std::runtime_error(

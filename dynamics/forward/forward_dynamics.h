@@ -7,6 +7,7 @@
 
 #include "dynamics/forward/branched_cholesky.h"
 #include "dynamics/forward/gram_solver.h"
+#include "dynamics/forward/rigid_points.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::dynamics {
@@ -36,8 +37,8 @@ struct ConstrainedMotion {
 /// Derivatives of the acceleration of a robot with held points, with relative errors of about 1e-7.
 struct ConstrainedResponse {
   Eigen::MatrixXd to_forces;  ///< nv x nv: acceleration per generalised force
-  /// nv x nv, D: where the held points have moved from their anchors by dq and move at dv (both nv),
-  /// feedback at rate r (1/s) adds -D (2 r dv + r^2 dq) to the acceleration.
+  /// nv x nv, D: where the held points have moved from their anchors by dq and move at dv (both
+  /// nv), feedback at rate r (1/s) adds -D (2 r dv + r^2 dq) to the acceleration.
   Eigen::MatrixXd to_drift;
 };
 
@@ -83,10 +84,16 @@ class ForwardDynamics {
   /// Factorises the mass matrix unless done already at this state.
   void Factor();
   void AccelerateFreely(const Eigen::Ref<const Eigen::VectorXd>& forces);
-  /// Row block i of the constraints: the Jacobian of a point, from which Y = L^-T J' follows.
-  void Constrain(std::size_t index, const ContactPoint& point);
-  /// The multipliers of least norm with Y'Y lambda = required. `scale`: magnitude that the residual
-  /// is compared with.
+  /// Prepares the constraints of points: their groups, whose bases form the block diagonal matrix Q
+  /// (3 points x columns), the Jacobian J, and Y = L^-T J' Q. With a Q of few columns the Gram
+  /// matrix Y'Y is small and, in most postures, regular.
+  template <typename Points>
+  void Constrain(const Points& points);
+  /// Q' x and Q x.
+  Eigen::VectorXd Reduced(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd Expanded(const Eigen::VectorXd& x) const;
+  /// The multipliers of least norm with J M^-1 J' lambda = required. `scale`: magnitude that the
+  /// residual is compared with.
   template <typename Points>
   void SolveMultipliers(const Points& points, double scale, const char* unit);
 
@@ -96,17 +103,21 @@ class ForwardDynamics {
   GramSolver gram_;
   bool has_state_ = false;
   bool has_factor_ = false;
-  bool has_points_ = false;      // half_solved_ and gram_ are those of Held
-  Eigen::VectorXd velocity_;     // nv
-  Eigen::VectorXd bias_;         // nv, generalised forces at a = 0
-  Eigen::VectorXd zero_;         // nv
-  Eigen::VectorXd free_;         // nv, acceleration without constraints
-  Eigen::VectorXd change_;       // nv, what the multipliers add to it
-  Eigen::MatrixXd jacobian_;     // 3 x nv, of one point
-  Eigen::MatrixXd half_solved_;  // nv x 3 points: Y
-  Eigen::VectorXd required_;     // 3 points
-  Eigen::VectorXd multipliers_;  // 3 points
-  Eigen::VectorXd unmet_;        // 3 points
+  bool has_points_ = false;           // half_solved_ and gram_ are those of Held
+  Eigen::VectorXd velocity_;          // nv
+  Eigen::VectorXd bias_;              // nv, generalised forces at a = 0
+  Eigen::VectorXd zero_;              // nv
+  Eigen::VectorXd free_;              // nv, acceleration without constraints
+  Eigen::VectorXd change_;            // nv, what the multipliers add to it
+  std::vector<ContactPoint> points_;  // of the last constraints
+  std::vector<RigidPoints> groups_;   // of points_
+  Eigen::MatrixXd jacobians_;         // 3 points x nv
+  Eigen::MatrixXd bases_;             // 3 points x 6: by point, its rows of Q, world axes
+  Eigen::MatrixXd half_solved_;       // nv x columns of Q: Y
+  Eigen::VectorXd required_;          // 3 points
+  Eigen::VectorXd multipliers_;       // 3 points
+  Eigen::VectorXd reduced_;           // columns of Q: the multipliers are Q times this
+  Eigen::VectorXd unmet_;             // 3 points
   ConstrainedMotion motion_;
   Impact impact_;
 };

@@ -21,7 +21,10 @@ double Sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 }  // namespace
 
 GuardSearch::GuardSearch(const OdeProblem& problem, const OdeSettings& settings)
-    : problem_(problem), settings_(settings), values_(problem.guards.size()) {
+    : problem_(problem),
+      settings_(settings),
+      searched_(problem.start_time),
+      values_(problem.guards.size()) {
   if (problem.guards.empty()) return;
   Evaluate(problem.start_time, problem.start, &values_);
   for (const double value : values_) {
@@ -35,13 +38,13 @@ void GuardSearch::Evaluate(double time, const Eigen::VectorXd& state, Eigen::Vec
   for (int i = 0; i < static_cast<int>(values->size()); ++i) RequireFinite((*values)[i], i, time);
 }
 
-double GuardSearch::ValueAt(const OdePiece& piece, double time, int guard) {
+double GuardSearch::ValueAt(const OdeTrajectory& trajectory, double time, int guard) {
   if (!problem_.guard_value) {
-    Evaluate(time, piece.State(time), &values_);
+    Evaluate(time, trajectory.State(time), &values_);
     return values_[guard];
   }
   ++evaluations_;
-  const double value = problem_.guard_value(time, piece.State(time), guard);
+  const double value = problem_.guard_value(time, trajectory.State(time), guard);
   RequireFinite(value, guard, time);
   return value;
 }
@@ -60,12 +63,12 @@ bool GuardSearch::Watched(int guard, double from_side) const {
 
 /// Handles a guard that was zero at the start and is not zero at `end`. The side to which it left
 /// first tells whether it has crossed since or moved off in the watched direction.
-std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdePiece& piece, double begin,
-                                                           double end, int guard) {
-  const double side = Sign(ValueAt(piece, end, guard));
+std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdeTrajectory& trajectory,
+                                                           double begin, double end, int guard) {
+  const double side = Sign(ValueAt(trajectory, end, guard));
   for (double fraction = 1e-8; fraction < 1; fraction *= 10) {
     const double time = begin + fraction * (end - begin);
-    const double value = ValueAt(piece, time, guard);
+    const double value = ValueAt(trajectory, time, guard);
     if (std::abs(value) <= settings_.guard_zero) continue;
     if (Sign(value) != side && Watched(guard, Sign(value))) {
       return Bracket{guard, Sign(value), time, end};
@@ -80,15 +83,15 @@ std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdePiece& piece
   return std::nullopt;
 }
 
-std::vector<GuardSearch::Bracket> GuardSearch::Brackets(const OdePiece& piece, double begin,
-                                                        double end) {
-  Evaluate(end, piece.State(end), &values_);
+std::vector<GuardSearch::Bracket> GuardSearch::Brackets(const OdeTrajectory& trajectory,
+                                                        double begin, double end) {
+  Evaluate(end, trajectory.State(end), &values_);
   const Eigen::VectorXd values = values_;
   std::vector<Bracket> brackets;
   for (int i = 0; i < static_cast<int>(sides_.size()); ++i) {
     if (sides_[i] == 0) {
       if (std::abs(values[i]) <= settings_.guard_zero) continue;
-      if (const auto bracket = LeaveZero(piece, begin, end, i)) brackets.push_back(*bracket);
+      if (const auto bracket = LeaveZero(trajectory, begin, end, i)) brackets.push_back(*bracket);
     } else if (sides_[i] * values[i] <= 0) {
       if (Watched(i, sides_[i])) brackets.push_back({i, sides_[i], begin, end});
       if (values[i] != 0) sides_[i] = Sign(values[i]);
@@ -98,11 +101,11 @@ std::vector<GuardSearch::Bracket> GuardSearch::Brackets(const OdePiece& piece, d
 }
 
 /// Illinois' false position (Dowell & Jarratt 1971); every third step bisects.
-double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
+double GuardSearch::Root(const OdeTrajectory& trajectory, Bracket bracket) {
   double low = bracket.before, high = bracket.after;
   if (low == high) return high;
-  double at_low = bracket.side * ValueAt(piece, low, bracket.guard);
-  double at_high = bracket.side * ValueAt(piece, high, bracket.guard);
+  double at_low = bracket.side * ValueAt(trajectory, low, bracket.guard);
+  double at_high = bracket.side * ValueAt(trajectory, high, bracket.guard);
   // Neighbouring pieces agree only to the local error, so this one may begin beyond zero.
   if (at_low <= 0) return low;
   const double resolution =
@@ -114,7 +117,7 @@ double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
     const double time =
         std::clamp(low + (high - low) * share, low + resolution / 4, high - resolution / 4);
     if (time <= low || time >= high) break;
-    const double value = bracket.side * ValueAt(piece, time, bracket.guard);
+    const double value = bracket.side * ValueAt(trajectory, time, bracket.guard);
     if (value > 0) {
       low = time;
       at_low = value;
@@ -130,33 +133,38 @@ double GuardSearch::Root(const OdePiece& piece, Bracket bracket) {
   return high;
 }
 
-int GuardSearch::Samples(double length) const {
-  if (!std::isfinite(settings_.max_step)) return settings_.guard_samples;
-  const double share = std::min(1.0, length / settings_.max_step);
-  return std::max(1, static_cast<int>(std::ceil(share * settings_.guard_samples)));
+double GuardSearch::Spacing() const { return settings_.max_step / settings_.guard_samples; }
+
+bool GuardSearch::IsDue(double time) const {
+  // This part of the time since the start.
+  constexpr double kShare = 0.125;
+  const double soon = kShare * (time - problem_.start_time);
+  const double spacing = std::isfinite(settings_.max_step) ? std::min(Spacing(), soon) : 0;
+  return time - searched_ >= spacing;
 }
 
-std::optional<GuardCrossing> GuardSearch::Search(const OdePiece& piece, double begin) {
+std::optional<GuardCrossing> GuardSearch::Search(const OdeTrajectory& trajectory) {
   if (problem_.guards.empty()) return std::nullopt;
-  const double length = piece.end - begin;
-  const int samples = Samples(length);
-  double from = begin;
+  const double begin = searched_;
+  const double length = trajectory.end_time() - begin;
+  const int samples = std::isfinite(settings_.max_step)
+                          ? std::max(1, static_cast<int>(std::ceil(length / Spacing())))
+                          : settings_.guard_samples;
   for (int sample = 1; sample <= samples; ++sample) {
-    const double to = sample == samples ? piece.end : begin + length * sample / samples;
-    const std::vector<Bracket> brackets = Brackets(piece, from, to);
-    if (!brackets.empty()) {
-      std::vector<double> roots;
-      for (const Bracket& bracket : brackets) roots.push_back(Root(piece, bracket));
-      GuardCrossing crossing;
-      crossing.time = *std::min_element(roots.begin(), roots.end());
-      for (size_t i = 0; i < roots.size(); ++i) {
-        if (roots[i] <= crossing.time + settings_.simultaneous) {
-          crossing.guards.push_back(brackets[i].guard);
-        }
+    const double from = searched_;
+    searched_ = sample == samples ? trajectory.end_time() : begin + length * sample / samples;
+    const std::vector<Bracket> brackets = Brackets(trajectory, from, searched_);
+    if (brackets.empty()) continue;
+    std::vector<double> roots;
+    for (const Bracket& bracket : brackets) roots.push_back(Root(trajectory, bracket));
+    GuardCrossing crossing;
+    crossing.time = *std::min_element(roots.begin(), roots.end());
+    for (size_t i = 0; i < roots.size(); ++i) {
+      if (roots[i] <= crossing.time + settings_.simultaneous) {
+        crossing.guards.push_back(brackets[i].guard);
       }
-      return crossing;
     }
-    from = to;
+    return crossing;
   }
   return std::nullopt;
 }

@@ -14,23 +14,26 @@ struct GuardCrossing {
   std::vector<int> guards;  ///< ascending
 };
 
-/// Follows the guards of an OdeProblem along the pieces of its trajectory and finds their first
-/// crossing in the watched direction. Each guard has a side (the sign it last had). It fires when
-/// it reaches zero from the side that its direction names.
+/// Follows the guards of an OdeProblem along its trajectory and finds their first crossing in the
+/// watched direction. Each guard has a side (the sign it last had). It fires when it reaches zero
+/// from the side that its direction names.
 class GuardSearch {
  public:
   /// Both must outlive the search.
   GuardSearch(const OdeProblem& problem, const OdeSettings& settings);
 
-  /// The first crossing in [begin, piece.end]. `begin`: the end of the previous call.
+  /// Whether what has been added to the trajectory since the last search is worth a search: the
+  /// spacing that the settings ask for, or less soon after the start, where guards change quickly.
+  bool IsDue(double time) const;
+  /// The first crossing since the last search.
   /// @throws OdeError if a guard is not finite.
-  std::optional<GuardCrossing> Search(const OdePiece& piece, double begin);
+  std::optional<GuardCrossing> Search(const OdeTrajectory& trajectory);
 
   long evaluations() const { return evaluations_; }
 
  private:
-  /// Number of evaluations in a step.
-  int Samples(double length) const;
+  /// Greatest spacing of evaluations, s.
+  double Spacing() const;
   struct Bracket {
     int guard = 0;
     double side = 0;
@@ -39,14 +42,16 @@ class GuardSearch {
   };
 
   void Evaluate(double time, const Eigen::VectorXd& state, Eigen::VectorXd* values);
-  double ValueAt(const OdePiece& piece, double time, int guard);
+  double ValueAt(const OdeTrajectory& trajectory, double time, int guard);
   bool Watched(int guard, double from_side) const;
-  std::optional<Bracket> LeaveZero(const OdePiece& piece, double begin, double end, int guard);
-  std::vector<Bracket> Brackets(const OdePiece& piece, double begin, double end);
-  double Root(const OdePiece& piece, Bracket bracket);
+  std::optional<Bracket> LeaveZero(const OdeTrajectory& trajectory, double begin, double end,
+                                   int guard);
+  std::vector<Bracket> Brackets(const OdeTrajectory& trajectory, double begin, double end);
+  double Root(const OdeTrajectory& trajectory, Bracket bracket);
 
   const OdeProblem& problem_;
   const OdeSettings& settings_;
+  double searched_;  ///< s: the end of the last search
   Eigen::VectorXd values_;
   std::vector<double> sides_;  ///< -1 or 1; 0: at zero since the start
   long evaluations_ = 0;

@@ -1,10 +1,11 @@
-// Only this file and dense_linear_solver include SUNDIALS (docs/dynamics.md: the SUNDIALS seam).
+// Only this file and newton_linear_solver include SUNDIALS (docs/dynamics.md: the SUNDIALS seam).
 #include "dynamics/ode/ode_integrator.h"
 
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
@@ -15,10 +16,11 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
-#include "dynamics/ode/dense_linear_solver.h"
+#include "dynamics/ode/newton_linear_solver.h"
 #include "dynamics/ode/ode_guard_search.h"
 
 namespace possibility::dynamics {
@@ -55,6 +57,10 @@ void CheckProblem(const OdeProblem& problem) {
            " s; expected finite ones that do not decrease");
   }
   if (!problem.guards.empty() && !problem.guard_values) Reject("guards without guard_values");
+  if (problem.positions < 0 || problem.positions > problem.start.size()) {
+    Reject("positions is " + std::to_string(problem.positions) + ", expected 0 to " +
+           std::to_string(problem.start.size()));
+  }
 }
 
 void CheckSettings(const OdeSettings& settings, Eigen::Index size) {
@@ -221,13 +227,24 @@ class Stepper {
       Check(CVodeSetNonlinearSolver(cvode_.get(), fixed_point_.get()));
       return;
     }
+    if (problem_.jacobian) return SolveWithJacobian();
     const Eigen::Index size = problem_.start.size();
     matrix_.reset(SUNDenseMatrix(size, size, context_.get()));
     if (!matrix_) throw std::bad_alloc();
-    linear_.reset(MakeDenseLinearSolver(context_.get()));
+    linear_.reset(SUNLinSol_Dense(state_.get(), matrix_.get(), context_.get()));
     if (!linear_) throw std::bad_alloc();
     Check(CVodeSetLinearSolver(cvode_.get(), linear_.get(), matrix_.get()));
-    if (problem_.jacobian) Check(CVodeSetJacFn(cvode_.get(), &EvaluateJacobian));
+  }
+
+  void SolveWithJacobian() {
+    newton_.emplace(problem_.start.size(), problem_.positions);
+    // CVODE insists on a matrix for a direct solver; this one has no entries.
+    matrix_.reset(SUNMatNewEmpty(context_.get()));
+    if (!matrix_) throw std::bad_alloc();
+    linear_.reset(MakeNewtonLinearSolver(&*newton_, context_.get()));
+    if (!linear_) throw std::bad_alloc();
+    Check(CVodeSetLinearSolver(cvode_.get(), linear_.get(), matrix_.get()));
+    Check(CVodeSetLinSysFn(cvode_.get(), &SetUpNewton));
   }
 
   void Check(int flag) {
@@ -267,18 +284,22 @@ class Stepper {
     }
   }
 
-  static int EvaluateJacobian(double time, N_Vector state, N_Vector /*rate*/, SUNMatrix jacobian,
-                              void* self, N_Vector, N_Vector, N_Vector) noexcept {
-    return static_cast<Stepper*>(self)->Differentiate(time, state, jacobian);
+  static int SetUpNewton(double time, N_Vector state, N_Vector /*rate*/, SUNMatrix /*matrix*/,
+                         booleantype jacobian_is_good, booleantype* jacobian_is_new, double gamma,
+                         void* self, N_Vector, N_Vector, N_Vector) noexcept {
+    Stepper* stepper = static_cast<Stepper*>(self);
+    SetGamma(stepper->linear_.get(), gamma);
+    *jacobian_is_new = jacobian_is_good ? SUNFALSE : SUNTRUE;
+    return jacobian_is_good ? 0 : stepper->Differentiate(time, state);
   }
 
-  int Differentiate(double time, N_Vector state, SUNMatrix jacobian) noexcept {
+  int Differentiate(double time, N_Vector state) noexcept {
     constexpr int kUnrecoverable = -1, kRecoverable = 1;
     try {
-      const Eigen::Index size = problem_.start.size();
-      Eigen::Map<Eigen::MatrixXd> values(SUNDenseMatrix_Data(jacobian), size, size);
-      problem_.jacobian(time, AsVector(state), values);
-      return values.allFinite() ? 0 : kRecoverable;
+      problem_.jacobian(time, AsVector(state), newton_->jacobian());
+      if (!newton_->jacobian().allFinite()) return kRecoverable;
+      newton_->Update();
+      return 0;
     } catch (...) {
       thrown_ = std::current_exception();
       return kUnrecoverable;
@@ -302,6 +323,7 @@ class Stepper {
   double time_;
   Owned<SUNContext> context_;  // created first, destroyed last
   Owned<N_Vector> state_, scratch_;
+  std::optional<NewtonMatrix> newton_;  // with a given Jacobian
   Owned<SUNMatrix> matrix_;
   Owned<SUNLinearSolver> linear_;
   Owned<SUNNonlinearSolver> fixed_point_;
@@ -358,18 +380,25 @@ OdeSolution Integrate(const OdeProblem& problem, const OdeSettings& settings) {
       stepper.Fail(std::to_string(step) + " steps taken before t = " + Number(problem.end_time) +
                    " s");
     }
-    const double begin = stepper.time();
-    stepper.Step();
-    OdePiece piece = stepper.Piece();
-    const auto crossing = guards.Search(piece, begin);
-    if (crossing) piece.end = crossing->time;
-    const Eigen::VectorXd state = crossing ? piece.State(crossing->time) : stepper.State();
-    FinishAt(&solution, crossing ? OdeEnd::kGuard : OdeEnd::kTime, piece.end, state);
-    solution.trajectory.Append(std::move(piece));
-    if (crossing) {
+    std::exception_ptr failure;
+    try {
+      stepper.Step();
+      solution.trajectory.Append(stepper.Piece());
+    } catch (...) {
+      // The step may have left the region that the guards bound.
+      failure = std::current_exception();
+    }
+    const bool is_last = failure || stepper.time() >= problem.end_time;
+    if (!is_last && !guards.IsDue(stepper.time())) continue;
+    if (const auto crossing = guards.Search(solution.trajectory)) {
+      solution.trajectory.CutAt(crossing->time);
+      FinishAt(&solution, OdeEnd::kGuard, crossing->time,
+               solution.trajectory.State(crossing->time));
       solution.guards = crossing->guards;
       break;
     }
+    if (failure) std::rethrow_exception(failure);
+    FinishAt(&solution, OdeEnd::kTime, stepper.time(), stepper.State());
   }
   solution.statistics = stepper.Statistics();
   solution.statistics.guard_evaluations = guards.evaluations();

@@ -46,6 +46,9 @@ enum class OdeMethod {
 struct OdeProblem {
   OdeRate rate;
   OdeJacobian jacobian;  ///< for kBdf; empty: by differences, n evaluations of the rate each
+  /// Number of leading components whose rates, in `jacobian`, depend on the other components alone:
+  /// the positions of a mechanical system. Its linear systems then cost a fraction.
+  int positions = 0;
   double start_time = 0;
   double end_time = 0;
   Eigen::VectorXd start;           ///< n
@@ -62,8 +65,9 @@ struct OdeSettings {
   Eigen::VectorXd absolute_tolerances;
   double max_step = std::numeric_limits<double>::infinity();  ///< s
   int max_steps = 100'000;
-  /// Guards are evaluated this many times in a step of max_step, and less often in a shorter one,
-  /// at least once. Two crossings closer than max_step / guard_samples may be missed.
+  /// Guards are evaluated about every max_step / guard_samples, and more often soon after the
+  /// start; without a max_step this many times a step. Two crossings closer than that may be
+  /// missed.
   int guard_samples = 2;
   /// |guard| up to this counts as zero at the start.
   double guard_zero = 1e-11;

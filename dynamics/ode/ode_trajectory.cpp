@@ -59,6 +59,11 @@ void OdeTrajectory::Append(OdePiece piece) {
   pieces_.push_back(std::move(piece));
 }
 
+void OdeTrajectory::CutAt(double time) {
+  while (pieces_.size() > 1 && pieces_[pieces_.size() - 2].end >= time) pieces_.pop_back();
+  pieces_.back().end = time;
+}
+
 const OdePiece& OdeTrajectory::PieceAt(double time) const {
   const double rounding =
       8 * std::numeric_limits<double>::epsilon() * (1 + std::abs(start_time_) + std::abs(time));

@@ -40,6 +40,8 @@ class POSSIBILITY_ODE_API OdeTrajectory {
 
   /// @throws std::invalid_argument if the piece ends before the trajectory does.
   void Append(OdePiece piece);
+  /// Drops what comes after `time`, which must lie within the trajectory.
+  void CutAt(double time);
 
  private:
   const OdePiece& PieceAt(double time) const;

@@ -106,6 +106,7 @@ CompliantRollout CompliantSimulator::Run(const Eigen::Ref<const VectorXd>& q,
   problem.jacobian = [this](double t, const auto& state, auto jacobian) {
     DifferentiateRate(t, state, jacobian);
   };
+  problem.positions = nq;
   problem.start_time = start_time;
   problem.end_time = end_time;
   problem.start.resize(nq + nv);

@@ -43,9 +43,9 @@ class Runner {
   bool RunSegment() {
     if (!mode_) throw std::invalid_argument("RollOut: no mode");
     CheckMode(*mode_);
-    const OdeSolution solution = Integrate(Problem(), settings_.integration);
+    OdeSolution solution = Integrate(Problem(), settings_.integration);
     AddStatistics(solution.statistics);
-    rollout_.segments.push_back({mode_, solution.trajectory});
+    rollout_.segments.push_back({mode_, std::move(solution.trajectory)});
     rollout_.time = solution.time;
     rollout_.state = solution.state;
     if (solution.end == OdeEnd::kTime) return End(HybridEnd::kTime, "the time is over");
@@ -58,6 +58,7 @@ class Runner {
     problem.rate = mode_->rate;
     problem.start_time = rollout_.time;
     problem.jacobian = mode_->jacobian;
+    problem.positions = mode_->positions;
     problem.end_time = end_time_;
     problem.start = rollout_.state;
     problem.guards = mode_->guards;

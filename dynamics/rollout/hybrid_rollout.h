@@ -39,6 +39,7 @@ struct HybridMode {
   OdeGuardFunction guard_values;
   std::function<HybridTransition(const HybridEvent&)> reset;  ///< needed if there are guards
   OdeJacobian jacobian = {};                                  ///< as in OdeProblem
+  int positions = 0;                                          ///< likewise
   OdeGuardValue guard_value = {};                             ///< likewise
 };
 

@@ -56,6 +56,7 @@ RobotRolloutSettings::RobotRolloutSettings() {
   hybrid.integration.relative_tolerance = 1e-8;
   hybrid.integration.absolute_tolerance = 1e-8;
   hybrid.integration.max_step = 0.02;
+  hybrid.integration.guard_samples = 4;
   hybrid.integration.guard_resolution = 1e-11;
 }
 

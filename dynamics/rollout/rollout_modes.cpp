@@ -27,6 +27,7 @@ std::shared_ptr<const HybridMode> RolloutModes::Make(RolloutStance made) {
   mode->jacobian = [this, stance](double t, const auto& state, auto jacobian) {
     robot_->DifferentiateRate(t, state, *stance, jacobian);
   };
+  mode->positions = robot_->nq();
   for (int i = 0; i < guards->size(); ++i) {
     mode->guards.push_back(guards->Watched(i));
     mode->guard_names.push_back(guards->NameOf(i));

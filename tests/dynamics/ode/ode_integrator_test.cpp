@@ -164,6 +164,51 @@ TEST(OdeIntegrator, AGivenJacobianSavesEvaluationsAndKeepsTheSolution) {
             by_differences.statistics.rate_evaluations);
 }
 
+/// A chain of masses on stiff springs and dampers, x'' = -K x - D x', with its exact Jacobian.
+OdeProblem StiffChain(std::mt19937* random, int masses, int positions) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::MatrixXd root(masses, masses), speeds(masses, masses);
+  for (double& entry : root.reshaped()) entry = uniform(*random);
+  // Rates of positions need not be the velocities themselves.
+  for (double& entry : speeds.reshaped()) entry = uniform(*random);
+  const Eigen::MatrixXd K = 1e6 * root * root.transpose();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * masses, 2 * masses);
+  J.topRightCorner(masses, masses) =
+      Eigen::MatrixXd::Identity(masses, masses) + 0.1 * (speeds + speeds.transpose());
+  J.bottomLeftCorner(masses, masses) = -K;
+  J.bottomRightCorner(masses, masses) = -1e-2 * K;
+  OdeProblem problem;
+  problem.rate = [J](double, State x, Output rate) { rate = J * x; };
+  problem.jacobian = [J](double, State, Eigen::Ref<Eigen::MatrixXd> out) { out = J; };
+  problem.positions = positions;
+  problem.start = VectorXd::LinSpaced(2 * masses, 0, 1);
+  problem.end_time = 2;
+  return problem;
+}
+
+TEST(OdeIntegrator, EliminatedPositionsGiveTheSameSolution) {
+  OdeSettings settings = Accurate(1e-9);
+  settings.method = OdeMethod::kBdf;
+  for (int masses = 1; masses < 8; ++masses) {
+    std::mt19937 random(masses), same(masses);
+    const OdeSolution eliminated = Integrate(StiffChain(&random, masses, masses), settings);
+    const OdeSolution whole = Integrate(StiffChain(&same, masses, 0), settings);
+    EXPECT_LT((eliminated.state - whole.state).norm(), 1e-6 * (1 + whole.state.norm()));
+    // The same iteration up to rounding: neither converges more slowly.
+    EXPECT_NEAR(eliminated.statistics.rate_evaluations, whole.statistics.rate_evaluations,
+                0.1 * whole.statistics.rate_evaluations);
+  }
+}
+
+TEST(OdeIntegrator, PositionsThatDriveThemselvesAreRefused) {
+  std::mt19937 random(1);
+  OdeProblem problem = StiffChain(&random, 2, 2);
+  problem.jacobian = [](double, State, Eigen::Ref<Eigen::MatrixXd> J) { J.setIdentity(); };
+  OdeSettings settings;
+  settings.method = OdeMethod::kBdf;
+  EXPECT_THROW(Integrate(problem, settings), std::invalid_argument);
+}
+
 TEST(OdeIntegrator, AFailureOfTheJacobianReachesTheCaller) {
   const auto throws = [](double, State, Eigen::Ref<Eigen::MatrixXd>) {
     throw std::runtime_error("no Jacobian here");
@@ -293,6 +338,45 @@ TEST(OdeIntegrator, AGuardEvaluatedAloneGivesTheSameBytes) {
   EXPECT_EQ(alone.guards, all.guards);
   problem.guard_value = [](double, State, int) { return std::nan(""); };
   EXPECT_THROW(Integrate(problem, Accurate()), OdeError);
+}
+
+/// Guards are looked at more rarely than steps are taken.
+TEST(OdeIntegrator, GuardsCrossedInEarlierStepsFireAtTheirTime) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-0.9, 0.9);
+  OdeSettings settings = Accurate();
+  settings.max_step = 1;
+  settings.guard_samples = 2;
+  for (int trial = 0; trial < 100; ++trial) {
+    const double level = uniform(random);
+    const auto value = [level](double, State x, Output out) { out[0] = x[0] - level; };
+    const OdeSolution solution =
+        Integrate(Watching(Oscillator(10), {{GuardDirection::kFalling}}, value), settings);
+    EXPECT_NEAR(solution.time, std::acos(level), 1e-9);
+    EXPECT_NEAR(solution.state[0], level, 1e-9);
+    EXPECT_EQ(solution.trajectory.end_time(), solution.time);
+    EXPECT_EQ(solution.trajectory.StepTimes().back(), solution.time);
+  }
+}
+
+/// Where a guard ends the motion, what would happen behind it does not matter.
+TEST(OdeIntegrator, AStepThatFailsBehindAGuardIsNoFailure) {
+  OdeSettings settings = Accurate();
+  settings.max_step = 1;
+  settings.guard_samples = 1;
+  for (double level = 0.5; level > -0.5; level -= 0.01) {
+    OdeProblem problem = Oscillator(10);
+    problem.rate = [level](double, State x, Output rate) {
+      if (x[0] < level - 0.1) throw std::runtime_error("behind the guard");
+      rate << x[1], -x[0];
+    };
+    const auto value = [level](double, State x, Output out) { out[0] = x[0] - level; };
+    const OdeSolution solution =
+        Integrate(Watching(problem, {{GuardDirection::kFalling}}, value), settings);
+    EXPECT_EQ(solution.end, OdeEnd::kGuard);
+    EXPECT_NEAR(solution.time, std::acos(level), 1e-9);
+    EXPECT_THROW(Integrate(problem, settings), std::runtime_error);
+  }
 }
 
 TEST(OdeIntegrator, GuardThatStaysZeroNeverFires) {
@@ -443,6 +527,8 @@ TEST(OdeIntegrator, InvalidArgumentsAreRefused) {
   rejected([&](OdeProblem& p, OdeSettings&) { p.end_time = nan; });
   rejected([](OdeProblem& p, OdeSettings&) { p.end_time = INFINITY; });
   rejected([](OdeProblem& p, OdeSettings&) { p.guards.resize(1); });
+  rejected([](OdeProblem& p, OdeSettings&) { p.positions = -1; });
+  rejected([](OdeProblem& p, OdeSettings&) { p.positions = 3; });
   rejected([](OdeProblem&, OdeSettings& s) { s.relative_tolerance = 0; });
   rejected([](OdeProblem&, OdeSettings& s) { s.relative_tolerance = 1; });
   rejected([&](OdeProblem&, OdeSettings& s) { s.absolute_tolerance = nan; });

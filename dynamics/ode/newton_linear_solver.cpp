@@ -1,10 +1,9 @@
-#include "dynamics/ode/dense_linear_solver.h"
+#include "dynamics/ode/newton_linear_solver.h"
 
 #include <nvector/nvector_serial.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
-#include <Eigen/LU>
 #include <exception>
+#include <new>
 
 namespace possibility::dynamics {
 namespace {
@@ -12,22 +11,21 @@ namespace {
 // SUNDIALS calls these functions from C: no exception may leave them. Negative: unrecoverable.
 constexpr int kFailed = -1;
 
-struct Factors {
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+struct Content {
+  NewtonMatrix* matrix = nullptr;
+  double gamma = 0;
   bool is_regular = false;
 };
 
-Factors* FactorsOf(SUNLinearSolver solver) { return static_cast<Factors*>(solver->content); }
+Content* ContentOf(SUNLinearSolver solver) { return static_cast<Content*>(solver->content); }
 
 SUNLinearSolver_Type TypeOf(SUNLinearSolver /*solver*/) noexcept { return SUNLINEARSOLVER_DIRECT; }
 
-int Setup(SUNLinearSolver solver, SUNMatrix matrix) noexcept {
+int Setup(SUNLinearSolver solver, SUNMatrix /*matrix*/) noexcept {
   try {
-    Factors* factors = FactorsOf(solver);
-    factors->lu.compute(Eigen::Map<const Eigen::MatrixXd>(
-        SUNDenseMatrix_Data(matrix), SUNDenseMatrix_Rows(matrix), SUNDenseMatrix_Columns(matrix)));
-    factors->is_regular = (factors->lu.matrixLU().diagonal().array() != 0).all();
-    return factors->is_regular ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+    Content* content = ContentOf(solver);
+    content->is_regular = content->matrix->Factor(content->gamma);
+    return content->is_regular ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
   } catch (const std::exception&) {
     return kFailed;
   }
@@ -36,11 +34,11 @@ int Setup(SUNLinearSolver solver, SUNMatrix matrix) noexcept {
 int Solve(SUNLinearSolver solver, SUNMatrix /*matrix*/, N_Vector x, N_Vector b,
           realtype /*tolerance*/) noexcept {
   try {
-    const Factors* factors = FactorsOf(solver);
-    if (!factors->is_regular) return kFailed;
-    const Eigen::Index size = factors->lu.rows();
-    const Eigen::Map<const Eigen::VectorXd> right(N_VGetArrayPointer(b), size);
-    Eigen::Map<Eigen::VectorXd>(N_VGetArrayPointer(x), size) = factors->lu.solve(right);
+    const Content* content = ContentOf(solver);
+    if (!content->is_regular) return kFailed;
+    Eigen::Map<Eigen::VectorXd> solution(N_VGetArrayPointer(x), N_VGetLength(x));
+    solution = Eigen::Map<const Eigen::VectorXd>(N_VGetArrayPointer(b), N_VGetLength(b));
+    content->matrix->Solve(solution);
     return SUNLS_SUCCESS;
   } catch (const std::exception&) {
     return kFailed;
@@ -48,7 +46,7 @@ int Solve(SUNLinearSolver solver, SUNMatrix /*matrix*/, N_Vector x, N_Vector b,
 }
 
 int Free(SUNLinearSolver solver) noexcept {
-  delete FactorsOf(solver);
+  delete ContentOf(solver);
   solver->content = nullptr;
   SUNLinSolFreeEmpty(solver);
   return SUNLS_SUCCESS;
@@ -56,17 +54,19 @@ int Free(SUNLinearSolver solver) noexcept {
 
 }  // namespace
 
-SUNLinearSolver MakeDenseLinearSolver(SUNContext context) {
+SUNLinearSolver MakeNewtonLinearSolver(NewtonMatrix* matrix, SUNContext context) {
   SUNLinearSolver solver = SUNLinSolNewEmpty(context);
   if (solver == nullptr) return nullptr;
   solver->ops->gettype = &TypeOf;
   solver->ops->setup = &Setup;
   solver->ops->solve = &Solve;
   solver->ops->free = &Free;
-  solver->content = new (std::nothrow) Factors;
+  solver->content = new (std::nothrow) Content{matrix};
   if (solver->content != nullptr) return solver;
   SUNLinSolFreeEmpty(solver);
   return nullptr;
 }
+
+void SetGamma(SUNLinearSolver solver, double gamma) { ContentOf(solver)->gamma = gamma; }
 
 }  // namespace possibility::dynamics
