@@ -120,10 +120,14 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
     if (past_apex > blend) return stance_.Joints(descent, past_apex);
     return Quintic(before, after, past_apex + blend, 2 * blend);
   };
+  // Every correction needs the plan at the same times: those of Runge and Kutta's method.
+  const double half_step = duration / intervals / 2;
+  std::vector<Signal<VectorXd>> planned;
+  for (int i = 0; i <= 2 * intervals; ++i) planned.push_back(plan(i * half_step));
+  const VectorXd none = VectorXd::Zero(n);
   const JointMotion joints = [&](double t) {
-    const Signal<VectorXd> planned = plan(t);
-    const VectorXd none = VectorXd::Zero(n);
-    return planned + BlendVector<VectorXd>(none, correction, RestToRest(t, duration));
+    const auto i = static_cast<std::size_t>(std::lround(t / half_step));
+    return planned[i] + BlendVector<VectorXd>(none, correction, RestToRest(t, duration));
   };
   FreeFlight flight(spatial_);
   flight.TakeOff(from.q, from.v);

@@ -7,7 +7,6 @@
 #include "actions/jump/jump_reach.h"
 #include "actions/jump/shared_jump_solve.h"
 #include "actions/motion/phase_sequence.h"
-#include "actions/sagittal/bare_ground.h"
 
 namespace possibility::actions {
 namespace {
@@ -69,10 +68,6 @@ class LongJump::Job : public graph::ConfirmationJob {
  private:
   graph::JobVerdict Place(std::shared_ptr<const SolvedJump> jump, graph::JobControl* control) {
     const Solved solved = action_.Examined(std::move(jump));
-    if (!solved.hit.empty()) {
-      action_.RecordImpossible(leap_.task);
-      return Decide(false, solved.hit);
-    }
     const std::string hit =
         FirstHit(*action_.model().robot, *action_.world().environment, *action_.checker(),
                  *solved.poses, leap_.launch.pose.At(leap_.launch.z), control->token());
@@ -446,10 +441,8 @@ LongJump::Solved LongJump::Examined(std::shared_ptr<const SolvedJump> jump) cons
     }
   }
   const auto poses = std::make_shared<const MotionPoses>(*model().robot, jump->phases);
-  const std::string hit = FirstHitOnBareGround(*model().robot, solver_->model(),
-                                               jump->task.distance, jump->task.height, *poses);
   const std::lock_guard lock(mutex_);
-  return solved_.emplace_back(Solved{std::move(jump), poses, hit});
+  return solved_.emplace_back(Solved{std::move(jump), poses});
 }
 
 std::vector<ManoeuvreFactory> JumpFactories(const models::RobotModel& robot, double skip_growth) {

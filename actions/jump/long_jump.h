@@ -110,11 +110,10 @@ class LongJump : public Manoeuvre {
   bool IsRefuted(const Leap& leap) const;
   void RecordImpossible(const JumpTask& task) const;
   bool IsImpossible(const JumpTask& task) const;
-  /// A solved jump, its poses, and what it hits even on bare ground; empty if nothing.
+  /// A solved jump, which collides with nothing on bare ground, and its poses.
   struct Solved {
     std::shared_ptr<const SolvedJump> jump;
     std::shared_ptr<const MotionPoses> poses;
-    std::string hit;
   };
   std::shared_ptr<SharedJumpSolve> SolveOf(const JumpTask& task) const;
   Solved Examined(std::shared_ptr<const SolvedJump> jump) const;

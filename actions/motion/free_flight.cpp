@@ -82,13 +82,17 @@ Quaterniond FreeFlight::Advance(const Quaterniond& R, double t, double step,
   return Moved(R, step, mean);
 }
 
+/// From the root's rows of the mass matrix. With the centre of mass at c from the root, the angular
+/// momentum about it is L - c x p, and m [c]x is the block that links rotation and translation.
 Vector3d FreeFlight::AngularVelocity(const Quaterniond& R, const Signal<VectorXd>& joints) {
-  VectorXd v = VectorXd::Zero(6 + joints.rate.size());
-  v.tail(joints.rate.size()) = joints.rate;
-  dynamics_.SetState(Configuration(R, Vector3d::Zero(), joints.value), v);
-  const dynamics::CentroidalQuantities& centroidal = dynamics_.Centroidal();
-  const Matrix3d inertia = centroidal.momentum_dv.topLeftCorner<3, 3>();
-  return inertia.inverse() * (momentum_ - centroidal.momentum.head<3>());
+  const Eigen::Index n = joints.rate.size();
+  dynamics_.SetState(Configuration(R, Vector3d::Zero(), joints.value), VectorXd::Zero(6 + n));
+  const Eigen::MatrixXd& M = dynamics_.MassMatrix();
+  const Eigen::Matrix<double, 6, 1> momentum = M.topRightCorner(6, n) * joints.rate;
+  const Matrix3d crossed = M.block<3, 3>(0, 3) / mass_;
+  const Matrix3d inertia = M.topLeftCorner<3, 3>() - mass_ * crossed * crossed.transpose();
+  const Vector3d about_centre = momentum.head<3>() - crossed * momentum.tail<3>();
+  return inertia.inverse() * (momentum_ - about_centre);
 }
 
 Knot FreeFlight::KnotAt(const Quaterniond& R, double t, const JointMotion& joints) {

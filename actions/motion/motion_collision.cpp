@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actions/plan/interpolation.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
@@ -33,21 +34,25 @@ std::vector<bool> LinksThatBear(const models::RobotModel& robot) {
 
 MotionPoses::MotionPoses(const models::RobotModel& robot, const std::vector<Phase>& motion) {
   dynamics::TreeKinematics kinematics(robot);
-  const auto add = [&](const Knot& knot) {
-    kinematics.SetPosition(knot.q);
-    samples_.push_back({knot.t, kinematics.X_WL()});
+  const auto add = [&](double t, const Eigen::VectorXd& q) {
+    kinematics.SetPosition(q);
+    samples_.push_back({t, kinematics.X_WL()});
   };
   for (const Phase& phase : motion) {
     if (phase.knots.empty()) continue;
     for (size_t i = 0; i + 1 < phase.knots.size(); ++i) {
       const Knot& from = phase.knots[i];
       const Knot& to = phase.knots[i + 1];
+      add(from.t, from.q);
       const int parts = std::max(1, static_cast<int>(std::ceil((to.t - from.t) / kInterval)));
-      for (int part = 0; part < parts; ++part) {
-        add(Interpolate(from, to, from.t + (to.t - from.t) * part / parts));
+      if (parts == 1) continue;
+      const KnotInterpolant between(from, to);
+      for (int part = 1; part < parts; ++part) {
+        const double t = from.t + (to.t - from.t) * part / parts;
+        add(t, between.ConfigurationAt(t));
       }
     }
-    add(phase.knots.back());
+    add(phase.knots.back().t, phase.knots.back().q);
   }
 }
 

@@ -12,6 +12,14 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+using Powers = Eigen::Matrix<double, 6, 1>;
+
+Powers PowersOf(double s) {
+  Powers powers;
+  powers << 1, s, s * s, s * s * s, s * s * s * s, s * s * s * s * s;
+  return powers;
+}
+
 Quaterniond RootOrientation(const VectorXd& q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
@@ -63,16 +71,12 @@ Knot KnotInterpolant::At(double t) const {
   if (t <= k0_->t) return *k0_;
   if (t >= k1_->t) return *k1_;
   const double s = (t - k0_->t) / h_;
-  using Powers = Eigen::Matrix<double, 6, 1>;
-  Powers value;
   Powers rate;
   Powers acceleration;
-  value << 1, s, s * s, s * s * s, s * s * s * s, s * s * s * s * s;
   rate << 0, 1, 2 * s, 3 * s * s, 4 * s * s * s, 5 * s * s * s * s;
   acceleration << 0, 0, 2, 6 * s, 12 * s * s, 20 * s * s * s;
 
-  const Eigen::Index n = c_.rows();
-  const VectorXd x = c_ * value;
+  const VectorXd x = c_ * PowersOf(s);
   const Vector3d phi = x.head<3>();
   Knot knot;
   knot.t = t;
@@ -83,12 +87,24 @@ Knot KnotInterpolant::At(double t) const {
   knot.v.head<3>() = jacobian * phi_rate;
   knot.a.head<3>() =
       (jacobian * knot.a.head<3>() + models::LeftJacobianRate(phi, phi_rate) * phi_rate).eval();
-  const Quaterniond R = models::Exponential(phi) * R0_;
-  knot.q.resize(n + 1);
-  knot.q << R.w(), R.vec(), x.tail(n - 3);
+  knot.q = Configuration(x);
   knot.tau = (1 - s) * k0_->tau + s * k1_->tau;
   knot.forces = (1 - s) * k0_->forces + s * k1_->forces;
   return knot;
+}
+
+VectorXd KnotInterpolant::ConfigurationAt(double t) const {
+  if (t <= k0_->t) return k0_->q;
+  if (t >= k1_->t) return k1_->q;
+  return Configuration(c_ * PowersOf((t - k0_->t) / h_));
+}
+
+/// `x`: rotation vector from the first knot, root position, joints.
+VectorXd KnotInterpolant::Configuration(const VectorXd& x) const {
+  const Quaterniond R = models::Exponential(x.head<3>()) * R0_;
+  VectorXd q(x.size() + 1);
+  q << R.w(), R.vec(), x.tail(x.size() - 3);
+  return q;
 }
 
 KnotInterpolant::Coefficients KnotInterpolant::ControlPoints() const {

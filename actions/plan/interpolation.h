@@ -18,6 +18,8 @@ class KnotInterpolant {
 
   /// `t` is clamped to [k0.t, k1.t]; at both ends the knots themselves are returned.
   Knot At(double t) const;
+  /// q of the same.
+  Eigen::VectorXd ConfigurationAt(double t) const;
 
   double start() const { return k0_->t; }  ///< s
   double duration() const { return h_; }   ///< s
@@ -27,6 +29,8 @@ class KnotInterpolant {
   Coefficients ControlPoints() const;
 
  private:
+  Eigen::VectorXd Configuration(const Eigen::VectorXd& x) const;
+
   const Knot* k0_;
   const Knot* k1_;
   double h_;

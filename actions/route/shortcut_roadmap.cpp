@@ -17,6 +17,10 @@ constexpr std::size_t kMostPlaces = 32;
 /// Spacing of places within legs of the route, m.
 constexpr double kPlaceSpacing = 0.4;
 
+bool SameHeading(double a, double b) {
+  return std::abs(WrapAngle(b - a)) < graph::kSamePointDistance;
+}
+
 bool SameHeight(double a, double b) { return std::abs(a - b) < graph::kSamePointDistance; }
 
 }  // namespace
@@ -176,11 +180,16 @@ void ShortcutRoadmap::AddHop(Hop hop, const std::vector<GroundedStance>& stances
 
 Hop ShortcutRoadmap::Turn(int place, double from_yaw, double to_yaw) const {
   Hop turn{.from = place, .to = place, .start_yaw = from_yaw, .end_yaw = to_yaw};
-  if (std::abs(WrapAngle(to_yaw - from_yaw)) < graph::kSamePointDistance) return turn;
-  const auto edge = EdgeBetween(StanceAt(place, from_yaw), StanceAt(place, to_yaw));
-  turn.duration = (*space_.gaits)[edge->action]->ExpectedDuration(edge->points);
-  turn.edges = {*edge};
+  if (SameHeading(from_yaw, to_yaw)) return turn;
+  turn.duration = TurnDuration(place, from_yaw, to_yaw);
+  turn.edges = {*EdgeBetween(StanceAt(place, from_yaw), StanceAt(place, to_yaw))};
   return turn;
+}
+
+double ShortcutRoadmap::TurnDuration(int place, double from_yaw, double to_yaw) const {
+  if (SameHeading(from_yaw, to_yaw)) return 0;
+  return (*space_.gaits)[places_[place].gait]->ExpectedDuration(StanceAt(place, from_yaw).pose,
+                                                                StanceAt(place, to_yaw).pose);
 }
 
 std::optional<PlanarPose> ShortcutRoadmap::Displacement(int from_gait, int to_gait) const {
@@ -197,7 +206,7 @@ std::optional<graph::PathEdge> ShortcutRoadmap::EdgeBetween(const GroundedStance
   const bool same =
       from.gait == to.gait &&
       (from.pose.position() - to.pose.position()).norm() < graph::kSamePointDistance &&
-      std::abs(WrapAngle(from.pose.yaw - to.pose.yaw)) < graph::kSamePointDistance;
+      SameHeading(from.pose.yaw, to.pose.yaw);
   if (same) return std::nullopt;
   const auto point = [&](const GroundedStance& stance) {
     return ToPoint(space_.model->gaits[stance.gait]->stance.RootPose(stance.pose, stance.z));

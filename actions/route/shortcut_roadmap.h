@@ -59,6 +59,8 @@ class ShortcutRoadmap {
 
   /// A turn on the spot; without duration and edges if the headings are equal.
   Hop Turn(int place, double from_yaw, double to_yaw) const;
+  /// Its duration alone, s.
+  double TurnDuration(int place, double from_yaw, double to_yaw) const;
 
  private:
   void AddPlaces();

@@ -89,7 +89,8 @@ class ShortcutSearch {
     for (const int next : leaving_[place]) {
       const Hop& step = roadmap_.hops()[next];
       if (previous_[next] != kUnreached || step.validity == Validity::kBlocked) continue;
-      const double reached = duration + TurnInto(hop, step).duration + step.duration;
+      const double turn = roadmap_.TurnDuration(place, YawAfter(hop), step.start_yaw);
+      const double reached = duration + turn + step.duration;
       open_.push({reached + LowerBound(step.to), reached, next, hop, -1});
     }
     for (const Finish& finish : roadmap_.finishes()) {

@@ -6,7 +6,6 @@
 
 #include "actions/sagittal/sagittal_problem.h"
 #include "actions/verify/verifier.h"
-#include "models/world/collision.h"
 #include "models/world/scenario.h"
 
 namespace possibility::actions {
@@ -50,13 +49,6 @@ models::Environment BareGround(const SagittalModel& model, double distance, doub
   environment.obstacles = {Floor("launch ground", gap.lower - kVast / 2, 0),
                            Floor("landing ground", landing_begin + kVast / 2, height)};
   return environment;
-}
-
-std::string FirstHitOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
-                                 double distance, double height, const MotionPoses& poses) {
-  const models::Environment environment = BareGround(model, distance, height);
-  const models::CollisionChecker checker(robot, environment);
-  return FirstHit(robot, environment, checker, poses, Eigen::Isometry3d::Identity());
 }
 
 std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalModel& model,

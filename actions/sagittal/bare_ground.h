@@ -15,11 +15,6 @@ namespace possibility::actions {
 /// of the landing stance's frame in the launch stance's, m.
 models::Environment BareGround(const SagittalModel& model, double distance, double height);
 
-/// What a motion hits on its bare ground, and therefore in any world: "hits 'landing ground' with
-/// Body_RAR at 1.30 s"; empty if nothing. `poses`: in the launch stance's frame.
-std::string FirstHitOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
-                                 double distance, double height, const MotionPoses& poses);
-
 /// Verifies a motion from stance to stance on its bare ground. `phases`: in the launch stance's
 /// frame. Simulates them only on request. A fault found here does not depend on the scene. Returns
 /// the worst one; empty if there is none.

@@ -62,6 +62,16 @@ TEST(Interpolate, ReturnsTheKnotsAtBothEnds) {
   }
 }
 
+TEST(Interpolate, ConfigurationAloneIsTheSame) {
+  std::mt19937 generator(7);
+  const auto [k0, k1] = RandomPair(0.9, &generator);
+  const KnotInterpolant between(k0, k1);
+  for (int i = -1; i <= 21; ++i) {
+    const double t = k0.t + (k1.t - k0.t) * i / 20;
+    EXPECT_EQ(between.ConfigurationAt(t), between.At(t).q) << t;
+  }
+}
+
 TEST(Interpolate, ApproachesTheKnotsInPositionVelocityAndAcceleration) {
   std::mt19937 generator(3);
   for (int trial = 0; trial < 200; ++trial) {
