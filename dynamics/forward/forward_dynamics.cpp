@@ -24,9 +24,6 @@ constexpr double kUnmet = 1e-8;
 constexpr double kUnmetDrift = 1e-3 / kUnmet;
 constexpr double kRefine = 1e-12;
 
-// Columns of a rigid body's basis: three translations, three rotations.
-constexpr int kMostColumns = 6;
-
 /// Per joint, the independent velocities that move its link: only these share mass.
 std::vector<std::vector<int>> VelocityCliques(const MultibodyModel& model) {
   const std::vector<models::Joint>& joints = model.tree().joints;
@@ -221,68 +218,19 @@ void ForwardDynamics::AccelerateFreely(const Eigen::Ref<const VectorXd>& forces)
 
 template <typename Points>
 void ForwardDynamics::Constrain(const Points& points) {
-  const auto same = [](const ContactPoint& a, const ContactPoint& b) {
-    return a.link == b.link && a.p_L == b.p_L;
-  };
-  const bool known =
-      std::equal(points.begin(), points.end(), points_.begin(), points_.end(),
-                 [&](const auto& held, const ContactPoint& b) { return same(PointOf(held), b); });
-  if (!known) {
-    points_.clear();
-    for (const auto& held : points) points_.push_back(PointOf(held));
-    groups_ = GroupByLink(points_);
-  }
-  Eigen::Index columns = 0;
-  for (const RigidPoints& group : groups_) columns += group.basis.cols();
+  points_.clear();
+  for (const auto& point : points) points_.push_back(PointOf(point));
+  basis_.SetPoints(points_);
+  basis_.SetPoses(dynamics_.kinematics().X_WL());
   jacobians_.resize(3 * points.size(), model().nv());
-  bases_.setZero(3 * points.size(), kMostColumns);
-  half_solved_.setZero(model().nv(), columns);
   required_.resize(3 * points.size());
-  Eigen::Index column = 0;
-  for (const RigidPoints& group : groups_) {
-    const Eigen::Index rank = group.basis.cols();
-    const Eigen::Matrix3d& R = dynamics_.kinematics().X_WL()[group.link].linear();
-    auto Y = half_solved_.middleCols(column, rank);
-    for (std::size_t k = 0; k < group.points.size(); ++k) {
-      const Eigen::Index row = 3 * static_cast<Eigen::Index>(group.points[k]);
-      dynamics_.Jacobian(points_[group.points[k]], jacobians_.middleRows<3>(row));
-      auto basis = bases_.block<3, Eigen::Dynamic>(row, 0, 3, rank);
-      basis.noalias() = R * group.BasisOf(k);
-      Y.noalias() += jacobians_.middleRows<3>(row).transpose() * basis;
-    }
-    for (Eigen::Index i = 0; i < rank; ++i) mass_factor_.SolveTransposed(Y.col(i));
-    column += rank;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    dynamics_.Jacobian(points_[i], jacobians_.middleRows<3>(3 * i));
   }
-}
-
-VectorXd ForwardDynamics::Reduced(const VectorXd& x) const {
-  VectorXd reduced = VectorXd::Zero(half_solved_.cols());
-  Eigen::Index column = 0;
-  for (const RigidPoints& group : groups_) {
-    const Eigen::Index rank = group.basis.cols();
-    for (const std::size_t point : group.points) {
-      const Eigen::Index row = 3 * static_cast<Eigen::Index>(point);
-      reduced.segment(column, rank).noalias() +=
-          bases_.block<3, Eigen::Dynamic>(row, 0, 3, rank).transpose() * x.segment<3>(row);
-    }
-    column += rank;
+  basis_.Reduce(jacobians_, &half_solved_);
+  for (Eigen::Index i = 0; i < half_solved_.cols(); ++i) {
+    mass_factor_.SolveTransposed(half_solved_.col(i));
   }
-  return reduced;
-}
-
-VectorXd ForwardDynamics::Expanded(const VectorXd& x) const {
-  VectorXd expanded(bases_.rows());
-  Eigen::Index column = 0;
-  for (const RigidPoints& group : groups_) {
-    const Eigen::Index rank = group.basis.cols();
-    for (const std::size_t point : group.points) {
-      const Eigen::Index row = 3 * static_cast<Eigen::Index>(point);
-      expanded.segment<3>(row).noalias() =
-          bases_.block<3, Eigen::Dynamic>(row, 0, 3, rank) * x.segment(column, rank);
-    }
-    column += rank;
-  }
-  return expanded;
 }
 
 template <typename Points>
@@ -292,12 +240,12 @@ void ForwardDynamics::SolveMultipliers(const Points& points, double scale, const
         "ForwardDynamics: the points, q or v are so large that the constraints are not finite");
   }
   gram_.Factor(half_solved_);
-  const VectorXd wanted = Reduced(required_);
+  const VectorXd wanted = basis_.Reduced(required_);
   VectorXd left;
   gram_.Solve(wanted, kRefine * scale, &reduced_, &left);
-  multipliers_ = Expanded(reduced_);
+  multipliers_ = basis_.Expanded(reduced_);
   // Neither a rigid body nor the joints can give the points what is left.
-  unmet_ = required_ - Expanded(wanted - left);
+  unmet_ = required_ - basis_.Expanded(wanted - left);
   Eigen::Index worst = 0;
   if (unmet_.size() > 0 && !(unmet_.cwiseAbs().maxCoeff(&worst) <= kUnmet * scale)) {
     throw std::runtime_error(fmt::format(

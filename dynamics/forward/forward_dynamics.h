@@ -7,7 +7,7 @@
 
 #include "dynamics/forward/branched_cholesky.h"
 #include "dynamics/forward/gram_solver.h"
-#include "dynamics/forward/rigid_points.h"
+#include "dynamics/forward/rigid_basis.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::dynamics {
@@ -84,14 +84,11 @@ class ForwardDynamics {
   /// Factorises the mass matrix unless done already at this state.
   void Factor();
   void AccelerateFreely(const Eigen::Ref<const Eigen::VectorXd>& forces);
-  /// Prepares the constraints of points: their groups, whose bases form the block diagonal matrix Q
-  /// (3 points x columns), the Jacobian J, and Y = L^-T J' Q. With a Q of few columns the Gram
-  /// matrix Y'Y is small and, in most postures, regular.
+  /// Prepares the constraints of points: the Jacobian J, the basis Q of the velocities that rigid
+  /// links can give them, and Y = L^-T J' Q. Q has so few columns that the Gram matrix Y'Y is small
+  /// and, in most postures, regular.
   template <typename Points>
   void Constrain(const Points& points);
-  /// Q' x and Q x.
-  Eigen::VectorXd Reduced(const Eigen::VectorXd& x) const;
-  Eigen::VectorXd Expanded(const Eigen::VectorXd& x) const;
   /// The multipliers of least norm with J M^-1 J' lambda = required. `scale`: magnitude that the
   /// residual is compared with.
   template <typename Points>
@@ -110,9 +107,8 @@ class ForwardDynamics {
   Eigen::VectorXd free_;              // nv, acceleration without constraints
   Eigen::VectorXd change_;            // nv, what the multipliers add to it
   std::vector<ContactPoint> points_;  // of the last constraints
-  std::vector<RigidPoints> groups_;   // of points_
-  Eigen::MatrixXd jacobians_;         // 3 points x nv
-  Eigen::MatrixXd bases_;             // 3 points x 6: by point, its rows of Q, world axes
+  RigidBasis basis_;                  // Q, of points_
+  Eigen::MatrixXd jacobians_;         // 3 points x nv: J
   Eigen::MatrixXd half_solved_;       // nv x columns of Q: Y
   Eigen::VectorXd required_;          // 3 points
   Eigen::VectorXd multipliers_;       // 3 points
