@@ -17,9 +17,6 @@ constexpr int kPatientTurns = 8;
 /// Largest number of refuted routes that are replaced.
 constexpr int kMostProposals = 8;
 
-/// Lattices that are searched for quicker routes in any case.
-constexpr std::size_t kUnconditionalRungs = 2;
-
 /// Few passes: the ShortcutExplorer finds the rest.
 constexpr int kShortcutPasses = 2;
 
@@ -56,7 +53,6 @@ LatticeExplorer::LatticeExplorer(const RouteSpace& space, const GroundedStance& 
       ladder_(FirstRouteLadder()) {}
 
 graph::Findings LatticeExplorer::Explore() {
-  if (!search_ && !IsWorthwhile()) rung_ = ladder_.size();
   if (rung_ == ladder_.size()) return {graph::Outlook::kOver, {}};
   if (!search_) {
     search_.emplace(space_, start_, goals_, ladder_[rung_]);
@@ -75,18 +71,11 @@ graph::Findings LatticeExplorer::Explore() {
   return {OutlookOfSearch(), {}};
 }
 
-/// Whether to search the next lattice. Later ones are finer and cost several times as much: they
-/// follow only where the last one made the route quicker.
-bool LatticeExplorer::IsWorthwhile() const {
-  return bound_ == 0 || rung_ < kUnconditionalRungs || gaining_rung_ + 1 == rung_;
-}
-
 /// A refuted first route is replaced by another on the same lattice. With a greed of 1 no quicker
 /// one exists there. A route that is not quicker may become so once shortened.
 graph::Findings LatticeExplorer::Propose() {
   graph::Findings findings{graph::Outlook::kOver, search_->Route()};
   ++proposals_;
-  proposing_rung_ = rung_;
   if (bound_ == 0) {
     search_.reset();
     return findings;
@@ -122,11 +111,9 @@ bool LatticeExplorer::OnRoute(const std::vector<graph::PathEdge>&, double durati
     ladder_ = ImprovementLadder();
     rung_ = 0;
     proposals_ = 0;
-    proposing_rung_ = 0;
     search_.reset();
   }
   bound_ = (1 - kWorthwhileGain) * duration;
-  gaining_rung_ = proposing_rung_;
   if (search_) search_->SetBound(bound_);
   return rung_ < ladder_.size() && proposals_ < kMostProposals;
 }

@@ -38,7 +38,6 @@ class LatticeExplorer : public graph::Explorer {
 
   graph::Findings Propose();
   graph::Findings NextLattice();
-  bool IsWorthwhile() const;
   graph::Outlook OutlookOfSearch();
 
   RouteSpace space_;
@@ -50,8 +49,6 @@ class LatticeExplorer : public graph::Explorer {
   std::optional<LatticeSearch> search_;  ///< under way
   double bound_ = 0;                     ///< s, of the known route; 0: none
   double lower_bound_ = 0;               ///< s
-  std::size_t proposing_rung_ = 0;       ///< of the last proposal
-  std::size_t gaining_rung_ = 0;         ///< of the last proposal that became the known route
   double closest_ = 0;                   ///< m, of the search under way
   int turns_without_progress_ = 0;
   int proposals_ = 0;
