@@ -185,4 +185,9 @@ inline ManoeuvreFactory LeapFactory(const Leap::RunJob& run_job,
           }};
 }
 
+/// Jobs and motions for leaps.
+inline graph::JobVerdict Confirms(graph::JobControl*) { return graph::JobVerdict::kConfirmed; }
+inline graph::JobVerdict Refutes(graph::JobControl*) { return graph::JobVerdict::kRefuted; }
+inline std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
+
 }  // namespace possibility::actions

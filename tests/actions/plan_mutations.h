@@ -21,6 +21,19 @@ struct VerifierSubject {
   models::Scenario scenario;
 };
 
+inline VerificationReport Verified(const VerifierSubject& subject,
+                                   const VerifierSettings& settings = {}) {
+  return Verify(subject.plan, subject.robot, subject.scenario, settings);
+}
+
+/// The first violation of a kind; null if there is none.
+inline const Violation* Find(const VerificationReport& report, ViolationKind kind) {
+  for (const Violation& violation : report.violations) {
+    if (violation.kind == kind) return &violation;
+  }
+  return nullptr;
+}
+
 /// A change that makes any valid plan invalid, and the violation that the verifier must find.
 struct PlanMutation {
   std::string name;

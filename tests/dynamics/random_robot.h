@@ -1,12 +1,20 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <random>
 #include <string>
 
 #include "models/robot/robot_model.h"
+#include "models/robot/robot_yaml.h"
 
 namespace possibility::dynamics {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline models::RobotModel DrcHubo() {
+  return models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
+}
 
 inline double Uniform(std::mt19937* random, double lower, double upper) {
   return std::uniform_real_distribution<double>(lower, upper)(*random);

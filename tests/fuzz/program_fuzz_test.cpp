@@ -14,6 +14,7 @@
 #include "tests/experiments/program_run.h"
 #include "tests/fuzz/case_runner.h"
 #include "tests/fuzz/subjects.h"
+#include "tests/replaced.h"
 
 namespace possibility::fuzz {
 namespace {
@@ -52,15 +53,8 @@ const Kind kKinds[] = {
      "done;"},
 };
 
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
 class ProgramFuzz : public experiments::testing::ProgramRun,
-                    public testing::WithParamInterface<Kind> {
+                    public ::testing::WithParamInterface<Kind> {
  protected:
   void RunCases(std::uint64_t first_seed, int count) {
     fs::create_directories(folder_ / "whole");
@@ -71,8 +65,8 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
       std::ofstream(folder_ / ("spoilt" + subject.extension), std::ios::binary) << text;
       for (const std::string& command : GetParam().commands) {
         const std::string words =
-            Replaced(Replaced(command, "SPOILT", "spoilt" + subject.extension), "SOURCE",
-                     POSSIBILITY_SOURCE_DIR);
+            ReplacedEverywhere(ReplacedEverywhere(command, "SPOILT", "spoilt" + subject.extension),
+                               "SOURCE", POSSIBILITY_SOURCE_DIR);
         const int code = WaitInTime(Start(words, GetParam().before));
         if (IsRight(code)) continue;
         ADD_FAILURE() << subject.name << ", seed " << seed << ": " << words << ": exit code "
@@ -91,11 +85,11 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
     const std::string scenario =
         models::ReadFileContents(source / "experiments/scenarios/closed_room.yaml");
     const bool is_urdf = subject.extension == ".urdf";
-    std::ofstream(folder_ / "scenario.yaml") << Replaced(
+    std::ofstream(folder_ / "scenario.yaml") << ReplacedEverywhere(
         scenario, "../../models/drchubo1/drchubo1.yaml", is_urdf ? "robot.yaml" : "spoilt.yaml");
     std::ofstream(folder_ / "robot.yaml")
-        << Replaced(models::ReadFileContents(source / "models/drchubo1/drchubo1.yaml"),
-                    "drchubo1.urdf", "spoilt.urdf");
+        << ReplacedEverywhere(models::ReadFileContents(source / "models/drchubo1/drchubo1.yaml"),
+                              "drchubo1.urdf", "spoilt.urdf");
   }
 
   /// The exit code; -1: killed by a signal, -2: still running after two minutes.
@@ -126,10 +120,10 @@ class ProgramFuzzLong : public ProgramFuzz {};
 
 TEST_P(ProgramFuzzLong, SpoiltFilesEndWithADocumentedExitCode) { RunCases(21000, 100); }
 
-std::string NameOf(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
+std::string NameOf(const ::testing::TestParamInfo<Kind>& info) { return info.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ProgramFuzz, testing::ValuesIn(kKinds), &NameOf);
-INSTANTIATE_TEST_SUITE_P(Kinds, ProgramFuzzLong, testing::ValuesIn(kKinds), &NameOf);
+INSTANTIATE_TEST_SUITE_P(Kinds, ProgramFuzz, ::testing::ValuesIn(kKinds), &NameOf);
+INSTANTIATE_TEST_SUITE_P(Kinds, ProgramFuzzLong, ::testing::ValuesIn(kKinds), &NameOf);
 
 }  // namespace
 }  // namespace possibility::fuzz

@@ -14,18 +14,18 @@ namespace {
 
 using Make = Subject (*)(const std::filesystem::path&);
 
-struct Kind {
+struct ReadingKind {
   const char* name;
   Make make;
 };
 
-void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+void PrintTo(const ReadingKind& kind, std::ostream* out) { *out << kind.name; }
 
-const Kind kKinds[] = {{"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},
-                       {"Urdf", &UrdfSubject},         {"Plan", &PlanSubject},
-                       {"Solution", &SolutionSubject}, {"Library", &LibrarySubject}};
+const ReadingKind kReadingKinds[] = {{"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},
+                                     {"Urdf", &UrdfSubject},         {"Plan", &PlanSubject},
+                                     {"Solution", &SolutionSubject}, {"Library", &LibrarySubject}};
 
-class ReadingFuzz : public testing::TestWithParam<Kind> {};
+class ReadingFuzz : public ::testing::TestWithParam<ReadingKind> {};
 
 TEST_P(ReadingFuzz, SpoiltFilesAreUsedOrRefused) {
   const models::TemporaryFolder folder;
@@ -39,10 +39,13 @@ TEST_P(ReadingFuzzLong, SpoiltFilesAreUsedOrRefused) {
   RunCases(GetParam().make(folder.path()), 1000, 10000);
 }
 
-std::string NameOf(const testing::TestParamInfo<Kind>& info) { return info.param.name; }
+std::string NameOfReading(const ::testing::TestParamInfo<ReadingKind>& info) {
+  return info.param.name;
+}
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ReadingFuzz, testing::ValuesIn(kKinds), &NameOf);
-INSTANTIATE_TEST_SUITE_P(Kinds, ReadingFuzzLong, testing::ValuesIn(kKinds), &NameOf);
+INSTANTIATE_TEST_SUITE_P(Kinds, ReadingFuzz, ::testing::ValuesIn(kReadingKinds), &NameOfReading);
+INSTANTIATE_TEST_SUITE_P(Kinds, ReadingFuzzLong, ::testing::ValuesIn(kReadingKinds),
+                         &NameOfReading);
 
 }  // namespace
 }  // namespace possibility::fuzz

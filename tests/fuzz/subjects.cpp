@@ -45,7 +45,7 @@ fs::path Write(const fs::path& file, const std::string& text) {
   return file;
 }
 
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+std::string ReplacedOnce(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
@@ -59,8 +59,8 @@ std::vector<std::string> ScenarioTexts() {
   std::sort(files.begin(), files.end());
   std::vector<std::string> texts;
   for (const fs::path& file : files) {
-    texts.push_back(
-        Replaced(models::ReadFileContents(file), "../../models/drchubo1", kRobotFolder.string()));
+    texts.push_back(ReplacedOnce(models::ReadFileContents(file), "../../models/drchubo1",
+                                 kRobotFolder.string()));
   }
   return texts;
 }
@@ -173,8 +173,9 @@ Subject ScenarioSubject(const fs::path& folder) {
 
 Subject RobotSubject(const fs::path& folder) {
   Write(folder / "robot.urdf", models::TwoLeggedUrdf());
-  const std::string large = Replaced(models::ReadFileContents(kRobotFolder / "drchubo1.yaml"),
-                                     "drchubo1.urdf", (kRobotFolder / "drchubo1.urdf").string());
+  const std::string large =
+      ReplacedOnce(models::ReadFileContents(kRobotFolder / "drchubo1.yaml"), "drchubo1.urdf",
+                   (kRobotFolder / "drchubo1.urdf").string());
   return {"robot", ".yaml", Syntax::kYaml,
           [large](std::uint64_t seed) { return seed % 2 == 0 ? models::TwoLeggedYaml() : large; },
           [folder](std::uint64_t, const std::string& text) {
@@ -185,8 +186,8 @@ Subject RobotSubject(const fs::path& folder) {
 Subject UrdfSubject(const fs::path& folder) {
   const std::string large_yaml = models::ReadFileContents(kRobotFolder / "drchubo1.yaml");
   const std::string large_urdf = models::ReadFileContents(kRobotFolder / "drchubo1.urdf");
-  Write(folder / "small.yaml", Replaced(models::TwoLeggedYaml(), "robot.urdf", "spoilt.urdf"));
-  Write(folder / "large.yaml", Replaced(large_yaml, "drchubo1.urdf", "spoilt.urdf"));
+  Write(folder / "small.yaml", ReplacedOnce(models::TwoLeggedYaml(), "robot.urdf", "spoilt.urdf"));
+  Write(folder / "large.yaml", ReplacedOnce(large_yaml, "drchubo1.urdf", "spoilt.urdf"));
   return {"urdf", ".urdf", Syntax::kXml,
           [large_urdf](std::uint64_t seed) {
             return seed % 2 == 0 ? models::TwoLeggedUrdf() : large_urdf;

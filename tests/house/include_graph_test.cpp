@@ -6,17 +6,17 @@
 namespace possibility::house {
 namespace {
 
-const std::filesystem::path kRoot = POSSIBILITY_SOURCE_DIR;
+const std::filesystem::path kSourceRoot = POSSIBILITY_SOURCE_DIR;
 
 const RoomGraph& Sources() {
-  static const RoomGraph graph = IncludeGraph(kRoot);
+  static const RoomGraph graph = IncludeGraph(kSourceRoot);
   return graph;
 }
 
 std::string Floor(const std::string& room) { return room.substr(0, room.find('/')); }
 
 TEST(IncludeGraphTest, TheTableListsExactlyTheIncludesOfEveryRoom) {
-  const RoomGraph documented = DocumentedGraph(kRoot / "docs" / "development.md");
+  const RoomGraph documented = DocumentedGraph(kSourceRoot / "docs" / "development.md");
   for (const auto& [room, used] : Sources()) {
     ASSERT_TRUE(documented.contains(room)) << room << " is not in the table of rooms";
     EXPECT_EQ(documented.at(room), used) << room;

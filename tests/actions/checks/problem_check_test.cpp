@@ -25,10 +25,6 @@ const VerifierSubject& Hopping() {
   return subject;
 }
 
-VerificationReport Verified(const VerifierSubject& subject) {
-  return Verify(subject.plan, subject.robot, subject.scenario);
-}
-
 /// The report's entry of one kind; empty if there is none.
 std::string Found(const VerificationReport& report, ViolationKind kind) {
   for (const Violation& violation : report.violations) {

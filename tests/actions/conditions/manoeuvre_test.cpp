@@ -14,9 +14,6 @@
 namespace possibility::actions {
 namespace {
 
-graph::JobVerdict Refutes(graph::JobControl*) { return graph::JobVerdict::kRefuted; }
-std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
-
 std::string MessageOf(const models::Scenario& scenario,
                       const std::vector<ManoeuvreFactory>& manoeuvres,
                       const std::vector<std::string>& actions = {}) {

@@ -12,7 +12,7 @@ namespace {
 
 using graph::Point;
 
-class QuasiStaticActionTest : public testing::TestWithParam<int> {
+class QuasiStaticActionTest : public ::testing::TestWithParam<int> {
  protected:
   QuasiStaticActionTest() {
     for (int gait = 0; gait < 2; ++gait) {
@@ -151,7 +151,7 @@ TEST(ExplorationPoseTest, DistanceIsAMetricThatWeighsRotationLess) {
   EXPECT_NEAR(space.Distance(origin, ToPoint(PlanarPose{0, 0, 1}.At(1))), 0.137, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticActionTest, testing::Values(0, 1),
+INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticActionTest, ::testing::Values(0, 1),
                          [](const auto& info) { return info.param == 0 ? "walk" : "crawl"; });
 
 }  // namespace

@@ -8,9 +8,6 @@
 namespace possibility::actions {
 namespace {
 
-graph::JobVerdict Confirms(graph::JobControl*) { return graph::JobVerdict::kConfirmed; }
-std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
-
 graph::Edge EdgeOf(const graph::NonholonomicAction& leap) {
   const graph::Point from = *leap.FindLaunchPoint(ToPoint(PlanarPose{-1, 0, 0}.At(1)), {});
   return {from, leap.ExtendTowards(from, {})};

@@ -75,7 +75,7 @@ bool Overlap(const CellBlock& a, const CellBlock& b) {
 }
 
 /// The reference: every cell by itself.
-std::vector<char> DenseFlood(Maze* maze, const CellBlock& seed) {
+std::vector<char> FloodCellByCell(Maze* maze, const CellBlock& seed) {
   std::vector<char> reached(maze->open.size(), 0);
   const auto at = [&](const CellBlock& cell) -> char& {
     return reached[(static_cast<size_t>(cell.plane) * maze->nx + cell.x0) * maze->ny + cell.y0];
@@ -158,7 +158,7 @@ TEST(BlockFloodTest, ReachesWhatAFloodOverSingleCellsReaches) {
   for (int trial = 0; trial < 300; ++trial) {
     Maze maze(&generator);
     const CellBlock seed = maze.RandomBlock(&generator, 1);
-    const std::vector<char> dense = DenseFlood(&maze, seed);
+    const std::vector<char> dense = FloodCellByCell(&maze, seed);
     ASSERT_EQ(SparseFlood(&maze, seed), dense) << trial;
     const auto count = std::count(dense.begin(), dense.end(), 1);
     reached += count;

@@ -15,9 +15,6 @@ namespace {
 
 using graph::RouteOracleAnswer;
 
-graph::JobVerdict Refutes(graph::JobControl*) { return graph::JobVerdict::kRefuted; }
-std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
-
 /// A leap that declares its bounds. It may guess them first.
 class DeclaredLeap : public Leap {
  public:
@@ -49,7 +46,7 @@ ManoeuvreBounds Lands(bool across) {
           FlightBounds{0.1, 0.1}};
 }
 
-class FloodOracleTest : public testing::Test {
+class FloodOracleTest : public ::testing::Test {
  protected:
   RouteOracleAnswer Ask(const CancellationToken& cancellation = {}) {
     oracle_.emplace(DrcHubo1Locomotion(), (**context_).world, manoeuvres_, 0.1, cancellation);

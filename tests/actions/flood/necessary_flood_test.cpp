@@ -30,7 +30,7 @@ void Add(const std::string& name, const Vector3d& low, const Vector3d& high, boo
   environment->obstacles.push_back(obstacle);
 }
 
-models::Environment Floor(const Vector2d& low, const Vector2d& high) {
+models::Environment FloorOf(const Vector2d& low, const Vector2d& high) {
   models::Environment environment;
   environment.bounds = Eigen::AlignedBox2d(low, high);
   Add("floor", {low.x() - 1, low.y() - 1, -0.5}, {high.x() + 1, high.y() + 1, 0}, true,
@@ -38,7 +38,7 @@ models::Environment Floor(const Vector2d& low, const Vector2d& high) {
   return environment;
 }
 
-class NecessaryFloodTest : public testing::Test {
+class NecessaryFloodTest : public ::testing::Test {
  protected:
   FloodResult Flood(const models::Environment& environment, const PlanarPose& start,
                     const PlanarPose& goal) const {
@@ -58,7 +58,7 @@ TEST_F(NecessaryFloodTest, AWallAsLongAsTheBoundsLeavesNoRoute) {
     // The bounds cut the cells at random places.
     const Vector2d low(-1.5 - 0.1 * unit(generator), -1 - 0.1 * unit(generator));
     const Vector2d high(1.5 + 0.1 * unit(generator), 1 + 0.1 * unit(generator));
-    models::Environment environment = Floor(low, high);
+    models::Environment environment = FloorOf(low, high);
     const double thickness = 0.05 + 0.2 * unit(generator);
     Add("wall", {-thickness / 2, low.y(), 0}, {thickness / 2, high.y(), 2.2}, false, &environment);
     const FloodResult flood = Flood(environment, {-1, 0, 0}, {1, 0, 0});
@@ -89,7 +89,7 @@ TEST_F(NecessaryFloodTest, NoRouteLeadsAroundAFloorAsLongAsTheBounds) {
 }
 
 TEST_F(NecessaryFloodTest, StancesOnTheBoundsAreReached) {
-  const models::Environment environment = Floor({-1, -1}, {1, 1});
+  const models::Environment environment = FloorOf({-1, -1}, {1, 1});
   for (const double yaw : {0.0, 1.6, 3.1, -1.6}) {
     EXPECT_TRUE(Flood(environment, {-1, -1, yaw}, {1, 1, yaw}).route_may_exist);
     EXPECT_TRUE(Flood(environment, {1, 1, yaw}, {-1, 1, yaw}).route_may_exist);
@@ -131,7 +131,7 @@ TEST_F(NecessaryFloodTest, ARouteOfThePelvisIsNeverRuledOut) {
   const NominalStance& stance = model_.gaits[0]->stance;
   int kept = 0, proofs = 0;
   for (int trial = 0; trial < 12; ++trial) {
-    const models::Environment floor = Floor({-1.5, -1.2}, {1.5, 1.2});
+    const models::Environment floor = FloorOf({-1.5, -1.2}, {1.5, 1.2});
     const PlanarPose start{-1.2, 2 * unit(generator) - 1, 6 * unit(generator)};
     const PlanarPose goal{1.2, 2 * unit(generator) - 1, 6 * unit(generator)};
     const std::vector<Isometry3d> flight =
@@ -178,7 +178,7 @@ TEST_F(NecessaryFloodTest, ARouteThatASearchFindsIsNeverRuledOut) {
   int routes = 0, proofs = 0;
   for (int trial = 0; trial < 30; ++trial) {
     const Eigen::AlignedBox2d bounds(Vector2d(-2, -1.5), Vector2d(2, 1.5));
-    models::Environment environment = Floor(bounds.min(), bounds.max());
+    models::Environment environment = FloorOf(bounds.min(), bounds.max());
     for (const double x : {-0.6, 0.6}) {
       const double gap = std::max(0.0, 3 * unit(generator) - 0.5);
       const double middle = 1.6 * unit(generator) - 0.8;

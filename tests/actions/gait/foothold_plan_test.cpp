@@ -103,7 +103,7 @@ std::set<std::set<std::string>> ContactsOf(const models::RobotModel& robot,
   return names;
 }
 
-class FootholdPlanTest : public testing::TestWithParam<std::string> {
+class FootholdPlanTest : public ::testing::TestWithParam<std::string> {
  protected:
   double Random() { return std::uniform_real_distribution<double>(-1, 1)(generator_); }
 
@@ -272,9 +272,9 @@ TEST_P(FootholdPlanTest, ShorterSwingsTakeLessTimeButNotLessThanTheirShare) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Gaits, FootholdPlanTest, testing::Values("walk", "crawl"),
+INSTANTIATE_TEST_SUITE_P(Gaits, FootholdPlanTest, ::testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
-INSTANTIATE_TEST_SUITE_P(Gaits, FootholdPlanOfTwoFeet, testing::Values("walk"));
+INSTANTIATE_TEST_SUITE_P(Gaits, FootholdPlanOfTwoFeet, ::testing::Values("walk"));
 
 }  // namespace
 }  // namespace possibility::actions

@@ -20,7 +20,7 @@ PlanarPose RandomPose(std::mt19937* generator, double extent) {
   return {extent * unit(*generator), extent * unit(*generator), 3 * unit(*generator)};
 }
 
-class QuasiStaticGaitTest : public testing::TestWithParam<std::string> {
+class QuasiStaticGaitTest : public ::testing::TestWithParam<std::string> {
  protected:
   const LocomotionModel& model_ = DrcHubo1Locomotion();
   const LocomotionModel::GaitEntry& gait_ = *model_.gaits[model_.GaitIndex(GetParam())];
@@ -117,7 +117,7 @@ TEST_P(QuasiStaticGaitTest, BeginsAndEndsOnAllLimbs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticGaitTest, testing::Values("walk", "crawl"),
+INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticGaitTest, ::testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace possibility::actions {
 namespace {
 
-class Strides : public testing::TestWithParam<StrideClass> {
+class Strides : public ::testing::TestWithParam<StrideClass> {
  protected:
   /// A displacement in the directions of the class, shorter or longer than one stride.
   PlanarPose RandomDisplacement() {
@@ -70,7 +70,7 @@ TEST_P(Strides, StandingStillBelongsToEveryClass) {
   EXPECT_EQ(StrideCount(DrcHubo1().gaits[0].parameters, {1, 2, 3}, {1, 2, 3}), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Classes, Strides, testing::ValuesIn(kStrideClasses));
+INSTANTIATE_TEST_SUITE_P(Classes, Strides, ::testing::ValuesIn(kStrideClasses));
 
 }  // namespace
 }  // namespace possibility::actions

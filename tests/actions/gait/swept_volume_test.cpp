@@ -124,7 +124,7 @@ void ExpectVolumesHoldRandomWays(const std::string& name, int trials) {
   const GaitVolumes volumes = SweepGait(robot, gait.stance(), gait.motion());
   std::mt19937 generator(4);
   std::uniform_real_distribution<double> count(1, 8);
-  for (int trial = 0; trial < trials && !testing::Test::HasFailure(); ++trial) {
+  for (int trial = 0; trial < trials && !::testing::Test::HasFailure(); ++trial) {
     const StrideClass strides = kStrideClasses[trial % kStrideClasses.size()];
     const PlanarPose stride = RandomStride(strides, gait.parameters(), &generator);
     const double n = count(generator);
@@ -134,15 +134,15 @@ void ExpectVolumesHoldRandomWays(const std::string& name, int trials) {
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
       frames.push_back(StrideFrame(way[i], way[i + 1]));
     }
-    SCOPED_TRACE(testing::Message() << name << ", trial " << trial << ": " << way.back().x << ", "
-                                    << way.back().y << ", " << way.back().yaw);
+    SCOPED_TRACE(::testing::Message() << name << ", trial " << trial << ": " << way.back().x << ", "
+                                      << way.back().y << ", " << way.back().yaw);
     ExpectInside(robot, gait.motion().Motion(way, 0.03, {}), frames, volumes.sweep(strides),
                  &generator);
   }
 }
 
-class FlowingSweptVolumeTest : public testing::TestWithParam<std::string> {};
-class FlowingSweptVolumeLong : public testing::TestWithParam<std::string> {};
+class FlowingSweptVolumeTest : public ::testing::TestWithParam<std::string> {};
+class FlowingSweptVolumeLong : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FlowingSweptVolumeTest, HoldsRandomWaysOfEveryClass) {
   ExpectVolumesHoldRandomWays(GetParam(), 60);
@@ -153,9 +153,9 @@ TEST_P(FlowingSweptVolumeLong, HoldsRandomWaysOfEveryClass) {
 }
 
 const auto kGaitName = [](const auto& info) { return info.param; };
-INSTANTIATE_TEST_SUITE_P(Gaits, FlowingSweptVolumeTest, testing::Values("walk", "crawl"),
+INSTANTIATE_TEST_SUITE_P(Gaits, FlowingSweptVolumeTest, ::testing::Values("walk", "crawl"),
                          kGaitName);
-INSTANTIATE_TEST_SUITE_P(Gaits, FlowingSweptVolumeLong, testing::Values("walk", "crawl"),
+INSTANTIATE_TEST_SUITE_P(Gaits, FlowingSweptVolumeLong, ::testing::Values("walk", "crawl"),
                          kGaitName);
 
 /// The farthest poses, relative to a stance of the gait, that the frame of a stride of the class

@@ -251,7 +251,7 @@ TEST(JumpSolverTest, AnInfeasibleJumpIsRefusedWithAReason) {
   EXPECT_NE(answer.reason.find("0.900"), std::string::npos) << answer.reason;
 }
 
-class JumpLibraryTest : public testing::Test {
+class JumpLibraryTest : public ::testing::Test {
  protected:
   JumpLibraryTest() : folder_(std::filesystem::temp_directory_path() / Name()) {
     std::filesystem::remove_all(folder_);
@@ -260,7 +260,7 @@ class JumpLibraryTest : public testing::Test {
 
   static std::string Name() {
     return std::string("possibility_jumps_") +
-           testing::UnitTest::GetInstance()->current_test_info()->name();
+           ::testing::UnitTest::GetInstance()->current_test_info()->name();
   }
   JumpLibrary Library() const { return JumpLibrary(DrcHubo1(), Solver(), folder_); }
   void Fill() const {

@@ -163,7 +163,7 @@ TEST(LongJumpTest, ReverseExtensionsComeFromTheTarget) {
 
 /// m: ground around the bearing points of both ends. Their places on the way are those of the gap's
 /// edges in TwoFloors.
-double Margin(const graph::Edge& edge, double gap) {
+double EdgeMargin(const graph::Edge& edge, double gap) {
   double margin = std::numeric_limits<double>::infinity();
   for (const bool launches : {true, false}) {
     const NominalStance& stance = JumpScene::Model().gaits[launches ? 0 : 1]->stance;
@@ -185,7 +185,7 @@ TEST(LongJumpTest, EndsAreMovedAwayFromTheEdgesOfTheGround) {
     const auto launch = scene.jump().FindLaunchPoint(JumpScene::At(0, x, 0, 0), target);
     ASSERT_TRUE(launch) << x;
     const graph::Edge edge{*launch, scene.jump().ExtendTowards(*launch, target)};
-    EXPECT_GE(Margin(edge, kGap), 0.05 - 1e-9) << x;
+    EXPECT_GE(EdgeMargin(edge, kGap), 0.05 - 1e-9) << x;
     EXPECT_TRUE(scene.jump().CN(edge)) << x;
     EXPECT_TRUE(scene.jump().Explorable(edge)) << x;
     EXPECT_EQ(scene.jump().FindLaunchPoint(*launch, target), *launch) << x;
@@ -194,20 +194,20 @@ TEST(LongJumpTest, EndsAreMovedAwayFromTheEdgesOfTheGround) {
 
 TEST(LongJumpTest, AThinLandingIsExploredOnlyWhereReachAllowsNoWideOne) {
   const graph::Edge thin = JumpScene::Edge(-0.16, 0.75);
-  EXPECT_LT(Margin(thin, kGap), 0.05);
+  EXPECT_LT(EdgeMargin(thin, kGap), 0.05);
   const JumpScene scene(TwoFloors(kGap));
   EXPECT_TRUE(scene.jump().CN(thin));
   EXPECT_FALSE(scene.jump().Explorable(thin));
   // A gap that leaves no room for 50 mm at both ends of the longest jump.
   const double farthest = scene.jump().reach().Distances(0)->second;
-  const double shortest_ends = -Margin(JumpScene::Edge(0, 0), 0);
+  const double shortest_ends = -EdgeMargin(JumpScene::Edge(0, 0), 0);
   ASSERT_GT(shortest_ends, 0);
   bool found = false;
   for (double gap = kGap; gap < farthest; gap += 0.01) {
     const JumpScene wide(TwoFloors(gap));
     for (double x = -0.3; x < -0.1; x += 0.01) {
       const graph::Edge edge = JumpScene::Edge(x, farthest);
-      if (!wide.jump().CN(edge) || Margin(edge, gap) > 0.02) continue;
+      if (!wide.jump().CN(edge) || EdgeMargin(edge, gap) > 0.02) continue;
       found = found || wide.jump().Explorable(edge);
     }
   }

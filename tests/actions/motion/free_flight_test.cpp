@@ -37,7 +37,7 @@ JointMotion Swinging(const VectorXd& middle, std::mt19937* random) {
   };
 }
 
-class FreeFlightTest : public testing::Test {
+class FreeFlightTest : public ::testing::Test {
  protected:
   FreeFlightTest() : random_(7), joints_(Swinging(Stance().tail(robot().num_joints()), &random_)) {
     std::normal_distribution<double> normal;

@@ -35,7 +35,7 @@ struct WayCase {
 void PrintTo(const WayCase& way_case, std::ostream* stream) { *stream << way_case.name; }
 
 /// Walking of DRC-HUBO1 from one stance to another.
-class PatternMotionTest : public testing::TestWithParam<WayCase> {
+class PatternMotionTest : public ::testing::TestWithParam<WayCase> {
  protected:
   PlanarPose goal() const { return start_ * GetParam().way; }
 
@@ -270,10 +270,10 @@ TEST_P(PatternMotionTest, EachFilterPassHoldsTheZeroMomentPointMoreStillDuringSw
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, PatternMotionTest,
-                         testing::Values(WayCase{"ahead", {1.2, 0, 0}},
-                                         WayCase{"bend", {0.9, 0.1, 0.5}},
-                                         WayCase{"aside", {0, 0.6, 0}},
-                                         WayCase{"high", {1.2, 0, 0}, 0.09}),
+                         ::testing::Values(WayCase{"ahead", {1.2, 0, 0}},
+                                           WayCase{"bend", {0.9, 0.1, 0.5}},
+                                           WayCase{"aside", {0, 0.6, 0}},
+                                           WayCase{"high", {1.2, 0, 0}, 0.09}),
                          [](const auto& info) { return info.param.name; });
 
 using PatternMotionRefusals = PatternMotionTest;
@@ -308,7 +308,7 @@ TEST_P(PatternMotionRefusals, CancellationEndsTheWork) {
   EXPECT_THROW(PatternPhases(robot_, stance_, Schedule(), {}, cancelled), Cancelled);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, PatternMotionRefusals, testing::Values(WayCase{"far", {3, 0, 0}}),
+INSTANTIATE_TEST_SUITE_P(Ways, PatternMotionRefusals, ::testing::Values(WayCase{"far", {3, 0, 0}}),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -37,7 +37,7 @@ struct Problem {
   VectorXd zmp, first, last;
 };
 
-class PendulumSplineTest : public testing::Test {
+class PendulumSplineTest : public ::testing::Test {
  protected:
   double Random() { return std::uniform_real_distribution<double>(-1, 1)(generator_); }
 

@@ -56,7 +56,7 @@ TEST(PlanDigits, RoundingTwiceChangesNothing) {
   }
 }
 
-Knot RandomKnot(double t, std::mt19937* random) {
+Knot KnotOfManyDigits(double t, std::mt19937* random) {
   std::normal_distribution<double> normal;
   const auto vector = [&](Eigen::Index size) {
     return Eigen::VectorXd::NullaryExpr(size, [&] { return normal(*random); });
@@ -71,7 +71,7 @@ Knot RandomKnot(double t, std::mt19937* random) {
 Plan RepeatedSteps(int num_knots) {
   std::mt19937 random(7);
   Phase step{{"foot"}, {}};
-  for (int k = 0; k < num_knots; ++k) step.knots.push_back(RandomKnot(0.01 * k, &random));
+  for (int k = 0; k < num_knots; ++k) step.knots.push_back(KnotOfManyDigits(0.01 * k, &random));
   for (Knot& knot : step.knots) knot.q[8] = 0.5;
   Plan plan;
   plan.joints = {"a", "b"};

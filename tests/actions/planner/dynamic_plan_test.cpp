@@ -22,6 +22,7 @@ using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+using testing::Find;
 using testing::HopPlan;
 using testing::PlanMutation;
 using testing::VerifierSubject;
@@ -35,10 +36,6 @@ const VerifierSubject& ValidSubject() {
 
 Phase& Flight(VerifierSubject* subject) { return subject->plan.segments[0].phases[1]; }
 Phase& Landing(VerifierSubject* subject) { return subject->plan.segments[0].phases[2]; }
-
-VerificationReport Verified(const VerifierSubject& subject) {
-  return Verify(subject.plan, subject.robot, subject.scenario);
-}
 
 /// Turns the robot about its centre of mass by an angle that comes and goes within the flight. The
 /// parabola stays the same, the angular momentum does not.
@@ -169,9 +166,9 @@ std::vector<PlanMutation> DynamicMutations() {
   };
 }
 
-class DynamicSabotage : public ::testing::TestWithParam<PlanMutation> {};
+class DynamicPlanMutation : public ::testing::TestWithParam<PlanMutation> {};
 
-TEST_P(DynamicSabotage, AMutationOfAHopIsFound) {
+TEST_P(DynamicPlanMutation, AMutationOfAHopIsFound) {
   VerifierSubject subject = ValidSubject();
   GetParam().apply(&subject);
   const VerificationReport report = Verified(subject);
@@ -181,15 +178,8 @@ TEST_P(DynamicSabotage, AMutationOfAHopIsFound) {
   EXPECT_TRUE(report.rollouts.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Mutations, DynamicSabotage, ::testing::ValuesIn(DynamicMutations()),
+INSTANTIATE_TEST_SUITE_P(Mutations, DynamicPlanMutation, ::testing::ValuesIn(DynamicMutations()),
                          [](const auto& info) { return info.param.name; });
-
-const Violation* Find(const VerificationReport& report, ViolationKind kind) {
-  for (const Violation& violation : report.violations) {
-    if (violation.kind == kind) return &violation;
-  }
-  return nullptr;
-}
 
 TEST(DynamicPlan, AHopIsAccepted) {
   const VerificationReport report = Verified(ValidSubject());

@@ -32,7 +32,7 @@ void ExpectPlans(const std::string& scene, std::uint64_t seeds, PlannerPreset pr
   }
 }
 
-class ExplorerScenes : public testing::TestWithParam<const char*> {};
+class ExplorerScenes : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ExplorerScenes, LatticesAloneFindNothing) {
   const PlanResult result =
@@ -51,7 +51,7 @@ TEST_P(ExplorerScenes, AllExplorersTogetherFindAWay) {
   ExpectPlans(GetParam(), 1, PlannerPreset::kDefault);
 }
 
-class ExplorerScenesLong : public testing::TestWithParam<const char*> {};
+class ExplorerScenesLong : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ExplorerScenesLong, AreCrossedWithFiftySeedsByDefault) {
   ExpectPlans(GetParam(), 50, PlannerPreset::kDefault);
@@ -62,8 +62,8 @@ TEST_P(ExplorerScenesLong, AreCrossedWithFiftySeedsByThePapersExploration) {
 }
 
 constexpr const char* kScenes[] = {"bug_trap", "oblique_jump", "oblique_tunnel"};
-INSTANTIATE_TEST_SUITE_P(Scenes, ExplorerScenes, testing::ValuesIn(kScenes));
-INSTANTIATE_TEST_SUITE_P(Scenes, ExplorerScenesLong, testing::ValuesIn(kScenes));
+INSTANTIATE_TEST_SUITE_P(Scenes, ExplorerScenes, ::testing::ValuesIn(kScenes));
+INSTANTIATE_TEST_SUITE_P(Scenes, ExplorerScenesLong, ::testing::ValuesIn(kScenes));
 
 }  // namespace
 }  // namespace possibility::actions

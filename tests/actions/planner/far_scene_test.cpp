@@ -69,7 +69,7 @@ TEST(FarSceneTest, AHallwayFarAwayIsPlannedAndItsFileVerifies) {
   request.time_limit = 1000;
   const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
-  const std::string folder = testing::TempDir() + "/far_scene";
+  const std::string folder = ::testing::TempDir() + "/far_scene";
   std::filesystem::create_directories(folder);
   WritePlan(result.plan, folder + "/plan.json");
   const VerificationReport report = Verify(ReadPlan(folder), DrcHubo1(), scenario, {});

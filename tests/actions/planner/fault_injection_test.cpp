@@ -30,9 +30,7 @@ PlanRequest Request(const Leap::RunJob& run_job, const Leap::MakeMotion& make_mo
   return request;
 }
 
-graph::JobVerdict Confirms(graph::JobControl*) { return graph::JobVerdict::kConfirmed; }
 graph::JobVerdict Throws(graph::JobControl*) { throw std::runtime_error("the job's fuse blew"); }
-std::vector<Phase> Slides(const Leap& leap) { return leap.Slide(); }
 
 /// A verified plan that walks all the way.
 void ExpectWalking(const PlanResult& result) {

@@ -66,7 +66,7 @@ GaitFactory Plodding() {
   return plodding;
 }
 
-PlanResult Plan(const models::Scenario& scenario, const GaitFactory& gait) {
+PlanResult PlanWith(const models::Scenario& scenario, const GaitFactory& gait) {
   PlanRequest request;
   request.gaits = {gait};
   request.threads = 1;
@@ -83,7 +83,7 @@ double DurationOf(const PlanResult& result) {
 }
 
 TEST(FurtherGaitTest, AGaitOfTheSameStanceThatExpectsToBeQuickerTakesTheRoute) {
-  const PlanResult quick = Plan(Hall(), Brisk());
+  const PlanResult quick = PlanWith(Hall(), Brisk());
   ASSERT_EQ(quick.status, PlanStatus::kFound) << quick.explanation;
   EXPECT_TRUE(quick.verification.accepted());
   EXPECT_TRUE(Uses(quick, "brisk"));
@@ -106,7 +106,7 @@ TEST(FurtherGaitTest, WalkingFlowsRoundBendsAndIsSimulated) {
 }
 
 TEST(FurtherGaitTest, ASlowerGaitOfTheSameStanceIsNotUsed) {
-  const PlanResult result = Plan(Hall(), Plodding());
+  const PlanResult result = PlanWith(Hall(), Plodding());
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_FALSE(Uses(result, "brisk"));
 }
@@ -134,7 +134,7 @@ TEST(FurtherGaitTest, AGaitThatThrowsLeavesThePlanToOthers) {
   };
   models::Scenario near = Hall();
   near.goals.front().x = near.start.x + 1;
-  const PlanResult result = Plan(near, gait);
+  const PlanResult result = PlanWith(near, gait);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(Uses(result, "walk"));
   EXPECT_GT(result.plan.statistics.at("routes refuted by motion generation"), 0);
@@ -147,12 +147,12 @@ TEST(FurtherGaitTest, ABlockedHallIsAnsweredNoForBothGaits) {
   wall.name = "wall";
   wall.shape = models::Shape::Box({0.2, 8, 4});
   scenario.environment.obstacles.push_back(wall);
-  EXPECT_EQ(Plan(scenario, Brisk()).status, PlanStatus::kProvenInfeasible);
+  EXPECT_EQ(PlanWith(scenario, Brisk()).status, PlanStatus::kProvenInfeasible);
 }
 
 std::string MessageOf(const GaitFactory& gait) {
   try {
-    Plan(Hall(), gait);
+    PlanWith(Hall(), gait);
   } catch (const InputError& error) {
     return error.what();
   }

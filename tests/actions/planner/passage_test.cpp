@@ -29,7 +29,7 @@ void Add(const std::string& name, const Vector3d& low, const Vector3d& high,
 }
 
 /// A floor of 5 m x 4 m.
-models::Environment Room() {
+models::Environment EmptyRoom() {
   models::Environment environment;
   environment.bounds = Eigen::AlignedBox2d(Vector2d(-2.5, -2), Vector2d(2.5, 2));
   environment.obstacles = {Floor(0, 0, 6, 5, 0)};
@@ -38,13 +38,13 @@ models::Environment Room() {
 
 /// A wall across the room with a door. The door's middle is at y = 0.4.
 models::Environment Door(double width) {
-  models::Environment environment = Room();
+  models::Environment environment = EmptyRoom();
   Add("left", {-0.1, 0.4 + width / 2, 0}, {0.1, 2.5, 2.2}, &environment);
   Add("right", {-0.1, -2.5, 0}, {0.1, 0.4 - width / 2, 2.2}, &environment);
   return environment;
 }
 
-class PassageTest : public testing::Test {
+class PassageTest : public ::testing::Test {
  protected:
   std::optional<NarrowPassage> Search(const models::Environment& environment,
                                       const std::vector<FloodManoeuvre>& manoeuvres = {}) {
@@ -96,7 +96,7 @@ TEST_F(PassageTest, ADoorIsReportedWithItsWidthAndTheWidthNeeded) {
 }
 
 TEST_F(PassageTest, ALowBarIsReportedWithItsHeightAndTheHeightNeeded) {
-  models::Environment environment = Room();
+  models::Environment environment = EmptyRoom();
   Add("beam", {-0.1, -2.5, 0.62}, {0.1, 2.5, 2.2}, &environment);
   const std::optional<NarrowPassage> passage = Search(environment);
   ASSERT_TRUE(passage.has_value());
@@ -113,7 +113,7 @@ TEST_F(PassageTest, ALowBarIsReportedWithItsHeightAndTheHeightNeeded) {
 TEST_F(PassageTest, AGapIsReportedWithItsWidthAndTheReachOfTheLeap) {
   static constexpr double kFarthest = 1.1;
   const double gap = WidestGap(kFarthest) + 0.25;
-  models::Environment environment = Room();
+  models::Environment environment = EmptyRoom();
   environment.obstacles = {Floor(-2 - gap / 2, 0, 4, 5, 0), Floor(2 + gap / 2, 0, 4, 5, 0)};
   const std::vector<FloodManoeuvre> leap = {
       {0, 1,
@@ -132,7 +132,7 @@ TEST_F(PassageTest, AGapIsReportedWithItsWidthAndTheReachOfTheLeap) {
 }
 
 TEST_F(PassageTest, ASolidWallHasNoPassage) {
-  models::Environment environment = Room();
+  models::Environment environment = EmptyRoom();
   Add("wall", {-0.1, -2.5, 0}, {0.1, 2.5, 2.2}, &environment);
   EXPECT_FALSE(Search(environment).has_value());
 }

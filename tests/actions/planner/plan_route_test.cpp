@@ -82,15 +82,15 @@ void ExpectGoodRoute(const PlanResult& result) {
   EXPECT_NEAR(plan.search->duration, plan.duration(), 0.1 * plan.duration());
 }
 
-class PlanRoute : public testing::TestWithParam<const char*> {};
+class PlanRoute : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PlanRoute, InAShippedSceneIsAPathOfTheGraphWithoutDetours) {
   ExpectGoodRoute(PlanFor(ShippedScenario(GetParam())));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PlanRoute,
-                         testing::Values("three_routes_a", "three_routes_b", "three_routes_c",
-                                         "hallway", "double_jump"));
+                         ::testing::Values("three_routes_a", "three_routes_b", "three_routes_c",
+                                           "hallway", "double_jump"));
 
 /// Random start and goal in a random scene. The robot may be unable to stand there.
 models::Scenario RandomScenario(std::mt19937* generator) {

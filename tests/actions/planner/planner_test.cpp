@@ -157,7 +157,7 @@ std::string BytesOf(PlanResult result, const std::filesystem::path& file) {
 TEST(PlannerTest, OneSeedAndOneThreadGiveTheSameBytes) {
   const models::Scenario scenario = ShippedScenario("three_routes_b");
   const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "possibility_same_bytes.json";
+      std::filesystem::path(::testing::TempDir()) / "possibility_same_bytes.json";
   const PlanRequest request = Request(3, {"walk", "crawl"});
   const std::string first = BytesOf(PlanTraversal(DrcHubo1(), scenario, request), file);
   const std::string second = BytesOf(PlanTraversal(DrcHubo1(), scenario, request), file);
@@ -233,7 +233,7 @@ TEST(PlannerLong, ThreeRoutesBIsPlannedByWalkingAndCrawlingForFiftySeeds) {
 TEST(PlannerLong, OneSeedAndOneThreadGiveTheSameBytesWithJumps) {
   const models::Scenario scenario = ShippedScenario("three_routes_c");
   const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "possibility_same_bytes_jump.json";
+      std::filesystem::path(::testing::TempDir()) / "possibility_same_bytes_jump.json";
   for (const PlannerPreset preset : {PlannerPreset::kDefault, PlannerPreset::kPaper}) {
     PlanRequest request = Request(3, {"walk", "crawl", "jump"});
     request.preset = preset;

@@ -39,7 +39,7 @@ models::Environment DoorEnvironment(double width) {
   return environment;
 }
 
-models::Scenario DoorScene(double width) {
+models::Scenario QuadrupedDoor(double width) {
   models::Scenario scenario;
   scenario.name = scenario.file = "door.yaml";
   scenario.robot_file = Quadruped().file;
@@ -138,7 +138,7 @@ TEST(Quadruped, ASillBelowTheTrunkIsNotProvenInfeasible) {
 TEST(Quadruped, WalksThroughADoor) {
   PlanRequest request;
   request.time_limit = 1000;  // sanitizers are slow
-  const PlanResult result = PlanTraversal(Quadruped(), DoorScene(1), request);
+  const PlanResult result = PlanTraversal(Quadruped(), QuadrupedDoor(1), request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(result.verification.accepted()) << FormatText(result.verification);
 }

@@ -80,7 +80,7 @@ models::RobotModel WithoutJumps() {
   return robot;
 }
 
-class SlowJumpScene : public testing::TestWithParam<int> {
+class SlowJumpScene : public ::testing::TestWithParam<int> {
  protected:
   /// Without a library every jump is solved cold.
   PlanResult Plan(bool with_bridge, double slowness, int threads) {
@@ -123,8 +123,8 @@ TEST_P(SlowJumpLong, WithoutTheBridgeTheJumpIsThePlan) {
   EXPECT_GE(jobs_that_ended_, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, SlowJumpTest, testing::Values(2, 3));
-INSTANTIATE_TEST_SUITE_P(Threads, SlowJumpLong, testing::Values(2));
+INSTANTIATE_TEST_SUITE_P(Threads, SlowJumpTest, ::testing::Values(2, 3));
+INSTANTIATE_TEST_SUITE_P(Threads, SlowJumpLong, ::testing::Values(2));
 
 }  // namespace
 }  // namespace possibility::actions

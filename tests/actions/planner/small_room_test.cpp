@@ -122,19 +122,19 @@ void ExpectWaysThroughSmallRoomsVerify(const LocomotionModel& model, StrideClass
   }
 }
 
-class SmallRooms : public testing::TestWithParam<StrideClass> {};
+class SmallRooms : public ::testing::TestWithParam<StrideClass> {};
 TEST_P(SmallRooms, SufficientWaysVerify) {
   ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 2, 1);
   ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 1, 2);
 }
-INSTANTIATE_TEST_SUITE_P(Classes, SmallRooms, testing::ValuesIn(kStrideClasses));
+INSTANTIATE_TEST_SUITE_P(Classes, SmallRooms, ::testing::ValuesIn(kStrideClasses));
 
-class SmallRoomsLong : public testing::TestWithParam<StrideClass> {};
+class SmallRoomsLong : public ::testing::TestWithParam<StrideClass> {};
 TEST_P(SmallRoomsLong, SufficientWaysVerify) {
   ExpectWaysThroughSmallRoomsVerify(DrcHubo1Locomotion(), GetParam(), 40, 3);
   ExpectWaysThroughSmallRoomsVerify(QuadrupedLocomotion(), GetParam(), 40, 4);
 }
-INSTANTIATE_TEST_SUITE_P(Classes, SmallRoomsLong, testing::ValuesIn(kStrideClasses));
+INSTANTIATE_TEST_SUITE_P(Classes, SmallRoomsLong, ::testing::ValuesIn(kStrideClasses));
 
 /// A stance 8 cm from a wall is free, whichever way it faces. A stance that touches is not.
 TEST(SmallRoom, StandingNeedsTheRoomOfThePostureAlone) {

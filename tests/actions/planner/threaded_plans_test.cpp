@@ -32,7 +32,7 @@ PlanRequest Request(int seed) {
 }
 
 /// The pit without a bridge. The only way across is a jump, which lands crawling.
-models::Scenario JumpScene() {
+models::Scenario SceneToJump() {
   models::Scenario scenario = PitScene(false);
   scenario.actions = {"walk", "crawl", "jump"};
   scenario.start = {"walk", -0.8, 0, 0, 0};
@@ -51,7 +51,7 @@ void ExpectPlan(const models::Scenario& scenario, const PlanRequest& request, bo
 }
 
 void ExpectJumps(int plans, PlannerPreset preset) {
-  const models::Scenario scenario = JumpScene();
+  const models::Scenario scenario = SceneToJump();
   for (int seed = 1; seed <= plans; ++seed) {
     PlanRequest request = Request(seed);
     request.preset = preset;

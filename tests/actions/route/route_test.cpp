@@ -16,7 +16,7 @@
 namespace possibility::actions {
 namespace {
 
-class RouteTest : public testing::Test {
+class RouteTest : public ::testing::Test {
  protected:
   void Load(const models::Environment& environment) {
     environment_ = environment;

@@ -26,10 +26,6 @@ using testing::PhasesOf;
 using testing::ValidSubject;
 using testing::VerifierSubject;
 
-VerificationReport Verified(const VerifierSubject& subject) {
-  return Verify(subject.plan, subject.robot, subject.scenario);
-}
-
 void ExpectRefused(const VerifierSubject& subject, ViolationKind expected) {
   const VerificationReport report = Verified(subject);
   const bool found = std::any_of(report.violations.begin(), report.violations.end(),

@@ -27,7 +27,7 @@ const VerifierSubject& HopSubject() {
 }
 
 /// Without simulations, which the independent check does not run.
-VerificationReport Verified(const VerifierSubject& subject) {
+VerificationReport VerifiedUnsimulated(const VerifierSubject& subject) {
   VerifierSettings settings;
   settings.simulates = false;
   return Verify(subject.plan, subject.robot, subject.scenario, settings);
@@ -46,7 +46,7 @@ TEST(PlanOracle, RefusesMostPlansThatTheVerifierRefuses) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     VerifierSubject subject = seed % 2 == 0 ? ValidSubject() : HopSubject();
     RandomEdits(seed).Apply(&subject);
-    const VerificationReport report = Verified(subject);
+    const VerificationReport report = VerifiedUnsimulated(subject);
     if (report.accepted() || report.violations.front().kind == ViolationKind::kStructure) continue;
     ++refused;
     agreed += PlanOracle(subject.robot, subject.scenario).FaultOf(subject.plan).empty() ? 0 : 1;
@@ -63,7 +63,7 @@ void ExpectNoFalseAcceptance(unsigned first_seed, unsigned count) {
   for (unsigned seed = first_seed; seed < first_seed + count; ++seed) {
     VerifierSubject subject = seed % 2 == 0 ? ValidSubject() : HopSubject();
     const std::string edits = RandomEdits(seed).Apply(&subject);
-    const VerificationReport report = Verified(subject);
+    const VerificationReport report = VerifiedUnsimulated(subject);
     for (const Violation& violation : report.violations) ++found[violation.kind];
     if (!report.accepted()) continue;
     ++accepted;

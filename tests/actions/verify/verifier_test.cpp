@@ -20,20 +20,10 @@ namespace possibility::actions {
 namespace {
 
 using testing::CoupleLastJoint;
+using testing::Find;
 using testing::KnotsOf;
 using testing::ValidSubject;
 using testing::VerifierSubject;
-
-VerificationReport Verified(const VerifierSubject& subject, const VerifierSettings& settings = {}) {
-  return Verify(subject.plan, subject.robot, subject.scenario, settings);
-}
-
-const Violation* Find(const VerificationReport& report, ViolationKind kind) {
-  for (const Violation& violation : report.violations) {
-    if (violation.kind == kind) return &violation;
-  }
-  return nullptr;
-}
 
 TEST(Verifier, AcceptsAStandingPlan) {
   const VerificationReport report = Verified(ValidSubject());

@@ -13,7 +13,7 @@
 
 namespace possibility::collocation {
 
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// A number with its gradient and Hessian with respect to a handful of variables.
 struct Hyper {

@@ -35,42 +35,42 @@ std::vector<std::pair<double, double>> Boxes(int n, double lower, double upper) 
 std::vector<Textbook> Textbooks() {
   std::vector<Textbook> all;
   all.push_back({"HS001 Rosenbrock with a bound",
-                 SmallProgram({{-kInfinity, kInfinity}, {-1.5, kInfinity}},
+                 SmallProgram({{-kUnbounded, kUnbounded}, {-1.5, kUnbounded}},
                               [](const X& x) {
                                 const Hyper a = x[1] - x[0] * x[0], b = 1.0 - x[0];
                                 return 100.0 * (a * a) + b * b;
                               }),
                  Vector({-2, 1}), 0});
   all.push_back({"HS006",
-                 SmallProgram(Boxes(2, -kInfinity, kInfinity),
+                 SmallProgram(Boxes(2, -kUnbounded, kUnbounded),
                               [](const X& x) { return (1.0 - x[0]) * (1.0 - x[0]); }),
                  Vector({-1.2, 1}), 0});
   all.back().program.Add(0, 0, [](const X& x) { return 10.0 * (x[1] - x[0] * x[0]); });
   all.push_back({"HS015 Rosenbrock constrained",
-                 SmallProgram({{-kInfinity, 0.5}, {-kInfinity, kInfinity}},
+                 SmallProgram({{-kUnbounded, 0.5}, {-kUnbounded, kUnbounded}},
                               [](const X& x) {
                                 const Hyper a = x[1] - x[0] * x[0], b = 1.0 - x[0];
                                 return 100.0 * (a * a) + b * b;
                               }),
                  Vector({-2, 1}), 306.5});
   all.back()
-      .program.Add(1, kInfinity, [](const X& x) { return x[0] * x[1]; })
-      .Add(0, kInfinity, [](const X& x) { return x[0] + x[1] * x[1]; });
+      .program.Add(1, kUnbounded, [](const X& x) { return x[0] * x[1]; })
+      .Add(0, kUnbounded, [](const X& x) { return x[0] + x[1] * x[1]; });
   all.push_back({"HS035",
-                 SmallProgram(Boxes(3, 0, kInfinity),
+                 SmallProgram(Boxes(3, 0, kUnbounded),
                               [](const X& x) {
                                 return 9.0 - 8.0 * x[0] - 6.0 * x[1] - 4.0 * x[2] +
                                        2.0 * (x[0] * x[0]) + 2.0 * (x[1] * x[1]) + x[2] * x[2] +
                                        2.0 * (x[0] * x[1]) + 2.0 * (x[0] * x[2]);
                               }),
                  Vector({0.5, 0.5, 0.5}), 1.0 / 9});
-  all.back().program.Add(-kInfinity, 3, [](const X& x) { return x[0] + x[1] + 2.0 * x[2]; });
+  all.back().program.Add(-kUnbounded, 3, [](const X& x) { return x[0] + x[1] + 2.0 * x[2]; });
   all.push_back({"HS071",
                  SmallProgram(Boxes(4, 1, 5),
                               [](const X& x) { return x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2]; }),
                  Vector({1, 5, 5, 1}), 17.0140172892});
   all.back()
-      .program.Add(25, kInfinity, [](const X& x) { return x[0] * x[1] * x[2] * x[3]; })
+      .program.Add(25, kUnbounded, [](const X& x) { return x[0] * x[1] * x[2] * x[3]; })
       .Add(40, 40,
            [](const X& x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]; });
   all.push_back({"HS106 heat exchangers, badly scaled",
@@ -85,19 +85,19 @@ std::vector<Textbook> Textbooks() {
                               [](const X& x) { return x[0] + x[1] + x[2]; }),
                  Vector({5000, 5000, 5000, 200, 350, 150, 225, 425}), 7049.24802053});
   all.back()
-      .program.Add(-1, kInfinity, [](const X& x) { return -0.0025 * (x[3] + x[5]); })
-      .Add(-1, kInfinity, [](const X& x) { return -0.0025 * (x[4] + x[6] - x[3]); })
-      .Add(-1, kInfinity, [](const X& x) { return -0.01 * (x[7] - x[4]); })
-      .Add(-83333.333, kInfinity,
+      .program.Add(-1, kUnbounded, [](const X& x) { return -0.0025 * (x[3] + x[5]); })
+      .Add(-1, kUnbounded, [](const X& x) { return -0.0025 * (x[4] + x[6] - x[3]); })
+      .Add(-1, kUnbounded, [](const X& x) { return -0.01 * (x[7] - x[4]); })
+      .Add(-83333.333, kUnbounded,
            [](const X& x) { return x[0] * x[5] - 833.33252 * x[3] - 100.0 * x[0]; })
-      .Add(0, kInfinity,
+      .Add(0, kUnbounded,
            [](const X& x) { return x[1] * x[6] - 1250.0 * x[4] - x[1] * x[3] + 1250.0 * x[3]; })
-      .Add(1250000, kInfinity,
+      .Add(1250000, kUnbounded,
            [](const X& x) { return x[2] * x[7] - x[2] * x[4] + 2500.0 * x[4]; });
   return all;
 }
 
-SolverGuess At(const VectorXd& x) { return {x, {}, {}, {}}; }
+SolverGuess StartAt(const VectorXd& x) { return {x, {}, {}, {}}; }
 
 TEST(Solver, FindsTheKnownOptimaOfTextbooks) {
   for (Textbook& textbook : Textbooks()) {
@@ -108,7 +108,7 @@ TEST(Solver, FindsTheKnownOptimaOfTextbooks) {
       std::vector<size_t> iterations;
       for (const auto linear : {LinearSolver::kSparseLdlt, LinearSolver::kMumps}) {
         options.linear_solver = linear;
-        const SolverResult result = Solve(&textbook.program, At(textbook.start), options);
+        const SolverResult result = Solve(&textbook.program, StartAt(textbook.start), options);
         EXPECT_EQ(result.status, SolverStatus::kSolved) << result.message;
         EXPECT_NEAR(result.objective, textbook.optimum, 1e-7 * (1 + textbook.optimum));
         EXPECT_LE(result.worst_violation, 1e-8);
@@ -126,7 +126,7 @@ TEST(Solver, MultipliersBalanceTheGradient) {
   for (Textbook& textbook : Textbooks()) {
     SCOPED_TRACE(textbook.name);
     SmallProgram& program = textbook.program;
-    const SolverResult result = Solve(&program, At(textbook.start));
+    const SolverResult result = Solve(&program, StartAt(textbook.start));
     ASSERT_TRUE(result.succeeded());
     const int n = program.num_variables(), m = program.num_constraints();
     VectorXd gradient(n), jacobian(n * m);
@@ -147,9 +147,9 @@ TEST(Solver, BothLinearSolversAgreeOnASparseProgram) {
   settings.target = 0.5;
   PendulumChain program(settings);
   SolverOptions options;
-  const SolverResult ours = Solve(&program, At(program.Guess()), options);
+  const SolverResult ours = Solve(&program, StartAt(program.Guess()), options);
   options.linear_solver = LinearSolver::kMumps;
-  const SolverResult mumps = Solve(&program, At(program.Guess()), options);
+  const SolverResult mumps = Solve(&program, StartAt(program.Guess()), options);
   ASSERT_EQ(ours.status, SolverStatus::kSolved) << ours.message;
   ASSERT_EQ(mumps.status, SolverStatus::kSolved) << mumps.message;
   EXPECT_NEAR(ours.objective, mumps.objective, 1e-6 * mumps.objective);
@@ -159,10 +159,10 @@ TEST(Solver, BothLinearSolversAgreeOnASparseProgram) {
 }
 
 TEST(Solver, FixedVariablesKeepTheirValues) {
-  SmallProgram program({{2, 2}, {-kInfinity, kInfinity}, {3, 3}},
+  SmallProgram program({{2, 2}, {-kUnbounded, kUnbounded}, {3, 3}},
                        [](const X& x) { return (x[1] - x[0] * x[2]) * (x[1] - x[0] * x[2]); });
-  program.Add(-kInfinity, 5, [](const X& x) { return x[1]; });
-  const SolverResult result = Solve(&program, At(Vector({0, 0, 0})));
+  program.Add(-kUnbounded, 5, [](const X& x) { return x[1]; });
+  const SolverResult result = Solve(&program, StartAt(Vector({0, 0, 0})));
   EXPECT_EQ(result.status, SolverStatus::kSolved) << result.message;
   EXPECT_EQ(result.x[0], 2);
   EXPECT_EQ(result.x[2], 3);
@@ -173,33 +173,33 @@ TEST(Solver, FixedVariablesKeepTheirValues) {
 TEST(Solver, AProgramWithAllVariablesFixedIsSolvedOrInfeasible) {
   SmallProgram program(Boxes(2, 1, 1), [](const X& x) { return x[0] + x[1]; });
   program.Add(2, 2, [](const X& x) { return x[0] + x[1]; });
-  SolverResult result = Solve(&program, At(Vector({0, 0})));
+  SolverResult result = Solve(&program, StartAt(Vector({0, 0})));
   EXPECT_EQ(result.status, SolverStatus::kSolved) << result.message;
   EXPECT_EQ(result.x, Vector({1, 1}));
   EXPECT_EQ(result.objective, 2);
-  program.Add(5, kInfinity, [](const X& x) { return x[0]; });
-  result = Solve(&program, At(Vector({0, 0})));
+  program.Add(5, kUnbounded, [](const X& x) { return x[0]; });
+  result = Solve(&program, StartAt(Vector({0, 0})));
   EXPECT_EQ(result.status, SolverStatus::kInfeasible);
   EXPECT_NE(result.message.find("'g2' is off by 4"), std::string::npos) << result.message;
 }
 
 TEST(Solver, ProgramsWithDependentConstraintsAreSolved) {
-  SmallProgram program(Boxes(3, -kInfinity, kInfinity),
+  SmallProgram program(Boxes(3, -kUnbounded, kUnbounded),
                        [](const X& x) { return x[0] * x[0] + x[1] * x[1] + x[2] * x[2]; });
   for (const double factor : {1.0, -2.0}) {
     program.Add(factor * 3, factor * 3,
                 [factor](const X& x) { return factor * (x[0] + x[1] + x[2]); });
   }
-  const SolverResult result = Solve(&program, At(Vector({5, -1, 0})));
+  const SolverResult result = Solve(&program, StartAt(Vector({5, -1, 0})));
   EXPECT_EQ(result.status, SolverStatus::kSolved) << result.message;
   EXPECT_NEAR(result.objective, 3, 1e-7);
 }
 
 TEST(Solver, InfeasibleProgramsNameTheConstraint) {
   SmallProgram program(Boxes(2, -10, 10), [](const X& x) { return x[0] + x[1]; });
-  program.Add(-kInfinity, 1, [](const X& x) { return x[0] * x[0] + x[1] * x[1]; })
-      .Add(4, kInfinity, [](const X& x) { return x[0]; });
-  const SolverResult result = Solve(&program, At(Vector({0, 0})));
+  program.Add(-kUnbounded, 1, [](const X& x) { return x[0] * x[0] + x[1] * x[1]; })
+      .Add(4, kUnbounded, [](const X& x) { return x[0]; });
+  const SolverResult result = Solve(&program, StartAt(Vector({0, 0})));
   EXPECT_EQ(result.status, SolverStatus::kInfeasible) << result.message;
   EXPECT_GT(result.worst_violation, 0.5);
   EXPECT_NE(result.message.find("constraint 'g"), std::string::npos) << result.message;
@@ -207,30 +207,30 @@ TEST(Solver, InfeasibleProgramsNameTheConstraint) {
 }
 
 TEST(Solver, UnboundedProgramsNameTheVariable) {
-  SmallProgram program(Boxes(2, -kInfinity, kInfinity),
+  SmallProgram program(Boxes(2, -kUnbounded, kUnbounded),
                        [](const X& x) { return x[0] + 0.0 * x[1] * x[1]; });
   program.Add(-1, 1, [](const X& x) { return x[1]; });
-  const SolverResult result = Solve(&program, At(Vector({0, 0})));
+  const SolverResult result = Solve(&program, StartAt(Vector({0, 0})));
   EXPECT_EQ(result.status, SolverStatus::kUnbounded) << result.message;
   EXPECT_NE(result.message.find("'x1'"), std::string::npos) << result.message;
 }
 
 TEST(Solver, MoreEqualitiesThanVariablesAreRefused) {
-  SmallProgram program(Boxes(1, -kInfinity, kInfinity), [](const X& x) { return x[0]; });
+  SmallProgram program(Boxes(1, -kUnbounded, kUnbounded), [](const X& x) { return x[0]; });
   program.Add(0, 0, [](const X& x) { return x[0]; }).Add(0, 0, [](const X& x) {
     return x[0] * x[0];
   });
-  const SolverResult result = Solve(&program, At(Vector({1})));
+  const SolverResult result = Solve(&program, StartAt(Vector({1})));
   EXPECT_EQ(result.status, SolverStatus::kFailed);
   EXPECT_NE(result.message.find("fewer free variables"), std::string::npos) << result.message;
 }
 
 TEST(Solver, AnInvalidNumberAtTheStartNamesTheConstraint) {
-  SmallProgram program(Boxes(2, -kInfinity, kInfinity), [](const X& x) { return x[0] * x[0]; });
+  SmallProgram program(Boxes(2, -kUnbounded, kUnbounded), [](const X& x) { return x[0] * x[0]; });
   program.Add(0, 0, [](const X& x) { return x[0]; }).Add(0, 0, [](const X& x) {
     return Log(x[1]) + x[0];
   });
-  const SolverResult result = Solve(&program, At(Vector({1, -1})));
+  const SolverResult result = Solve(&program, StartAt(Vector({1, -1})));
   EXPECT_EQ(result.status, SolverStatus::kInvalidNumber);
   EXPECT_NE(result.message.find("constraint 'g2' is"), std::string::npos) << result.message;
   EXPECT_NE(result.message.find("starting point"), std::string::npos) << result.message;
@@ -238,7 +238,7 @@ TEST(Solver, AnInvalidNumberAtTheStartNamesTheConstraint) {
 
 TEST(Solver, AnInvalidNumberAtATrialPointShortensTheStep) {
   // log is undefined where full steps would go.
-  SmallProgram program(Boxes(1, -kInfinity, kInfinity),
+  SmallProgram program(Boxes(1, -kUnbounded, kUnbounded),
                        [](const X& x) { return x[0] - Log(x[0]); });
   int undefined = 0;
   class Counting : public SmallProgram {
@@ -253,7 +253,7 @@ TEST(Solver, AnInvalidNumberAtATrialPointShortensTheStep) {
    private:
     int* undefined_;
   } counting(program, &undefined);
-  const SolverResult result = Solve(&counting, At(Vector({3})));
+  const SolverResult result = Solve(&counting, StartAt(Vector({3})));
   EXPECT_EQ(result.status, SolverStatus::kSolved) << result.message;
   EXPECT_NEAR(result.x[0], 1, 1e-7);
   EXPECT_GT(undefined, 0);
@@ -276,7 +276,7 @@ class Failing : public SmallProgram {
   }
   void Jacobian(const VectorXd& x, VectorXd* values) override {
     SmallProgram::Jacobian(x, values);
-    if (where_ == Where::kJacobian && ++calls_ > 2) (*values)[5] = kInfinity;
+    if (where_ == Where::kJacobian && ++calls_ > 2) (*values)[5] = kUnbounded;
   }
   void Hessian(const VectorXd& x, double factor, const VectorXd& multipliers,
                VectorXd* values) override {
@@ -302,7 +302,7 @@ TEST(Solver, AnInvalidNumberInDerivativesIsNamed) {
       Failing program(hs071.program, where);
       SolverOptions options;
       options.linear_solver = linear;
-      const SolverResult result = Solve(&program, At(hs071.start), options);
+      const SolverResult result = Solve(&program, StartAt(hs071.start), options);
       EXPECT_EQ(result.status, SolverStatus::kInvalidNumber) << result.message;
       EXPECT_NE(result.message.find(text), std::string::npos) << result.message;
       EXPECT_TRUE(result.x.allFinite());
@@ -313,9 +313,9 @@ TEST(Solver, AnInvalidNumberInDerivativesIsNamed) {
 TEST(Solver, OtherExceptionsOfTheProgramPassThrough) {
   const Textbook hs071 = Textbooks()[4];
   Failing program(hs071.program, Failing::Where::kObjectiveThrowsLogic);
-  EXPECT_THROW(Solve(&program, At(hs071.start)), std::logic_error);
+  EXPECT_THROW(Solve(&program, StartAt(hs071.start)), std::logic_error);
   Textbook fine = Textbooks()[4];
-  EXPECT_THROW(Solve(&fine.program, At(fine.start), {}, {},
+  EXPECT_THROW(Solve(&fine.program, StartAt(fine.start), {}, {},
                      [](const SolverIteration&) { throw std::out_of_range("log"); }),
                std::out_of_range);
 }
@@ -332,47 +332,47 @@ void ExpectInvalid(NonlinearProgram* program, const SolverGuess& guess,
 
 TEST(Solver, RefusesBadInputByName) {
   SmallProgram empty({}, [](const X&) { return Hyper(); });
-  ExpectInvalid(&empty, At(VectorXd()), {}, "no variables");
+  ExpectInvalid(&empty, StartAt(VectorXd()), {}, "no variables");
 
   const Textbook hs071 = Textbooks()[4];
   SmallProgram program = hs071.program;
   program.Add(3, 2, [](const X& x) { return x[0]; });
-  ExpectInvalid(&program, At(hs071.start), {}, "constraint 'g3'");
+  ExpectInvalid(&program, StartAt(hs071.start), {}, "constraint 'g3'");
   program = hs071.program;
   program.mutable_lower()[2] = 7;
-  ExpectInvalid(&program, At(hs071.start), {},
+  ExpectInvalid(&program, StartAt(hs071.start), {},
                 "variable 'x3': no value is at least 7 and at most 5");
   program.mutable_lower()[2] = std::nan("");
-  ExpectInvalid(&program, At(hs071.start), {}, "variable 'x3'");
+  ExpectInvalid(&program, StartAt(hs071.start), {}, "variable 'x3'");
   program = hs071.program;
   program.mutable_jacobian_pattern().Add(2, 0);
-  ExpectInvalid(&program, At(hs071.start), {}, "Jacobian has an entry (2, 0)");
+  ExpectInvalid(&program, StartAt(hs071.start), {}, "Jacobian has an entry (2, 0)");
 
   program = hs071.program;
-  ExpectInvalid(&program, At(Vector({1, 2})), {}, "2 variables instead of 4");
-  ExpectInvalid(&program, At(Vector({1, 2, 3, kInfinity})), {}, "'x4' is inf");
-  SolverGuess guess = At(hs071.start);
+  ExpectInvalid(&program, StartAt(Vector({1, 2})), {}, "2 variables instead of 4");
+  ExpectInvalid(&program, StartAt(Vector({1, 2, 3, kUnbounded})), {}, "'x4' is inf");
+  SolverGuess guess = StartAt(hs071.start);
   guess.lower_multipliers = VectorXd::Zero(4);
   ExpectInvalid(&program, guess, {}, "constraint multipliers");
 
   SolverOptions options;
   options.ipopt = {{"no_such_option", "1"}};
-  ExpectInvalid(&program, At(hs071.start), options, "no option 'no_such_option'");
+  ExpectInvalid(&program, StartAt(hs071.start), options, "no option 'no_such_option'");
   options.ipopt = {{"mu_strategy", "guesswork"}};
-  ExpectInvalid(&program, At(hs071.start), options, "'guesswork'");
+  ExpectInvalid(&program, StartAt(hs071.start), options, "'guesswork'");
   options.ipopt = {{"mu_init", "a lot"}};
-  ExpectInvalid(&program, At(hs071.start), options, "'a lot'");
+  ExpectInvalid(&program, StartAt(hs071.start), options, "'a lot'");
   options.ipopt = {{"mu_init", "-1"}};
-  ExpectInvalid(&program, At(hs071.start), options, "'-1'");
+  ExpectInvalid(&program, StartAt(hs071.start), options, "'-1'");
   options.ipopt = {{"linear_solver", "ma57"}};
-  ExpectInvalid(&program, At(hs071.start), options, "SolverOptions::linear_solver");
+  ExpectInvalid(&program, StartAt(hs071.start), options, "SolverOptions::linear_solver");
 }
 
 TEST(Solver, TakesIpoptOptionsOfEveryType) {
   Textbook hs071 = Textbooks()[4];
   SolverOptions options;
   options.ipopt = {{"mu_strategy", "monotone"}, {"mu_init", "0.01"}, {"max_iter", "3"}};
-  const SolverResult result = Solve(&hs071.program, At(hs071.start), options);
+  const SolverResult result = Solve(&hs071.program, StartAt(hs071.start), options);
   EXPECT_EQ(result.status, SolverStatus::kIterationLimit);
   EXPECT_EQ(result.history.size(), 4u);
   EXPECT_DOUBLE_EQ(result.history[0].barrier, 0.01);
@@ -383,7 +383,7 @@ TEST(Solver, LogsEveryIterationAndPrintsNothing) {
   std::vector<SolverIteration> logged;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  const SolverResult result = Solve(&hs071.program, At(hs071.start), {}, {},
+  const SolverResult result = Solve(&hs071.program, StartAt(hs071.start), {}, {},
                                     [&](const SolverIteration& it) { logged.push_back(it); });
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -401,11 +401,11 @@ TEST(Solver, WarmStartOfANeighbourTakesFewerIterations) {
   settings.target = 0.5;
   settings.effort = 2;
   PendulumChain program(settings);
-  const SolverResult first = Solve(&program, At(program.Guess()));
+  const SolverResult first = Solve(&program, StartAt(program.Guess()));
   ASSERT_TRUE(first.succeeded()) << first.message;
   settings.effort = 2.02;
   PendulumChain neighbour(settings);
-  const SolverResult cold = Solve(&neighbour, At(neighbour.Guess()));
+  const SolverResult cold = Solve(&neighbour, StartAt(neighbour.Guess()));
   const SolverResult warm = Solve(&neighbour, {first.x, first.constraint_multipliers,
                                                first.lower_multipliers, first.upper_multipliers});
   ASSERT_EQ(warm.status, SolverStatus::kSolved) << warm.message;

@@ -22,7 +22,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The factor that a pyramid of 32 edges loses at most.
 const double kPyramid = 1 / std::cos(M_PI / 32);
 
@@ -251,7 +250,7 @@ TEST(ContactMargins, ForcesAreInIndependentCoordinates) {
 }
 
 /// A box of 10 kg that lands flat, its com `height` above the ground, with corners at +-half.
-struct Landing {
+struct LandingCase {
   ImpulseFeasibility Check(const Vector3d& velocity, double friction) {
     ForwardDynamics dynamics(MultibodyModel::Spatial(Block()));
     VectorXd v = VectorXd::Zero(6);
@@ -271,7 +270,7 @@ struct Landing {
 };
 
 TEST(ImpulseFeasibility, LandingBoxSticksSlipsOrTips) {
-  Landing landing;
+  LandingCase landing;
   std::mt19937 random(4);
   for (int trial = 0; trial < 50; ++trial) {
     const Vector3d velocity(Uniform(&random, -1.5, 1.5), 0, -2);

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// One rigid body of 10 kg, com at its origin, at the world origin.
-models::RobotModel Block() {
+models::RobotModel FreeBlock() {
   models::RobotModel model;
   model.links.resize(1);
   model.links[0].inertial.mass = 10;
@@ -26,9 +26,9 @@ models::RobotModel Block() {
   return model;
 }
 
-/// Block with a massless limb on a joint about y.
+/// FreeBlock with a massless limb on a joint about y.
 models::RobotModel BlockWithLimb(double effort) {
-  models::RobotModel model = Block();
+  models::RobotModel model = FreeBlock();
   model.links.resize(2);
   models::Joint joint;
   joint.axis = Vector3d::UnitY();
@@ -90,7 +90,7 @@ void ExpectValid(TreeKinematics* kinematics, const VectorXd& a,
 }
 
 TEST(ContactForces, FourCornersShareTheWeightEqually) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   const auto result = block.Forces(Rectangle(0, -0.1, 0.1, -0.2, 0.2, -0.5));
   ASSERT_TRUE(result);
   for (int i = 0; i < 4; ++i) {
@@ -100,7 +100,7 @@ TEST(ContactForces, FourCornersShareTheWeightEqually) {
 }
 
 TEST(ContactForces, TwoAndThreePointSupportsFollowTheLeverLaw) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   for (const double x : {0.01, 0.1, 0.3}) {
     const auto beam = block.Forces({{0, {-0.1, 0, -0.5}}, {0, {x, 0, -0.5}}});
     ASSERT_TRUE(beam);
@@ -118,7 +118,7 @@ TEST(ContactForces, TwoAndThreePointSupportsFollowTheLeverLaw) {
 }
 
 TEST(ContactForces, CoincidentPointsShareTheLoadEqually) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   std::vector<ContactPoint> points = Rectangle(0, -0.1, 0.3, -0.1, 0.1, -0.5);
   points.push_back(points[0]);
   points.push_back(points[0]);
@@ -129,7 +129,7 @@ TEST(ContactForces, CoincidentPointsShareTheLoadEqually) {
 }
 
 TEST(ContactForces, NoForcesExistIfTheCentreOfMassIsOutsideTheSupport) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   EXPECT_FALSE(block.Forces(Rectangle(0, 0.001, 0.3, -0.1, 0.1, -0.5)));
   EXPECT_TRUE(block.Forces(Rectangle(0, -0.001, 0.3, -0.1, 0.1, -0.5)));
   EXPECT_FALSE(block.Forces({{0, {0.1, 0, -0.5}}, {0, {0.2, 0, -0.5}}}));
@@ -138,7 +138,7 @@ TEST(ContactForces, NoForcesExistIfTheCentreOfMassIsOutsideTheSupport) {
 }
 
 TEST(ContactForces, ForcesExistExactlyWithinTheTippingAndSlidingLimits) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   block.settings.friction = 0.5;
   block.settings.friction_margin = 1;
   const double half = 0.2;
@@ -205,7 +205,7 @@ TEST(ContactForces, FreeFlightIsFeasibleOnlyAtGravitysAcceleration) {
 }
 
 TEST(ContactForces, NormalReserveHoldsAtEveryPoint) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   const std::vector<ContactPoint> points = Rectangle(0, -0.02, 0.2, -0.1, 0.1, -0.5);
   block.settings.normal_reserve = 4;
   const auto result = block.Forces(points);
@@ -267,7 +267,7 @@ TEST(ContactForces, FindsForcesWhereverTheyExist) {
 }
 
 TEST(ContactForces, SharesDivideTheLoadOfPointsAtOnePlaceByTheirSquares) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   block.settings.shares = {1, 0.5, 0.1, 1};
   const Vector3d below(0, 0, -0.5);
   const auto result = block.Forces({{0, below}, {0, below}, {0, below}, {0, below}});
@@ -280,7 +280,7 @@ TEST(ContactForces, SharesDivideTheLoadOfPointsAtOnePlaceByTheirSquares) {
 }
 
 TEST(ContactForces, APointOfSmallShareBearsWhatBalanceNeeds) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   block.settings.shares = {1, 0.01};
   const auto result = block.Forces({{0, {-0.1, 0, -0.5}}, {0, {0.3, 0, -0.5}}});
   ASSERT_TRUE(result);
@@ -289,7 +289,7 @@ TEST(ContactForces, APointOfSmallShareBearsWhatBalanceNeeds) {
 
 TEST(ContactForces, SharesDoNotChangeWhichMotionsAreFeasible) {
   std::mt19937 random(3);
-  Standing block(Block());
+  Standing block(FreeBlock());
   int feasible = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<ContactPoint> points;
@@ -314,7 +314,7 @@ TEST(ContactForces, SharesDoNotChangeWhichMotionsAreFeasible) {
 }
 
 TEST(ContactForces, InvalidSharesAreRefused) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   const std::vector<ContactPoint> points = Rectangle(0, -0.1, 0.1, -0.2, 0.2, -0.5);
   for (const double share : {0.0, -0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
     block.settings.shares = {1, 1, share, 1};
@@ -364,7 +364,7 @@ TEST(ContactForces, DrcHuboStandsOnBothFeetAndOnOne) {
 }
 
 TEST(ContactForces, RefusesMalformedArguments) {
-  Standing block(Block());
+  Standing block(FreeBlock());
   EXPECT_THROW(block.Forces(VectorXd::Zero(5), {}), std::invalid_argument);
   EXPECT_THROW(block.Forces({{1, Vector3d::Zero()}}), std::invalid_argument);
   VectorXd a = VectorXd::Zero(6);

@@ -21,12 +21,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-models::RobotModel DrcHubo() {
-  return models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
-}
-
 std::vector<ContactPoint> PatchPoints(const models::RobotModel& robot,
                                       const std::vector<std::string>& contacts) {
   std::vector<ContactPoint> points;

@@ -53,8 +53,8 @@ MatrixXd CouplingMatrix(const models::RobotModel& model) {
   return C(Eigen::all, independent);
 }
 
-struct RandomState {
-  RandomState(std::mt19937* random, const models::RobotModel& model)
+struct RandomRobotState {
+  RandomRobotState(std::mt19937* random, const models::RobotModel& model)
       : q(RandomConfiguration(random, model)),
         v(RandomVector(random, model.nv(), 3)),
         forces(RandomVector(random, model.nv(), 100)) {}
@@ -69,7 +69,7 @@ TEST(SimbodyForwardDynamics, UndoesInverseDynamics) {
     TreeKinematics ours(model);
     SimbodyDynamics simbody(model);
     for (int trial = 0; trial < 10; ++trial) {
-      const RandomState state(&random, model);
+      const RandomRobotState state(&random, model);
       const VectorXd a = RandomVector(&random, model.nv(), 20);
       ours.SetPosition(state.q);
       ours.SetVelocity(state.v);
@@ -88,7 +88,7 @@ TEST(SimbodyForwardDynamics, MimicJointsFollowTheirMasters) {
     TreeKinematics ours(model);
     SimbodyDynamics simbody(model);
     for (int trial = 0; trial < 5; ++trial) {
-      const RandomState state(&random, model);
+      const RandomRobotState state(&random, model);
       ours.SetPosition(state.q);
       ours.SetVelocity(state.v);
       simbody.SetState(state.q, state.v);
@@ -106,7 +106,7 @@ TEST(SimbodyForwardDynamics, MimicJointsFollowTheirMasters) {
 }
 
 /// Held points do not accelerate, and their forces are all that they do to the robot.
-void ExpectHeld(const RandomState& state, const std::vector<ContactPoint>& held,
+void ExpectHeld(const RandomRobotState& state, const std::vector<ContactPoint>& held,
                 TreeKinematics* ours, SimbodyDynamics* simbody) {
   ours->SetPosition(state.q);
   ours->SetVelocity(state.v);
@@ -136,7 +136,7 @@ TEST(SimbodyForwardDynamics, HoldsPoints) {
       for (int i = 0; i < trial % 3; ++i) {
         held.push_back({model.num_joints() * (i + 1) / 2, RandomVector(&random, 3, 0.3)});
       }
-      ExpectHeld(RandomState(&random, model), held, &ours, &simbody);
+      ExpectHeld(RandomRobotState(&random, model), held, &ours, &simbody);
     }
   }
 }
@@ -153,7 +153,7 @@ TEST(SimbodyForwardDynamics, HoldsTheSolesOfDrcHubo) {
   }
   ASSERT_EQ(held.size(), 8u);  // 24 rows of which 12 are independent
   for (int trial = 0; trial < 20; ++trial) {
-    RandomState state(&random, model);
+    RandomRobotState state(&random, model);
     state.v.setZero();  // four points of one body that turns cannot all be without acceleration
     ExpectHeld(state, held, &ours, &simbody);
   }
@@ -164,7 +164,7 @@ TEST(SimbodyForwardDynamics, EnergiesAndMomentumAreTheSumsOverTheLinks) {
   for (int tree = 0; tree < 20; ++tree) {
     const models::RobotModel model =
         tree == 0 ? DrcHubo1() : RandomTree(&random, 1 + static_cast<int>(random() % 30));
-    const RandomState state(&random, model);
+    const RandomRobotState state(&random, model);
     TreeKinematics ours(model);
     SimbodyDynamics simbody(model);
     ours.SetPosition(state.q);
@@ -193,7 +193,7 @@ TEST(SimbodyForwardDynamics, EnergiesAndMomentumAreTheSumsOverTheLinks) {
 }
 
 /// All results at a state, in one vector.
-VectorXd Answers(const RandomState& state, const std::vector<ContactPoint>& held,
+VectorXd Answers(const RandomRobotState& state, const std::vector<ContactPoint>& held,
                  SimbodyDynamics* simbody) {
   simbody->SetState(state.q, state.v);
   const SimbodyDynamics::HeldMotion motion = simbody->ForwardDynamics(state.forces, held);
@@ -207,18 +207,18 @@ TEST(SimbodyForwardDynamics, ThreadsDoNotDisturbEachOther) {
   std::mt19937 random(26);
   const models::RobotModel model = RandomCoupledTree(&random, 20);
   const std::vector<ContactPoint> held = {{10, {0.1, 0, 0}}, {20, {0, 0.1, 0}}};
-  std::vector<RandomState> states;
+  std::vector<RandomRobotState> states;
   for (int i = 0; i < 100; ++i) states.emplace_back(&random, model);
   std::vector<VectorXd> alone;
   SimbodyDynamics simbody(model);
-  for (const RandomState& state : states) alone.push_back(Answers(state, held, &simbody));
+  for (const RandomRobotState& state : states) alone.push_back(Answers(state, held, &simbody));
   std::vector<VectorXd> together[2];
   {
     std::vector<std::jthread> threads;
     for (std::vector<VectorXd>& answers : together) {
       threads.emplace_back([&] {
         SimbodyDynamics own(model);
-        for (const RandomState& state : states) answers.push_back(Answers(state, held, &own));
+        for (const RandomRobotState& state : states) answers.push_back(Answers(state, held, &own));
       });
     }
   }
@@ -230,7 +230,7 @@ TEST(SimbodyForwardDynamics, RefusesInvalidArguments) {
   std::mt19937 random(27);
   const models::RobotModel model = RandomTree(&random, 3);
   SimbodyDynamics simbody(model);
-  const RandomState state(&random, model);
+  const RandomRobotState state(&random, model);
   simbody.SetState(state.q, state.v);
   VectorXd nan = state.forces;
   nan[2] = std::numeric_limits<double>::quiet_NaN();

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-class Landing : public testing::Test {
+class Landing : public ::testing::Test {
  protected:
   Landing()
       : robot_(models::LoadRobotModel(std::filesystem::path(POSSIBILITY_SOURCE_DIR) /

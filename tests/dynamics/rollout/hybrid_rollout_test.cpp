@@ -18,7 +18,7 @@ using Output = Eigen::Ref<VectorXd>;
 
 constexpr double kG = 9.81;
 
-HybridSettings Accurate(double tolerance = 1e-12) {
+HybridSettings AccurateHybrid(double tolerance = 1e-12) {
   HybridSettings settings;
   settings.integration.relative_tolerance = tolerance;
   settings.integration.absolute_tolerance = tolerance;
@@ -54,7 +54,7 @@ std::shared_ptr<HybridMode> BouncingBall(double restitution) {
 TEST(HybridRollout, BouncingBallAgreesWithItsClosedForm) {
   for (const double restitution : {0.5, 0.8, 1.0}) {
     const double height = 1.3, fall = std::sqrt(2 * height / kG);
-    HybridSettings settings = Accurate();
+    HybridSettings settings = AccurateHybrid();
     settings.end_at_zeno = true;
     const HybridRollout rollout =
         RollOut(BouncingBall(restitution), Eigen::Vector2d(height, 0), 0, 3, settings);
@@ -80,7 +80,7 @@ TEST(HybridRollout, ZenoBehaviourIsAnErrorOrEndsTheRollout) {
   const double restitution = 0.5, fall = std::sqrt(2 / kG);
   const double accumulation = fall * (1 + restitution) / (1 - restitution);
   const auto ball = BouncingBall(restitution);
-  HybridSettings settings = Accurate();
+  HybridSettings settings = AccurateHybrid();
   settings.zeno_events = 10;
   settings.zeno_time = 1e-3;
   try {
@@ -100,7 +100,7 @@ TEST(HybridRollout, ZenoBehaviourIsAnErrorOrEndsTheRollout) {
 }
 
 TEST(HybridRollout, ABallAtRestDoesNotFallThroughTheGround) {
-  HybridSettings settings = Accurate();
+  HybridSettings settings = AccurateHybrid();
   settings.end_at_zeno = true;
   const HybridRollout rollout = RollOut(BouncingBall(0.5), Eigen::Vector2d(0, 0), 0, 1, settings);
   EXPECT_EQ(rollout.end, HybridEnd::kZeno);
@@ -122,7 +122,7 @@ TEST(HybridRollout, RimlessWheelAgreesWithItsClosedForm) {
   const double fixed_point = std::sqrt(gain) / std::tan(2 * alpha);
   double square = 2.25;  // of the rate after the last impact
   const HybridRollout rollout =
-      RollOut(wheel, Eigen::Vector2d(slope - alpha, std::sqrt(square)), 0, 20, Accurate());
+      RollOut(wheel, Eigen::Vector2d(slope - alpha, std::sqrt(square)), 0, 20, AccurateHybrid());
   ASSERT_GT(rollout.events.size(), 20);
   for (const HybridEvent& event : rollout.events) {
     square = std::pow(std::cos(2 * alpha), 2) * (square + gain);
@@ -151,7 +151,7 @@ std::shared_ptr<HybridMode> SimplestWalker(double slope) {
 VectorXd AfterOneStep(const std::shared_ptr<HybridMode>& walker, const Eigen::Vector2d& start) {
   Eigen::Vector4d x;
   x << start[0], 2 * start[0], start[1], (1 - std::cos(2 * start[0])) * start[1];
-  const HybridRollout rollout = RollOut(walker, x, 0, 5, Accurate());
+  const HybridRollout rollout = RollOut(walker, x, 0, 5, AccurateHybrid());
   EXPECT_FALSE(rollout.events.empty());
   return rollout.events.front().after;
 }
@@ -188,7 +188,7 @@ TEST(HybridRollout, CompassGaitOfLightFeetIsTheSimplestWalker) {
   const double lean = 0.20031090049483, rate = -0.19983247291764;
   Eigen::Vector4d x;
   x << gait.slope - lean, gait.slope + lean, -rate, -rate * std::cos(2 * lean);
-  const HybridRollout rollout = RollOut(gait.Mode(), x, 0, 5, Accurate());
+  const HybridRollout rollout = RollOut(gait.Mode(), x, 0, 5, AccurateHybrid());
   ASSERT_FALSE(rollout.events.empty());
   EXPECT_LT((rollout.events.front().after - x).norm(), 1e-7);
 }
@@ -196,7 +196,7 @@ TEST(HybridRollout, CompassGaitOfLightFeetIsTheSimplestWalker) {
 TEST(HybridRollout, CompassGaitSettlesOnALimitCycle) {
   const CompassGait gait;
   const HybridRollout rollout =
-      RollOut(gait.Mode(), CompassGait::NearLimitCycle(), 0, 60, Accurate());
+      RollOut(gait.Mode(), CompassGait::NearLimitCycle(), 0, 60, AccurateHybrid());
   ASSERT_GT(rollout.events.size(), 60);
   const HybridEvent& last = rollout.events.back();
   const HybridEvent& previous = rollout.events[rollout.events.size() - 2];
@@ -222,7 +222,7 @@ TEST(HybridRollout, DoublePendulumConservesEnergy) {
   for (const double lean : {1.0, 2.0, 3.0}) {
     Eigen::Vector4d x;
     x << lean, 2 - lean, 0.5, -3;
-    const HybridRollout rollout = RollOut(mode, x, 0, 5, Accurate(1e-10));
+    const HybridRollout rollout = RollOut(mode, x, 0, 5, AccurateHybrid(1e-10));
     const double scale = std::abs(gait.Energy(x)) + 9.81 * 20;
     double worst = 0;
     for (int i = 0; i <= 500; ++i) {
@@ -271,7 +271,7 @@ TEST(HybridRollout, AGuardThatKeepsTheModeFiresOncePerCrossing) {
       "swing", [](double, State x, Output rate) { rate << x[1], -x[0]; }, {GuardDirection::kBoth},
       [](double, State x, Output values) { values[0] = x[0]; },
       [](const VectorXd& x) { return x; });
-  const HybridRollout rollout = RollOut(mode, Eigen::Vector2d(1, 0), 0, 20, Accurate());
+  const HybridRollout rollout = RollOut(mode, Eigen::Vector2d(1, 0), 0, 20, AccurateHybrid());
   ASSERT_EQ(rollout.events.size(), 6);
   for (int i = 0; i < 6; ++i) {
     EXPECT_NEAR(rollout.events[i].time, (i + 0.5) * std::numbers::pi, 1e-9);
@@ -279,7 +279,7 @@ TEST(HybridRollout, AGuardThatKeepsTheModeFiresOncePerCrossing) {
 }
 
 TEST(HybridRollout, TheEndTimeOrCancellationEndsTheRollout) {
-  HybridSettings settings = Accurate();
+  HybridSettings settings = AccurateHybrid();
   const HybridRollout whole = RollOut(BouncingBall(1), Eigen::Vector2d(1, 0), 0, 2, settings);
   EXPECT_EQ(whole.end, HybridEnd::kTime);
   EXPECT_EQ(whole.time, 2);

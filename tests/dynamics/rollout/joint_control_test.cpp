@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-class JointControlOfARandomTree : public testing::Test {
+class JointControlOfARandomTree : public ::testing::Test {
  protected:
   JointControlOfARandomTree()
       : random_(8), model_(MultibodyModel::Spatial(RandomTree(&random_, 5))), forward_(model_) {

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-RobotRolloutSettings Accurate(double tolerance) {
+RobotRolloutSettings AccurateRollout(double tolerance) {
   RobotRolloutSettings settings;
   settings.hybrid.integration.method = OdeMethod::kAdams;
   settings.hybrid.integration.relative_tolerance = tolerance;
@@ -71,7 +71,7 @@ Conserved Measure(MultibodyDynamics* dynamics, const VectorXd& q, const VectorXd
 
 void ExpectFreeFlightConserves(const std::shared_ptr<const MultibodyModel>& model,
                                const VectorXd& q, const VectorXd& v) {
-  RobotSimulator simulator(model, {}, {}, Accurate(1e-11));
+  RobotSimulator simulator(model, {}, {}, AccurateRollout(1e-11));
   const RobotRollout rollout = simulator.Run(q, v, 0, 5);
   ASSERT_EQ(rollout.end, RobotRolloutEnd::kTime);
   MultibodyDynamics dynamics(model);
@@ -113,7 +113,7 @@ TEST(RobotRollout, APushInFreeFlightAddsItsImpulse) {
   q.head<4>().normalize();
   const VectorXd v = RandomVector(&random, model->nv(), 1);
   const Vector3d force(30, -20, 10);
-  RobotRolloutSettings settings = Accurate(1e-11);
+  RobotRolloutSettings settings = AccurateRollout(1e-11);
   settings.push = [force](double t) { return Vector3d(t < 0.5 ? t * force : (1 - t) * force); };
   RobotSimulator simulator(model, {}, {}, settings);
   const RobotRollout rollout = simulator.Run(q, v, 0, 1);
@@ -131,7 +131,7 @@ TEST(RobotRollout, APushOnASingleBodyActsAtItsCentreOfMass) {
   body.links[0].inertial.I_LC = Eigen::Matrix3d::Identity();
   body.links[0].inertial.p_LC = Vector3d(0.1, 0.2, 0.3);
   const auto model = MultibodyModel::Spatial(body);
-  RobotRolloutSettings settings = Accurate(1e-11);
+  RobotRolloutSettings settings = AccurateRollout(1e-11);
   settings.push = [](double) { return Vector3d(6, 0, 0); };
   RobotSimulator simulator(model, {}, {}, settings);
   const RobotRollout rollout = simulator.Run(VectorXd::Unit(7, 0), VectorXd::Zero(6), 0, 1);
@@ -253,7 +253,7 @@ TEST(RobotRollout, RimlessWheelAgreesWithItsClosedForm) {
   // The moment of momentum about the new foot gives the share of the rate that is kept.
   const double kept = (inertia + length * length * std::cos(2 * alpha)) / about_foot;
   const double gain = 4 * kGravity * length * std::sin(alpha) * std::sin(slope) / about_foot;
-  RobotSimulator simulator(model, Spokes(8, length, slope), {}, Accurate(1e-11));
+  RobotSimulator simulator(model, Spokes(8, length, slope), {}, AccurateRollout(1e-11));
   // Spoke 0 on the ground at the origin, as just after an impact.
   const double lean = slope - alpha;
   double square = 4;
@@ -298,7 +298,7 @@ TEST(RobotRollout, CompassGaitAgreesWithLagrangesEquations) {
     // ground.
     feet.back().lands = [leg](const VectorXd& q) { return (leg == 0 ? q[3] : -q[3]) > 0.1; };
   }
-  RobotSimulator simulator(model, feet, {}, Accurate(1e-12));
+  RobotSimulator simulator(model, feet, {}, AccurateRollout(1e-12));
   // Leg 0 stands at the origin. The swing foot, on the slope too, is behind.
   const double lean = consistent[0], rate = consistent[2];
   VectorXd q(4), v(4);
@@ -326,7 +326,7 @@ TEST(RobotRollout, CompassGaitAgreesWithLagrangesEquations) {
 
 TEST(RobotRollout, BoxDroppedFlatLandsInOneImpact) {
   const auto model = MultibodyModel::Spatial(Box());
-  RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), {}, Accurate(1e-11));
+  RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), {}, AccurateRollout(1e-11));
   const RobotRollout rollout = simulator.Run(BoxAt(0.6), VectorXd::Zero(6), 0, 1);
   ASSERT_EQ(rollout.events.size(), 1);
   const double fall = std::sqrt(2 * 0.5 / kGravity);
@@ -340,7 +340,7 @@ TEST(RobotRollout, BoxDroppedFlatLandsInOneImpact) {
 
 TEST(RobotRollout, BoxDroppedOnACornerComesToRest) {
   const auto model = MultibodyModel::Spatial(Box());
-  RobotRolloutSettings settings = Accurate(1e-9);
+  RobotRolloutSettings settings = AccurateRollout(1e-9);
   settings.rest_energy = 1e-6;
   RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), {}, settings);
   const RobotRollout rollout = simulator.Run(BoxAt(0.3, 0.1, 0.15), VectorXd::Zero(6), 0, 5);
@@ -361,7 +361,7 @@ TEST(RobotRollout, BoxOnASlopeStaysSlipsOrTips) {
   const auto run = [&](double degrees, bool ends_at_slip) {
     const double slope = degrees * std::numbers::pi / 180;
     const Vector3d normal = SlopeNormal(slope);
-    RobotRolloutSettings settings = Accurate(1e-9);
+    RobotRolloutSettings settings = AccurateRollout(1e-9);
     settings.ends_at_slip = ends_at_slip;
     RobotSimulator simulator(model, Corners(normal), {}, settings);
     VectorXd q = BoxAt(0, 0, slope);
@@ -402,7 +402,7 @@ TEST(RobotRollout, PushedBoxTipsAboutItsEdgeWhenTheMomentReachesZero) {
   VectorXd q = VectorXd::Zero(8), v = VectorXd::Zero(7);
   q.head<7>() = BoxAt(0.1);
   v[6] = 0.2;
-  RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), control, Accurate(1e-11));
+  RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), control, AccurateRollout(1e-11));
   const RobotRollout rollout = simulator.Run(q, v, 0, 2.5);
   ASSERT_GE(rollout.events.size(), 2);
   // Both masses are 1 kg: the common centre is over the edge when the slider is at 0.4 m.
@@ -419,7 +419,7 @@ TEST(RobotRollout, ABallInAGrooveRestsOnBothPlanes) {
   for (const double side : {-1.0, 1.0}) {
     contacts.push_back(ContactOn("centre", 0, Vector3d::Zero(), SlopeNormal(side * 0.6)));
   }
-  RobotRolloutSettings settings = Accurate(1e-10);
+  RobotRolloutSettings settings = AccurateRollout(1e-10);
   RobotSimulator simulator(model, contacts, {}, settings);
   VectorXd q = BoxAt(0.5);
   const RobotRollout rollout = simulator.Run(q, VectorXd::Zero(6), 0, 1);

@@ -12,6 +12,7 @@
 #include "models/input/input_error.h"
 #include "models/robot/robot_yaml.h"
 #include "tests/dynamics/newton_euler.h"
+#include "tests/dynamics/random_robot.h"
 #include "tests/dynamics/sagittal/random_symmetric_robot.h"
 #include "tests/message_of.h"
 
@@ -22,10 +23,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using models::JointType;
-
-models::RobotModel DrcHubo() {
-  return models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
-}
 
 /// E, one column per velocity.
 MatrixXd Expansion(const SagittalReduction& reduction) {

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// All quantities that both engines compute, at random states.
-void ExpectAgreement(const models::RobotModel& model, int states, std::mt19937* random) {
+void ExpectAgreementWithSimbody(const models::RobotModel& model, int states, std::mt19937* random) {
   TreeKinematics ours(model);
   SimbodyDynamics simbody(model);
   for (int state = 0; state < states; ++state) {
@@ -52,7 +52,8 @@ void ExpectAgreement(const models::RobotModel& model, int states, std::mt19937* 
 TEST(SimbodyDynamics, AgreesWithTreeKinematicsOnRandomTrees) {
   std::mt19937 random(7);
   for (int tree = 0; tree < 20; ++tree) {
-    ExpectAgreement(RandomTree(&random, 1 + static_cast<int>(random() % 30)), 10, &random);
+    ExpectAgreementWithSimbody(RandomTree(&random, 1 + static_cast<int>(random() % 30)), 10,
+                               &random);
   }
 }
 
@@ -60,7 +61,7 @@ TEST(SimbodyDynamics, AgreesWithTreeKinematicsOnDrcHubo) {
   std::mt19937 random(8);
   const models::RobotModel robot =
       models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
-  ExpectAgreement(robot, 200, &random);
+  ExpectAgreementWithSimbody(robot, 200, &random);
 }
 
 TEST(SimbodyDynamics, MassMatrixMapsAccelerationsToForces) {

@@ -20,7 +20,7 @@ using experiments::DartPeer;
 
 constexpr double kTolerance = 1e-9;  // relative
 
-void ExpectAgreement(const models::RobotModel& robot, int states, std::mt19937* random) {
+void ExpectAgreementWithDart(const models::RobotModel& robot, int states, std::mt19937* random) {
   DartPeer dart(robot);
   ForwardDynamics ours(MultibodyModel::Spatial(robot));
   SimbodyDynamics simbody(robot);
@@ -51,14 +51,15 @@ void ExpectAgreement(const models::RobotModel& robot, int states, std::mt19937* 
 
 TEST(Dart, AgreesOnDrcHubo) {
   std::mt19937 random(31);
-  ExpectAgreement(models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml"),
-                  1000, &random);
+  ExpectAgreementWithDart(
+      models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml"), 1000,
+      &random);
 }
 
 TEST(Dart, AgreesOnRandomTrees) {
   std::mt19937 random(32);
   for (int tree = 0; tree < 20; ++tree) {
-    ExpectAgreement(RandomTree(&random, 1 + static_cast<int>(random() % 30)), 20, &random);
+    ExpectAgreementWithDart(RandomTree(&random, 1 + static_cast<int>(random() % 30)), 20, &random);
   }
 }
 

@@ -22,8 +22,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The arguments of one round.
 struct Arguments {
   VectorXd q, v, a, forces;

@@ -41,13 +41,13 @@ models::RobotModel CoupledTree(std::mt19937* random, int num_joints) {
   return tree;
 }
 
-struct State {
+struct MotionState {
   VectorXd q, v, a;
 };
 
-State RandomState(std::mt19937* random, const MultibodyModel& model) {
-  State state{RandomVector(random, model.nq(), 2), RandomVector(random, model.nv(), 3),
-              RandomVector(random, model.nv(), 10)};
+MotionState RandomMotionState(std::mt19937* random, const MultibodyModel& model) {
+  MotionState state{RandomVector(random, model.nq(), 2), RandomVector(random, model.nv(), 3),
+                    RandomVector(random, model.nv(), 10)};
   if (model.base() == Base::kFloating) state.q.head<4>().normalize();
   return state;
 }
@@ -58,15 +58,15 @@ ContactPoint RandomPoint(std::mt19937* random, const MultibodyModel& model) {
 }
 
 /// All models whose derivatives are tested, with how many states each.
-struct Case {
+struct ModelCase {
   std::string name;
   ModelPtr model;
   int states;
 };
 
-std::vector<Case> Cases(int hubo_states, int tree_states) {
+std::vector<ModelCase> Cases(int hubo_states, int tree_states) {
   std::mt19937 random(11);
-  std::vector<Case> cases = {
+  std::vector<ModelCase> cases = {
       {"drchubo1", MultibodyModel::Spatial(Hubo()), hubo_states},
       {"drchubo1, sagittal", SagittalReduction(Hubo()).model(), hubo_states}};
   for (int i = 0; i < 20; ++i) {
@@ -82,7 +82,7 @@ std::vector<Case> Cases(int hubo_states, int tree_states) {
   return cases;
 }
 
-constexpr double kTolerance = 1e-7;
+constexpr double kDerivativeTolerance = 1e-7;
 
 /// Derivatives of f(dq, dv), both tangents of size nv, with respect to the one and the other.
 template <typename Function>
@@ -94,12 +94,12 @@ std::pair<MatrixXd, MatrixXd> StateDifferences(const Function& f, int nv) {
 
 TEST(MultibodyDynamicsTest, InverseDynamicsDerivativesAgreeWithDifferences) {
   std::mt19937 random(1);
-  for (const Case& c : Cases(1000, 20)) {
+  for (const ModelCase& c : Cases(1000, 20)) {
     MultibodyDynamics dynamics(c.model);
     MultibodyDynamics probe(c.model);
     const int nv = c.model->nv();
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       const auto forces = [&](const VectorXd& dq, const VectorXd& dv, const VectorXd& da) {
         probe.SetState(c.model->Displaced(s.q, dq), s.v + dv, s.a + da);
         return VectorXd(probe.InverseDynamics());
@@ -114,19 +114,19 @@ TEST(MultibodyDynamicsTest, InverseDynamicsDerivativesAgreeWithDifferences) {
       const MatrixXd da =
           RichardsonJacobian([&](const VectorXd& d) { return forces(zero, zero, d); }, nv, 1.0);
       ASSERT_LT(RelativeError(D.forces, forces(zero, zero, zero)), 1e-13) << c.name;
-      ASSERT_LT(RelativeError(D.dq, dq), kTolerance) << c.name << ", state " << i;
-      ASSERT_LT(RelativeError(D.dv, dv), kTolerance) << c.name << ", state " << i;
-      ASSERT_LT(RelativeError(D.da, da), kTolerance) << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(D.dq, dq), kDerivativeTolerance) << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(D.dv, dv), kDerivativeTolerance) << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(D.da, da), kDerivativeTolerance) << c.name << ", state " << i;
     }
   }
 }
 
 TEST(MultibodyDynamicsTest, MassMatrixIsSymmetricPositiveDefiniteAndTheDerivativeInA) {
   std::mt19937 random(2);
-  for (const Case& c : Cases(1000, 50)) {
+  for (const ModelCase& c : Cases(1000, 50)) {
     MultibodyDynamics dynamics(c.model);
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       dynamics.SetState(s.q, s.v, s.a);
       const MatrixXd M = dynamics.MassMatrix();
       ASSERT_LT(RelativeError(M, M.transpose()), 1e-14);
@@ -141,12 +141,12 @@ TEST(MultibodyDynamicsTest, MassMatrixIsSymmetricPositiveDefiniteAndTheDerivativ
 
 TEST(MultibodyDynamicsTest, AgreesWithSimbody) {
   std::mt19937 random(3);
-  for (const Case& c : Cases(300, 10)) {
+  for (const ModelCase& c : Cases(300, 10)) {
     if (!c.model->is_identity()) continue;
     MultibodyDynamics dynamics(c.model);
     SimbodyDynamics simbody(c.model->tree());
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       dynamics.SetState(s.q, s.v, s.a);
       simbody.SetState(s.q, s.v);
       ASSERT_LT(RelativeError(dynamics.InverseDynamics(), simbody.InverseDynamics(s.a)), 1e-11);
@@ -168,13 +168,13 @@ TEST(MultibodyDynamicsTest, AgreesWithSimbody) {
 /// Takes minutes: the differenced function is computed by another engine.
 TEST(MultibodyDynamicsLong, DerivativesAgreeWithDifferencesThroughSimbody) {
   std::mt19937 random(10);
-  for (const Case& c : Cases(1000, 20)) {
+  for (const ModelCase& c : Cases(1000, 20)) {
     if (!c.model->is_identity()) continue;
     MultibodyDynamics dynamics(c.model);
     SimbodyDynamics simbody(c.model->tree());
     const int nv = c.model->nv();
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       dynamics.SetState(s.q, s.v, s.a);
       const InverseDynamicsDerivatives& D = dynamics.Differentiate();
       const auto forces = [&](const VectorXd& dq, const VectorXd& dv) {
@@ -182,20 +182,20 @@ TEST(MultibodyDynamicsLong, DerivativesAgreeWithDifferencesThroughSimbody) {
         return simbody.InverseDynamics(s.a);
       };
       const auto [dq, dv] = StateDifferences(forces, nv);
-      ASSERT_LT(RelativeError(D.dq, dq), kTolerance) << c.name << ", state " << i;
-      ASSERT_LT(RelativeError(D.dv, dv), kTolerance) << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(D.dq, dq), kDerivativeTolerance) << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(D.dv, dv), kDerivativeTolerance) << c.name << ", state " << i;
     }
   }
 }
 
 TEST(MultibodyDynamicsTest, PointDerivativesAgreeWithDifferences) {
   std::mt19937 random(4);
-  for (const Case& c : Cases(200, 20)) {
+  for (const ModelCase& c : Cases(200, 20)) {
     MultibodyDynamics dynamics(c.model);
     MultibodyDynamics probe(c.model);
     const int nv = c.model->nv();
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       const ContactPoint point = RandomPoint(&random, *c.model);
       dynamics.SetState(s.q, s.v, s.a);
       const PointDerivatives D = dynamics.DifferentiatePoint(point);
@@ -207,11 +207,11 @@ TEST(MultibodyDynamicsTest, PointDerivativesAgreeWithDifferences) {
         return all;
       };
       const auto [dq, dv] = StateDifferences(motion, nv);
-      ASSERT_LT(RelativeError(D.jacobian, dq.topRows(3)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(D.velocity_dq, dq.middleRows(3, 3)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(D.acceleration_dq, dq.bottomRows(3)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(D.jacobian, dv.middleRows(3, 3)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(D.acceleration_dv, dv.bottomRows(3)), kTolerance) << c.name;
+      ASSERT_LT(RelativeError(D.jacobian, dq.topRows(3)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(D.velocity_dq, dq.middleRows(3, 3)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(D.acceleration_dq, dq.bottomRows(3)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(D.jacobian, dv.middleRows(3, 3)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(D.acceleration_dv, dv.bottomRows(3)), kDerivativeTolerance) << c.name;
       MatrixXd J(3, nv);
       dynamics.Jacobian(point, J);
       ASSERT_LT(RelativeError(D.jacobian, J), 1e-12);
@@ -225,19 +225,20 @@ TEST(MultibodyDynamicsTest, PointDerivativesAgreeWithDifferences) {
         probe.AddPointForce(point, force, f);
         return f;
       };
-      ASSERT_LT(RelativeError(force_dq, RichardsonJacobian(generalised, nv)), kTolerance) << c.name;
+      ASSERT_LT(RelativeError(force_dq, RichardsonJacobian(generalised, nv)), kDerivativeTolerance)
+          << c.name;
     }
   }
 }
 
 TEST(MultibodyDynamicsTest, CentroidalDerivativesAgreeWithDifferences) {
   std::mt19937 random(5);
-  for (const Case& c : Cases(200, 20)) {
+  for (const ModelCase& c : Cases(200, 20)) {
     MultibodyDynamics dynamics(c.model);
     MultibodyDynamics probe(c.model);
     const int nv = c.model->nv();
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       dynamics.SetState(s.q, s.v);
       const CentroidalQuantities C = dynamics.Centroidal();
       const auto at = [&](const VectorXd& dq, const VectorXd& dv) {
@@ -247,9 +248,9 @@ TEST(MultibodyDynamicsTest, CentroidalDerivativesAgreeWithDifferences) {
         return all;
       };
       const auto [dq, dv] = StateDifferences(at, nv);
-      ASSERT_LT(RelativeError(C.jacobian, dq.topRows(3)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(C.momentum_dq, dq.bottomRows(6)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(C.momentum_dv, dv.bottomRows(6)), kTolerance) << c.name;
+      ASSERT_LT(RelativeError(C.jacobian, dq.topRows(3)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(C.momentum_dq, dq.bottomRows(6)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(C.momentum_dv, dv.bottomRows(6)), kDerivativeTolerance) << c.name;
     }
   }
 }
@@ -282,7 +283,7 @@ TEST(MultibodyDynamicsTest, MomentumIsTheSumOverTheLinksAndChangesWithTheBaseWre
   const ModelPtr model = MultibodyModel::Spatial(Hubo());
   MultibodyDynamics dynamics(model);
   for (int i = 0; i < 50; ++i) {
-    const State s = RandomState(&random, *model);
+    const MotionState s = RandomMotionState(&random, *model);
     dynamics.SetState(s.q, s.v, s.a);
     const CentroidalQuantities C = dynamics.Centroidal();
     EXPECT_LT((C.momentum.head(3) - AngularMomentum(dynamics)).norm(), 1e-10);
@@ -332,12 +333,12 @@ VectorXd Gradient(MultibodyDynamics* dynamics, const VectorXd& lambda,
 
 TEST(MultibodyDynamicsTest, HessianAgreesWithDifferencesOfGradients) {
   std::mt19937 random(7);
-  for (const Case& c : Cases(50, 10)) {
+  for (const ModelCase& c : Cases(50, 10)) {
     MultibodyDynamics dynamics(c.model);
     MultibodyDynamics probe(c.model);
     const int nv = c.model->nv();
     for (int i = 0; i < c.states; ++i) {
-      const State s = RandomState(&random, *c.model);
+      const MotionState s = RandomMotionState(&random, *c.model);
       const VectorXd lambda = RandomVector(&random, nv, 1);
       std::vector<PointTerm> terms;
       for (int k = 0; k < i % 4; ++k) terms.push_back(RandomTerm(&random, *c.model));
@@ -354,11 +355,13 @@ TEST(MultibodyDynamicsTest, HessianAgreesWithDifferencesOfGradients) {
         const Eigen::Matrix3d root = qq.topLeftCorner<3, 3>();
         qq.topLeftCorner<3, 3>() = (root + root.transpose()) / 2;
       }
-      ASSERT_LT(RelativeError(H.qq, qq), kTolerance) << c.name << ", state " << i;
-      ASSERT_LT(RelativeError(H.qv, dv.topRows(nv)), kTolerance) << c.name << ", state " << i;
-      ASSERT_LT(RelativeError(H.qv.transpose(), dq.middleRows(nv, nv)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(H.vv, dv.middleRows(nv, nv)), kTolerance) << c.name;
-      ASSERT_LT(RelativeError(H.qa.transpose(), dq.bottomRows(nv)), kTolerance) << c.name;
+      ASSERT_LT(RelativeError(H.qq, qq), kDerivativeTolerance) << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(H.qv, dv.topRows(nv)), kDerivativeTolerance)
+          << c.name << ", state " << i;
+      ASSERT_LT(RelativeError(H.qv.transpose(), dq.middleRows(nv, nv)), kDerivativeTolerance)
+          << c.name;
+      ASSERT_LT(RelativeError(H.vv, dv.middleRows(nv, nv)), kDerivativeTolerance) << c.name;
+      ASSERT_LT(RelativeError(H.qa.transpose(), dq.bottomRows(nv)), kDerivativeTolerance) << c.name;
       ASSERT_LT(RelativeError(H.qq, H.qq.transpose()), 1e-14);
     }
   }
@@ -369,7 +372,7 @@ TEST(MultibodyDynamicsTest, HessianIsTheSecondDerivativeAlongAnyCurve) {
   const ModelPtr model = MultibodyModel::Spatial(RandomTree(&random, 8));
   MultibodyDynamics dynamics(model);
   for (int i = 0; i < 20; ++i) {
-    const State s = RandomState(&random, *model);
+    const MotionState s = RandomMotionState(&random, *model);
     const VectorXd lambda = RandomVector(&random, model->nv(), 1);
     const VectorXd direction = RandomVector(&random, model->nv(), 1);
     const auto value = [&](double t) {
@@ -389,7 +392,7 @@ TEST(MultibodyDynamicsTest, AWorkspaceGivesTheSameResultAfterOtherCalls) {
   const ModelPtr model = MultibodyModel::Spatial(Hubo());
   MultibodyDynamics used(model);
   for (int i = 0; i < 20; ++i) {
-    const State s = RandomState(&random, *model);
+    const MotionState s = RandomMotionState(&random, *model);
     used.SetState(s.q, s.v, s.a);
     used.Hessian(RandomVector(&random, model->nv(), 1), {RandomTerm(&random, *model)});
     used.Differentiate();

@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-struct RandomState {
-  explicit RandomState(unsigned seed)
+struct RandomMotion {
+  explicit RandomMotion(unsigned seed)
       : random(seed), model(RandomTree(&random, 12)), kinematics(model), motion(model) {
     q = RandomConfiguration(&random, model);
     v = RandomVector(&random, model.nv(), 3);
@@ -42,12 +42,12 @@ struct RandomState {
   VectorXd q, v, a;
 };
 
-constexpr int kTrials = 50;
-constexpr double kStep = 1e-5;
+constexpr int kStates = 50;
+constexpr double kTimeStep = 1e-5;
 
 TEST(TreeMotion, InverseDynamicsAgreeWithNewtonAndEulerLinkByLink) {
-  for (int trial = 0; trial < kTrials; ++trial) {
-    RandomState s(trial);
+  for (int trial = 0; trial < kStates; ++trial) {
+    RandomMotion s(trial);
     s.SetAfter(0);
     const VectorXd expected = NewtonEuler(s.kinematics, s.a);
     EXPECT_LT((s.InverseDynamics(s.a) - expected).norm(), 1e-12 * expected.norm());
@@ -68,15 +68,15 @@ double Energy(const TreeKinematics& kinematics) {
 }
 
 TEST(TreeMotion, PowerOfInverseDynamicsIsTheRateOfEnergy) {
-  for (int trial = 0; trial < kTrials; ++trial) {
-    RandomState s(trial);
-    s.SetAfter(kStep);
+  for (int trial = 0; trial < kStates; ++trial) {
+    RandomMotion s(trial);
+    s.SetAfter(kTimeStep);
     const double after = Energy(s.kinematics);
-    s.SetAfter(-kStep);
+    s.SetAfter(-kTimeStep);
     const double before = Energy(s.kinematics);
     s.SetAfter(0);
     const double power = s.InverseDynamics(s.a).dot(s.v);
-    EXPECT_NEAR(power, (after - before) / (2 * kStep), 1e-6 * (1 + std::abs(power)) + 1e-3);
+    EXPECT_NEAR(power, (after - before) / (2 * kTimeStep), 1e-6 * (1 + std::abs(power)) + 1e-3);
   }
 }
 
@@ -94,11 +94,11 @@ Vector3d AngularMomentum(const TreeKinematics& kinematics, const Vector3d& about
 }
 
 TEST(TreeMotion, BaseRowsObeyNewtonAndEuler) {
-  for (int trial = 0; trial < kTrials; ++trial) {
-    RandomState s(trial);
-    s.SetAfter(kStep);
+  for (int trial = 0; trial < kStates; ++trial) {
+    RandomMotion s(trial);
+    s.SetAfter(kTimeStep);
     const Vector3d momentum_after = AngularMomentum(s.kinematics, s.q.segment<3>(4));
-    s.SetAfter(-kStep);
+    s.SetAfter(-kTimeStep);
     const Vector3d momentum_before = AngularMomentum(s.kinematics, s.q.segment<3>(4));
     s.SetAfter(0);
     const VectorXd forces = s.InverseDynamics(s.a);
@@ -108,7 +108,7 @@ TEST(TreeMotion, BaseRowsObeyNewtonAndEuler) {
     const Vector3d expected =
         s.model.TotalMass() * (J_com * s.a + s.kinematics.CentreOfMassBias()) - weight;
     EXPECT_LT((forces.segment<3>(3) - expected).norm(), 1e-12 * expected.norm());
-    const Vector3d moment = (momentum_after - momentum_before) / (2 * kStep) -
+    const Vector3d moment = (momentum_after - momentum_before) / (2 * kTimeStep) -
                             (s.kinematics.CentreOfMass() - s.q.segment<3>(4)).cross(weight);
     EXPECT_LT((forces.head<3>() - moment).norm(), 1e-6 * (moment.norm() + expected.norm()));
   }
@@ -116,7 +116,7 @@ TEST(TreeMotion, BaseRowsObeyNewtonAndEuler) {
 
 TEST(TreeMotion, MassMatrixIsSymmetricAndPositive) {
   for (int trial = 0; trial < 10; ++trial) {
-    RandomState s(trial);
+    RandomMotion s(trial);
     const int n = s.model.nv();
     const VectorXd bias = s.InverseDynamics(VectorXd::Zero(n));
     MatrixXd M(n, n);
@@ -129,7 +129,7 @@ TEST(TreeMotion, MassMatrixIsSymmetricAndPositive) {
 }
 
 TEST(TreeMotion, RefusesInvalidArguments) {
-  RandomState s(1);
+  RandomMotion s(1);
   EXPECT_THROW(s.InverseDynamics(VectorXd::Zero(8)), std::invalid_argument);
   s.q.resize(9);
   EXPECT_THROW(s.InverseDynamics(s.a), std::invalid_argument);

@@ -88,7 +88,7 @@ TEST(StepUpTest, MotionExistsForAllHeightsOffered) {
   }
 }
 
-class StepUpScene : public testing::Test {
+class StepUpScene : public ::testing::Test {
  protected:
   StepUpScene() {
     context_.model = &DrcHubo1Locomotion();

@@ -43,7 +43,7 @@ TEST(SvgPlot, TheXmlCheckRefusesMalformedXml) {
   }
 }
 
-int Count(const std::string& text, const std::string& part) {
+int Occurrences(const std::string& text, const std::string& part) {
   int count = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -134,7 +134,7 @@ TEST(SvgPlot, IsXmlForAnyNames) {
   EXPECT_NE(svg.find("a &lt; b &amp; &quot;c&quot; "), std::string::npos);
   EXPECT_NE(svg.find("time (s)"), std::string::npos);
   EXPECT_NE(svg.find("height (m)"), std::string::npos);
-  EXPECT_EQ(Count(svg, "<circle"), 4);
+  EXPECT_EQ(Occurrences(svg, "<circle"), 4);
   EXPECT_TRUE(IsXml(SvgDocument({})));
   EXPECT_TRUE(IsXml(SvgDocument({Plot{}})));
 }
@@ -147,7 +147,7 @@ TEST(SvgPlot, NonFiniteNumbersBreakTheLine) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
     const auto begin = svg.find("<g clip-path");
     const auto path = svg.find("<path d=\"", begin);
-    return Count(svg.substr(path, svg.find("\" class", path) - path), "M");
+    return Occurrences(svg.substr(path, svg.find("\" class", path) - path), "M");
   };
   EXPECT_EQ(moves(plot), 1);
   plot.curves[0].y[1] = kNaN;
@@ -180,10 +180,10 @@ TEST(SvgPlot, RegionsScatterAndLinesAreDrawn) {
   plot.lines.push_back({2, "landing"});
   const std::string svg = SvgDocument({plot});
   EXPECT_TRUE(IsXml(svg));
-  EXPECT_EQ(Count(svg, "<polygon"), 1);
-  EXPECT_EQ(Count(svg, "<circle"), 3);  // two runs and the legend's
-  EXPECT_EQ(Count(svg, ">landing<"), 1);
-  EXPECT_EQ(Count(svg, "stroke-dasharray=\"6 4\""), 2);
+  EXPECT_EQ(Occurrences(svg, "<polygon"), 1);
+  EXPECT_EQ(Occurrences(svg, "<circle"), 3);  // two runs and the legend's
+  EXPECT_EQ(Occurrences(svg, ">landing<"), 1);
+  EXPECT_EQ(Occurrences(svg, "stroke-dasharray=\"6 4\""), 2);
 }
 
 }  // namespace

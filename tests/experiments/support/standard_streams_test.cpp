@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using testing::ProgramRun;
 using testing::ReadText;
 
-const std::string kSource = POSSIBILITY_SOURCE_DIR;
+const std::string kRepository = POSSIBILITY_SOURCE_DIR;
 
 class StandardStreams : public ProgramRun {
  protected:
@@ -35,7 +35,7 @@ class StandardStreams : public ProgramRun {
     EXPECT_TRUE(errors.starts_with("standard output: cannot be written")) << errors;
   }
   void WriteStandingPlan() const {
-    testing::WriteStandingPlan(kSource + "/experiments/scenarios/three_routes_b.yaml",
+    testing::WriteStandingPlan(kRepository + "/experiments/scenarios/three_routes_b.yaml",
                                folder_ / "plan.json");
   }
   std::ptrdiff_t FilesIn(const std::string& folder) const {
@@ -45,7 +45,7 @@ class StandardStreams : public ProgramRun {
 
 TEST_F(StandardStreams, EveryCommandReportsAFullDisk) {
   WriteStandingPlan();
-  const std::string room = "'" + kSource + "/experiments/scenarios/closed_room.yaml'";
+  const std::string room = "'" + kRepository + "/experiments/scenarios/closed_room.yaml'";
   const std::string commands[] = {
       "--help",
       "plan --help",
@@ -67,7 +67,7 @@ TEST_F(StandardStreams, SourcesWriteThroughThemOnly) {
   int sources = 0;
   for (const char* floor :
        {"models", "dynamics", "collocation", "graph", "actions", "experiments"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(kSource) / floor)) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(kRepository) / floor)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".cpp" && extension != ".h") continue;
       // The tutorial's program is one of its own.

@@ -54,7 +54,7 @@ class Improver : public Explorer {
 };
 
 /// Random exploration, and an explorer that shortens its routes.
-class ImprovementTest : public testing::Test {
+class ImprovementTest : public ::testing::Test {
  protected:
   PathResult Find(double share, std::uint64_t seed) {
     FindPathSettings settings{.time_limit = 10, .seed = seed, .improvement_share = share};

@@ -33,7 +33,7 @@ using test::Start;
 
 using Actions = std::vector<std::shared_ptr<const Action>>;
 
-const test::Room kRoom;
+const test::Room kHall;
 
 constexpr double kReach = 1.6;      ///< what C_N of the jump assumes
 constexpr double kTrueReach = 1.2;  ///< what its jobs confirm
@@ -142,7 +142,7 @@ TEST_P(Jump, CrossesTheGapWithEverySeed) {
     const Point& start = there ? Start() : Goal();
     const Point& goal = there ? Goal() : Start();
     const PathResult result =
-        FindPath(start, {goal}, world.actions(), kRoom, Settings(GetParam(), seed));
+        FindPath(start, {goal}, world.actions(), kHall, Settings(GetParam(), seed));
     ExpectPlanWithJump(result, start, goal, world);
     ExpectJumpsLinedUp(result);
   }
@@ -156,7 +156,7 @@ TEST_P(Jump, NeverCrossesAGapThatIsTooWide) {
       const World world(gap);
       FindPathSettings settings = Settings(GetParam(), seed);
       settings.max_cycles = 100;
-      const PathResult result = FindPath(Start(), {Goal()}, world.actions(), kRoom, settings);
+      const PathResult result = FindPath(Start(), {Goal()}, world.actions(), kHall, settings);
       EXPECT_EQ(result.status, PathStatus::kTimeLimit);
       EXPECT_EQ(result.statistics.cycles, 100);
       EXPECT_TRUE(result.path.empty());
@@ -188,7 +188,7 @@ TEST_P(Jump, WhileJobsAreUndecidedASlowerRouteWithoutJumpsIsReturned) {
       return std::make_unique<ScriptedJob>(Ending::kConfirm, 60000, std::chrono::milliseconds(1));
     };
     const PathResult result =
-        FindPath(Start(), {Goal()}, WithSlowDetour(a_minute), kRoom, settings);
+        FindPath(Start(), {Goal()}, WithSlowDetour(a_minute), kHall, settings);
     ASSERT_EQ(result.status, PathStatus::kFound);
     EXPECT_LT(result.seconds, 15);
     for (const PathEdge& edge : result.path) {
@@ -209,7 +209,7 @@ TEST_P(Jump, FaultyJobsLeaveARouteWithoutJumps) {
       settings.skip_growth.clear();
       settings.confirmation_job_limit = 0.02;
       const PathResult result =
-          FindPath(Start(), {Goal()}, WithSlowDetour(Always(ending)), kRoom, settings);
+          FindPath(Start(), {Goal()}, WithSlowDetour(Always(ending)), kHall, settings);
       ASSERT_EQ(result.status, PathStatus::kFound);
       for (const PathEdge& edge : result.path) {
         EXPECT_NE(edge.action, kJump);
@@ -228,7 +228,7 @@ TEST_P(Jump, EndlessJobsDoNotHoldUpTheTimeLimit) {
     const World world(kGap, Always(Ending::kNever));
     FindPathSettings settings = Settings(GetParam(), 1);
     settings.time_limit = 0.3;
-    const PathResult result = FindPath(Start(), {Goal()}, world.actions(), kRoom, settings);
+    const PathResult result = FindPath(Start(), {Goal()}, world.actions(), kHall, settings);
     EXPECT_EQ(result.status, PathStatus::kTimeLimit);
     EXPECT_GT(result.counters.at("jobs cancelled"), 0);
     least = std::min(least, result.seconds - settings.time_limit);
@@ -238,7 +238,7 @@ TEST_P(Jump, EndlessJobsDoNotHoldUpTheTimeLimit) {
 
 TEST(StickFigureJump, TheSameSeedGivesTheSameResult) {
   const auto run = [](std::uint64_t seed) {
-    return FindPath(Start(), {Goal()}, World(kGap).actions(), kRoom, Settings(0, seed));
+    return FindPath(Start(), {Goal()}, World(kGap).actions(), kHall, Settings(0, seed));
   };
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     ExpectSameResult(run(seed), run(seed));
@@ -249,7 +249,7 @@ TEST(StickFigureJump, GrowthIsSkippedWithTheGivenProbability) {
   for (const double skip : {0.0, 0.5, 0.9, 1.0}) {
     const World world({4, 6});
     FindPathSettings settings{.max_cycles = 400, .skip_growth = {{"jump", skip}}};
-    FindPath(Start(), {Goal()}, world.actions(), kRoom, settings);
+    FindPath(Start(), {Goal()}, world.actions(), kHall, settings);
     const double expected = 400 * (1 - skip);
     const double five_deviations = 5 * std::sqrt(expected * skip);
     EXPECT_NEAR(static_cast<double>(world.jump->targets.size()), expected, five_deviations);
@@ -263,10 +263,10 @@ class Growth : public ::testing::Test {
 
   void Build(const Point& start, const Point& goal) {
     actions_ = world_.actions();
-    master_ = std::make_unique<PossibilityGraph>(actions_, &kRoom, start, std::vector<Point>{goal});
+    master_ = std::make_unique<PossibilityGraph>(actions_, &kHall, start, std::vector<Point>{goal});
     exploration_ = MakeActionExploration(*world_.jump, kJump,
                                          {.actions = &actions_,
-                                          .space = &kRoom,
+                                          .space = &kHall,
                                           .settings = &settings_,
                                           .master = master_.get(),
                                           .generator = &generator_,

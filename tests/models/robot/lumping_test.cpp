@@ -59,7 +59,7 @@ TEST(Lumping, CombinedAddsSpatialInertias) {
   }
 }
 
-class DrcHubo1Lumping : public testing::Test {
+class DrcHubo1Lumping : public ::testing::Test {
  protected:
   DrcHubo1Lumping() {
     const std::string folder = std::string(POSSIBILITY_SOURCE_DIR) + "/models/drchubo1/";

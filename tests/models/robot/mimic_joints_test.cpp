@@ -13,6 +13,7 @@
 #include "models/robot/robot_yaml.h"
 #include "tests/models/temporary_folder.h"
 #include "tests/models/two_legged_robot.h"
+#include "tests/replaced.h"
 
 namespace possibility::models {
 namespace {
@@ -41,11 +42,6 @@ std::string ArmedUrdf(const std::map<std::string, std::string>& mimics) {
   return urdf + "</robot>\n";
 }
 
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  text.replace(text.find(from), from.size(), to);
-  return text;
-}
-
 std::string ArmedYaml(const std::string& posture = "", const std::string& lump = "") {
   const std::string yaml = Replaced(TwoLeggedYaml(), "{l_yaw: 10}", "{l_yaw: 10" + posture + "}");
   return Replaced(yaml, "friction:", "lump: [" + lump + "]\nfriction:");
@@ -57,7 +53,7 @@ RobotModel Load(const std::string& yaml, const std::string& urdf) {
   return LoadRobotModel(folder.Write("robot.yaml", yaml));
 }
 
-std::string MessageOf(const std::string& yaml, const std::string& urdf) {
+std::string MimicMessageOf(const std::string& yaml, const std::string& urdf) {
   try {
     Load(yaml, urdf);
   } catch (const InputError& error) {
@@ -115,7 +111,7 @@ TEST(MimicJoints, PosturesFollowTheMaster) {
   EXPECT_NEAR(joints[robot.JointIndex("a_3")], -2 * 30 * M_PI / 180 + 0.1, 1e-12);
   // Not named: the master is at 0, the mimic at its offset.
   EXPECT_NEAR(robot.GaitNamed("squat").posture.joints[robot.JointIndex("a_3")], 0.1, 1e-12);
-  EXPECT_EQ(MessageOf(ArmedYaml(", b_1: 30, a_3: -54.27042"), urdf), "no error");
+  EXPECT_EQ(MimicMessageOf(ArmedYaml(", b_1: 30, a_3: -54.27042"), urdf), "no error");
 }
 
 TEST(MimicJoints, LumpedMimicIsHeldAtZero) {
@@ -136,7 +132,7 @@ TEST(MimicJoints, NeedNoEffortLimit) {
   const std::string urdf =
       Replaced(ArmedUrdf({{"b_3", Element("b_1", 2, 0)}}), "effort=\"50\"/>" + Element("b_1", 2, 0),
                "effort=\"0\"/>" + Element("b_1", 2, 0));
-  EXPECT_EQ(MessageOf(ArmedYaml(), urdf), "no error");
+  EXPECT_EQ(MimicMessageOf(ArmedYaml(), urdf), "no error");
 }
 
 struct BadCoupling {
@@ -149,11 +145,11 @@ struct BadCoupling {
 
 void PrintTo(const BadCoupling& bad, std::ostream* stream) { *stream << bad.what; }
 
-class MimicErrors : public testing::TestWithParam<BadCoupling> {};
+class MimicErrors : public ::testing::TestWithParam<BadCoupling> {};
 
 TEST_P(MimicErrors, EachFaultIsNamedInOneLine) {
   const BadCoupling& bad = GetParam();
-  EXPECT_EQ(MessageOf(ArmedYaml(bad.posture, bad.lump), ArmedUrdf(bad.mimics)), bad.message);
+  EXPECT_EQ(MimicMessageOf(ArmedYaml(bad.posture, bad.lump), ArmedUrdf(bad.mimics)), bad.message);
 }
 
 const BadCoupling kBadCouplings[] = {
@@ -276,7 +272,7 @@ const BadCoupling kBadCouplings[] = {
      "an uncoupled joint"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Couplings, MimicErrors, testing::ValuesIn(kBadCouplings),
+INSTANTIATE_TEST_SUITE_P(Couplings, MimicErrors, ::testing::ValuesIn(kBadCouplings),
                          [](const auto& info) { return info.param.what; });
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "models/robot/robot_yaml.h"
 #include "tests/models/temporary_folder.h"
 #include "tests/models/two_legged_robot.h"
+#include "tests/replaced.h"
 
 namespace possibility::models {
 namespace {
@@ -18,14 +19,6 @@ struct BadRobot {
   std::string to;
   std::string message;  ///< without the folder
 };
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  if (from.empty()) return to;
-  const std::size_t place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  if (place != std::string::npos) text.replace(place, from.size(), to);
-  return text;
-}
 
 std::string MessageOf(const std::string& yaml, const std::string& urdf) {
   const TemporaryFolder folder;
@@ -44,7 +37,7 @@ std::string MessageOf(const std::string& yaml, const std::string& urdf) {
   return "no error";
 }
 
-class RobotErrors : public testing::TestWithParam<BadRobot> {};
+class RobotErrors : public ::testing::TestWithParam<BadRobot> {};
 
 TEST_P(RobotErrors, EachFaultIsNamedInOneLine) {
   const BadRobot& bad = GetParam();
@@ -413,9 +406,9 @@ const BadRobot kBadUrdf[] = {
      "under 'effort'"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Yaml, RobotErrors, testing::ValuesIn(kBadYaml),
+INSTANTIATE_TEST_SUITE_P(Yaml, RobotErrors, ::testing::ValuesIn(kBadYaml),
                          [](const auto& info) { return info.param.what; });
-INSTANTIATE_TEST_SUITE_P(Urdf, RobotErrors, testing::ValuesIn(kBadUrdf),
+INSTANTIATE_TEST_SUITE_P(Urdf, RobotErrors, ::testing::ValuesIn(kBadUrdf),
                          [](const auto& info) { return info.param.what; });
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-class RotationVectorTest : public testing::Test {
+class RotationVectorTest : public ::testing::Test {
  protected:
   Vector3d Direction() {
     std::normal_distribution<double> normal;

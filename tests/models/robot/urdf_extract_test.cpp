@@ -13,26 +13,20 @@
 #include "models/robot/urdf_reader.h"
 #include "tests/models/temporary_folder.h"
 #include "tests/models/two_legged_robot.h"
+#include "tests/replaced.h"
 
 namespace possibility::models {
 namespace {
 
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    text.replace(at, from.size(), to);
-  }
-  return text;
-}
-
 TEST(UrdfExtract, LegalPercentSignsLoad) {
   std::string urdf = TwoLeggedUrdf();
-  urdf = Replaced(urdf, "<link name=\"tool\">",
-                  "<!-- 100% --><link name=\"tool\"><visual><geometry><mesh "
-                  "filename=\"%n/100%s.stl\"/></geometry></visual>");
-  urdf = Replaced(urdf, "two_legged", "two%nlegged");
-  urdf = Replaced(urdf, "l_hip", "l%hip");
-  urdf = Replaced(urdf, "l_yaw", "%n%s");
-  const std::string yaml = Replaced(TwoLeggedYaml(), "l_yaw", "'%n%s'");
+  urdf = ReplacedEverywhere(urdf, "<link name=\"tool\">",
+                            "<!-- 100% --><link name=\"tool\"><visual><geometry><mesh "
+                            "filename=\"%n/100%s.stl\"/></geometry></visual>");
+  urdf = ReplacedEverywhere(urdf, "two_legged", "two%nlegged");
+  urdf = ReplacedEverywhere(urdf, "l_hip", "l%hip");
+  urdf = ReplacedEverywhere(urdf, "l_yaw", "%n%s");
+  const std::string yaml = ReplacedEverywhere(TwoLeggedYaml(), "l_yaw", "'%n%s'");
   const TemporaryFolder folder;
   folder.Write("robot.urdf", urdf);
   const RobotModel robot = LoadRobotModel(folder.Write("robot.yaml", yaml));
@@ -42,10 +36,10 @@ TEST(UrdfExtract, LegalPercentSignsLoad) {
 
 // '!' sorts before '%', but the replacement of '%' sorts before '!'.
 TEST(UrdfExtract, NamesStaySorted) {
-  std::string urdf = Replaced(TwoLeggedUrdf(), "l_hip", "a%");
-  urdf = Replaced(urdf, "r_hip", "a!");
-  urdf = Replaced(urdf, "l_yaw", "b%");
-  urdf = Replaced(urdf, "r_yaw", "b!");
+  std::string urdf = ReplacedEverywhere(TwoLeggedUrdf(), "l_hip", "a%");
+  urdf = ReplacedEverywhere(urdf, "r_hip", "a!");
+  urdf = ReplacedEverywhere(urdf, "l_yaw", "b%");
+  urdf = ReplacedEverywhere(urdf, "r_yaw", "b!");
   const UrdfTree tree = ParseUrdf(urdf, "robot.urdf");
   EXPECT_EQ(tree.links[0].name, "a!");
   EXPECT_EQ(tree.links[1].name, "a%");

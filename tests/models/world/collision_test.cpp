@@ -22,12 +22,12 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using testing::RandomGeometry;
 
-constexpr double kFar = 1e9;
+constexpr double kFarAway = 1e9;
 
 double PairDistance(const Shape& a, const Isometry3d& X_WA, const Shape& b,
                     const Isometry3d& X_WB) {
   const PreparedShape A(a), B(b);
-  return SignedDistance(A, A.CorePose(X_WA), B, B.CorePose(X_WB), kFar);
+  return SignedDistance(A, A.CorePose(X_WA), B, B.CorePose(X_WB), kFarAway);
 }
 
 /// A floor and `count` shapes scattered over it.
@@ -83,7 +83,7 @@ void ExpectSame(const std::vector<Proximity>& found, const std::vector<Proximity
 /// The distance of the link's nearest shape to the other link's shapes or the obstacle's.
 double LinkDistance(const Link& link, const Isometry3d& X_WL, const std::vector<PosedShape>& others,
                     const Isometry3d& X_WO) {
-  double nearest = kFar;
+  double nearest = kFarAway;
   for (const PosedShape& a : link.shapes) {
     for (const PosedShape& b : others) {
       nearest = std::min(nearest, PairDistance(a.shape, X_WL * a.X_PS, b.shape, X_WO * b.X_PS));
@@ -152,7 +152,7 @@ TEST(CollisionChecker, ClearanceIsTheNearestObstaclesDistance) {
     const PreparedShape prepared(shape);
     Isometry3d X = random.Pose(2);
     X.translation().z() = random.Uniform(-0.1, 2);
-    double exact = kFar;
+    double exact = kFarAway;
     for (const Obstacle& obstacle : environment.obstacles) {
       exact = std::min(exact, PairDistance(shape, X, obstacle.shape, obstacle.X_WO));
     }
@@ -254,11 +254,11 @@ TEST(CollisionChecker, ClearanceIsExactInALargeScene) {
     const Shape box = Shape::Box({0.1, 0.1, 0.1});
     Isometry3d X = random.Pose(9);
     X.translation().z() = random.Uniform(0.2, 2);
-    double exact = kFar;
+    double exact = kFarAway;
     for (const Obstacle& obstacle : environment.obstacles) {
       exact = std::min(exact, PairDistance(box, X, obstacle.shape, obstacle.X_WO));
     }
-    EXPECT_NEAR(checker.Clearance(PreparedShape(box), X, kFar), exact, 1e-6);
+    EXPECT_NEAR(checker.Clearance(PreparedShape(box), X, kFarAway), exact, 1e-6);
   }
 }
 

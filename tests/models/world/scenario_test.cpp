@@ -9,6 +9,7 @@
 #include "models/robot/robot_yaml.h"
 #include "tests/models/temporary_folder.h"
 #include "tests/models/two_legged_robot.h"
+#include "tests/replaced.h"
 
 namespace possibility::models {
 namespace {
@@ -33,14 +34,6 @@ environment:
     - {name: pill, shape: capsule, radius: 0.3, length: 0.4, position: [0, 0, 1]}
     - {name: wedge, shape: convex, vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}
 )";
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  if (from.empty()) return to;
-  const std::size_t place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  if (place != std::string::npos) text.replace(place, from.size(), to);
-  return text;
-}
 
 /// The scenario names its robot by a path. The content of the files there counts.
 TEST(ScenarioYaml, ARobotOfAnotherContentIsRefused) {
@@ -173,7 +166,7 @@ struct BadScenario {
   std::string message;  ///< without the folder
 };
 
-class ScenarioErrors : public testing::TestWithParam<BadScenario> {};
+class ScenarioErrors : public ::testing::TestWithParam<BadScenario> {};
 
 TEST_P(ScenarioErrors, EachFaultIsNamedInOneLine) {
   const BadScenario& bad = GetParam();
@@ -299,7 +292,7 @@ const BadScenario kBad[] = {
      "room.yaml:19: environment.obstacles[4].vertices[3]: expected three numbers, got nan"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Scenario, ScenarioErrors, testing::ValuesIn(kBad),
+INSTANTIATE_TEST_SUITE_P(Scenario, ScenarioErrors, ::testing::ValuesIn(kBad),
                          [](const auto& info) { return info.param.what; });
 
 }  // namespace
