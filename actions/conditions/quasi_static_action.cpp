@@ -489,8 +489,7 @@ std::vector<graph::Point> QuasiStaticAction::TransitionFrom(const graph::Point& 
 
 double QuasiStaticAction::ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const {
   const LocomotionModel::GaitEntry& gait = *model_->gaits[gait_];
-  const std::vector<PlanarPose> strides = PlanStrides(gait.stance.gait->parameters, from, to);
-  return gait.motion->ExpectedDurationAlong(strides);
+  return gait.motion->WayDuration(gait.stance.gait->parameters, from, to);
 }
 
 double QuasiStaticAction::ExpectedDuration(const graph::Edge& edge) const {

@@ -9,8 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "models/world/collision.h"
-
 namespace possibility::actions {
 namespace {
 
@@ -32,13 +30,11 @@ constexpr double kStart = 0.7;  // start and stop, in which the root rises and c
 /// Sideways and turning steps, in multiples of strides; one limb closes up to the other.
 constexpr double kAside[] = {3, 2.8, 2.6, 2.4, 2.2, 2, 1.8, 1.6, 1.4, 1.2, 1};
 
-/// Steps of the ways that a pace is tried on, and their least distance between links, m.
+/// Steps of the ways that a pace is tried on.
 constexpr int kFitSteps = 4;
-constexpr double kSelfClearance = 0.01;
-/// What a way keeps that cannot be walked with that distance, m.
+
+/// Distance of links on a way that cannot be walked with kSelfClearance, m.
 constexpr double kLeastClearance = 0.005;
-/// Links that are closer in the stance may keep this share of their distance there.
-constexpr double kNominalShare = 0.9;
 
 /// Rises of the root in motion, as shares of its height: straighter legs bear with less torque.
 constexpr double kRises[] = {0.14, 0.105, 0.07, 0.035, 0};
@@ -169,27 +165,6 @@ double Reach(const NominalStance& stance) {
   return reach;
 }
 
-/// Pairs of links that are close to each other at q.
-std::vector<models::Proximity> CloseLinks(const models::RobotModel& robot,
-                                          const Eigen::VectorXd& q) {
-  const models::Environment nothing;
-  dynamics::TreeKinematics kinematics(robot);
-  kinematics.SetPosition(q);
-  return models::CollisionChecker(robot, nothing)
-      .SelfProximities(kinematics.X_WL(), 2 * kSelfClearance);
-}
-
-/// m: least distance of two links in motion.
-double RequiredClearance(const std::vector<models::Proximity>& close_at_rest,
-                         const models::Proximity& pair, double clearance) {
-  for (const models::Proximity& close : close_at_rest) {
-    if (close.link == pair.link && close.other == pair.other) {
-      clearance = std::min(clearance, kNominalShare * close.distance);
-    }
-  }
-  return clearance;
-}
-
 std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
   std::vector<PlanarPose> stances = {PlanarPose()};
   for (int i = 0; i < count; ++i) stances.push_back(stances.back() * displacement);
@@ -266,13 +241,12 @@ std::optional<Pace> DynamicGait::Fitted(Pace pace) const {
 
 DynamicGait::Demands DynamicGait::DemandsOf(const MotionSettings& settings,
                                             const FlowEnd& end) const {
-  Demands demands{settings, end, CloseLinks(*robot_, stance_->q)};
-  if (end.joints.size() == 0) return demands;
-  Eigen::VectorXd q = stance_->q;
-  q.tail(robot_->num_joints()) = end.joints;
-  const std::vector<models::Proximity> close = CloseLinks(*robot_, q);
-  demands.close_at_rest.insert(demands.close_at_rest.end(), close.begin(), close.end());
-  return demands;
+  std::vector<Eigen::VectorXd> rests = {stance_->q};
+  if (end.joints.size() > 0) {
+    rests.push_back(stance_->q);
+    rests.back().tail(robot_->num_joints()) = end.joints;
+  }
+  return {settings, end, SelfClearance(*robot_, rests)};
 }
 
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
@@ -318,19 +292,14 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
 
 void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands,
                                        double clearance) const {
-  const models::Environment nothing;
-  models::CollisionChecker checker(*robot_, nothing);
-  dynamics::TreeKinematics kinematics(*robot_);
   for (const Phase& phase : motion) {
     for (const Knot& knot : phase.knots) {
-      kinematics.SetPosition(knot.q);
-      for (const models::Proximity& pair : checker.SelfProximities(kinematics.X_WL(), clearance)) {
-        const double required = RequiredClearance(demands.close_at_rest, pair, clearance);
-        if (pair.distance >= required) continue;
-        throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
-                                      robot_->links[pair.link].name, pair.distance,
-                                      robot_->links[pair.other].name, knot.t, required));
-      }
+      const auto faults = demands.self_clearance.Faults(knot.q, clearance);
+      if (faults.empty()) continue;
+      const auto& [pair, required] = faults.front();
+      throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
+                                    robot_->links[pair.link].name, pair.distance,
+                                    robot_->links[pair.other].name, knot.t, required));
     }
   }
 }
@@ -398,13 +367,20 @@ double DynamicGait::ExpectedDuration(int strides) const {
   return strides * stance_->gait->parameters.forward / pace.speed() + Stop(pace);
 }
 
-double DynamicGait::ExpectedDurationAlong(const std::vector<PlanarPose>& strides) const {
-  if (paces_.empty()) return quasi_static_.ExpectedDurationAlong(strides);
-  if (strides.size() < 2) return 0;
+double DynamicGait::WayDuration(const models::GaitParameters& parameters, const PlanarPose& from,
+                                const PlanarPose& to) const {
+  if (paces_.empty()) return quasi_static_.WayDuration(parameters, from, to);
+  if (StrideCount(parameters, from, to) == 0) return 0;
   double duration = Stop(paces_.front());
+  if (ClassOfStrides(from, to) != StrideClass::kAny) {
+    // All strides have one direction in the stance's frame, and duration is linear in them.
+    PlanarPose way = from.Inverse() * to;
+    way.yaw = WrapAngle(way.yaw);
+    return duration + DisplacementDuration(parameters, way);
+  }
+  const std::vector<PlanarPose> strides = PlanStrides(parameters, from, to);
   for (std::size_t i = 0; i + 1 < strides.size(); ++i) {
-    duration +=
-        DisplacementDuration(stance_->gait->parameters, strides[i].Inverse() * strides[i + 1]);
+    duration += DisplacementDuration(parameters, strides[i].Inverse() * strides[i + 1]);
   }
   return duration;
 }

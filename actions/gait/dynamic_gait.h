@@ -9,8 +9,8 @@
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/pattern_motion.h"
+#include "actions/motion/self_clearance.h"
 #include "models/robot/robot_model.h"
-#include "models/world/collision.h"
 
 namespace possibility::actions {
 
@@ -35,7 +35,8 @@ class DynamicGait final : public GaitMotion {
                                            double knot_spacing,
                                            const CancellationToken& cancellation) const override;
   double ExpectedDuration(int strides) const override;
-  double ExpectedDurationAlong(const std::vector<PlanarPose>& strides) const override;
+  double WayDuration(const models::GaitParameters& parameters, const PlanarPose& from,
+                     const PlanarPose& to) const override;
   double DisplacementDuration(const models::GaitParameters& parameters,
                               const PlanarPose& displacement) const override;
   double RestTime() const override { return paces_.empty() ? 0 : paces_.front().timing.start; }
@@ -54,8 +55,7 @@ class DynamicGait final : public GaitMotion {
   struct Demands {
     MotionSettings settings;
     FlowEnd end;
-    /// Pairs of links that are close to each other at rest may stay close.
-    std::vector<models::Proximity> close_at_rest;
+    SelfClearance self_clearance;
   };
   Demands DemandsOf(const MotionSettings& settings, const FlowEnd& end) const;
   std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,

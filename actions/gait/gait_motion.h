@@ -61,9 +61,10 @@ class GaitMotion {
   /// A gait that flows begins and ends it in motion.
   virtual double ExpectedDuration(int strides) const = 0;
 
-  /// The same of the motion along `strides` (as of Motion).
-  virtual double ExpectedDurationAlong(const std::vector<PlanarPose>& strides) const {
-    return ExpectedDuration(static_cast<int>(strides.size()) - 1);
+  /// The same of the motion along PlanStrides from `from` to `to`. `parameters`: of the gait.
+  virtual double WayDuration(const models::GaitParameters& parameters, const PlanarPose& from,
+                             const PlanarPose& to) const {
+    return ExpectedDuration(StrideCount(parameters, from, to));
   }
 
   /// The share of a displacement in it, s. `parameters`: of the gait.

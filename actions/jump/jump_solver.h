@@ -21,6 +21,8 @@ struct SolvedJump {
   JumpMotionReport report;
 
   double duration() const { return phases.back().knots.back().t; }  ///< s
+  /// Of the first phase, which only turns joints, s. A gait that leads to the jump does so, too.
+  double preparation() const { return phases.front().knots.back().t; }
 };
 
 /// Cost of an answer.

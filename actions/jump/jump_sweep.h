@@ -16,7 +16,7 @@ struct JumpSweep {
   std::vector<double> heights = {0};  ///< m, ascending
   int threads = 1;
   /// Per height, stops after this many refusals in a row beyond a success; 0: tries all distances.
-  int refusals_to_stop = 2;
+  int refusals_to_stop = 3;
   /// Asked after every answer, from any thread, one question at a time. Once cancelled, the rest is
   /// left out.
   CancellationToken cancellation;

@@ -355,11 +355,14 @@ bool LongJump::Explorable(const graph::Edge& edge) const {
 
 double LongJump::ExpectedDuration(const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);
+  const double rest_time = model().gaits[from()]->motion->RestTime();
   const std::lock_guard lock(mutex_);
   for (const Solved& solved : solved_) {
-    if (leap && SameTask(solved.jump->task, leap->task)) return solved.jump->duration();
+    if (leap && SameTask(solved.jump->task, leap->task)) {
+      return rest_time + solved.jump->duration() - solved.jump->preparation();
+    }
   }
-  return kNominalDuration;
+  return rest_time + kNominalDuration;
 }
 
 std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(

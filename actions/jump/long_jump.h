@@ -23,8 +23,8 @@ class SharedJumpSolve;
 /// any number of its jobs at once.
 class LongJump : public Manoeuvre {
  public:
-  /// Expected duration of an unsolved jump, s.
-  static constexpr double kNominalDuration = 4.5;
+  /// Expected duration of an unsolved jump without its preparation, s.
+  static constexpr double kNominalDuration = 3.1;
 
   /// Takes the reach from the context's library if that has a table, otherwise guesses it for the
   /// heights of the context's ground.

@@ -259,13 +259,33 @@ class TraversalPlanner {
     }
     result->status = StatusOf(path.status);
     if (path.status == graph::PathStatus::kFound) {
-      result->plan.search =
-          SearchReport{path.found_by, path.first_duration, path.duration, path.lower_bound};
+      result->plan.search = ReportOf(path);
       return;
     }
     SayNo(result->status, Explain(*result), result);
     result->plan.no->passage = floods_.passage();
     if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
+  }
+
+  /// Edges begin and end in motion where gaits flow; the route begins and ends at rest.
+  SearchReport ReportOf(const graph::PathResult& path) const {
+    SearchReport report{path.found_by, path.first_duration, path.duration, path.lower_bound};
+    if (path.path.empty()) return report;
+    const double rest = RestTimes(goals_[path.goal]);
+    report.first_duration += rest;
+    report.duration += rest;
+    if (report.lower_bound > 0) {
+      double least = rest;
+      for (const GroundedStance& goal : goals_) least = std::min(least, RestTimes(goal));
+      report.lower_bound += least;
+    }
+    return report;
+  }
+
+  /// Of the start and a goal, s.
+  double RestTimes(const GroundedStance& goal) const {
+    return model_.gaits[start_.gait]->motion->RestTime() +
+           model_.gaits[goal.gait]->motion->RestTime();
   }
 
   static PlanStatus StatusOf(graph::PathStatus status) {

@@ -114,8 +114,7 @@ double ExpectedDuration(const LocomotionModel& model, const Route& route) {
       duration += model.transitions[leg.transition].ExpectedDuration();
     } else {
       const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
-      const auto strides = PlanStrides(gait.stance.gait->parameters, leg.from, leg.to);
-      duration += gait.motion->ExpectedDurationAlong(strides);
+      duration += gait.motion->WayDuration(gait.stance.gait->parameters, leg.from, leg.to);
     }
   }
   return duration;

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "dynamics/tree/multibody_dynamics.h"
-#include "dynamics/tree/tree_kinematics.h"
 #include "models/input/input_error.h"
 
 namespace possibility::actions {
@@ -46,6 +45,18 @@ Eigen::AlignedBox3d BoundsOf(const models::Link& link) {
   Eigen::AlignedBox3d box;
   for (const models::PosedShape& posed : link.shapes) box.extend(posed.shape.Bounds(posed.X_PS));
   return box;
+}
+
+/// The links that a joint carries, and those that carry it, including the root.
+std::set<int> LimbOf(const models::RobotModel& robot, int joint) {
+  std::set<int> limb = {0};
+  for (int link = joint + 1; link > 0; link = robot.joints[link - 1].parent) limb.insert(link);
+  for (int tip = joint + 2; tip < robot.num_links(); ++tip) {
+    for (int link = tip; link > 0; link = robot.joints[link - 1].parent) {
+      if (link == joint + 1) limb.insert(tip);
+    }
+  }
+  return limb;
 }
 
 /// Radius of a link's shapes around a joint, at the end of the link.
@@ -163,46 +174,44 @@ void SagittalModel::FindSeparations() {
 }
 
 void SagittalModel::FindFreeRanges(const models::RobotModel& robot) {
-  const models::CollisionChecker checker(robot, models::Environment());
+  const SelfClearance clearance(
+      robot, {reduction_.ExpandConfiguration(ready_), reduction_.ExpandConfiguration(landed_)});
   lower_ = planar()->lower();
   upper_ = planar()->upper();
   for (int joint = 0; joint < planar()->num_joints(); ++joint) {
     for (const VectorXd& stance : {ready_, landed_}) {
       lower_[joint] =
-          std::max(lower_[joint], FreeLimit(checker, stance, joint, planar()->lower()[joint]));
+          std::max(lower_[joint], FreeLimit(clearance, stance, joint, planar()->lower()[joint]));
       upper_[joint] =
-          std::min(upper_[joint], FreeLimit(checker, stance, joint, planar()->upper()[joint]));
+          std::min(upper_[joint], FreeLimit(clearance, stance, joint, planar()->upper()[joint]));
     }
   }
 }
 
 /// Position that `joint` can reach from `q` towards `limit`.
-double SagittalModel::FreeLimit(const models::CollisionChecker& checker, const VectorXd& q,
-                                int joint, double limit) const {
-  constexpr double kStep = 0.05;       // rad
-  constexpr double kClearance = 2e-3;  // m
+double SagittalModel::FreeLimit(const SelfClearance& clearance, const VectorXd& q, int joint,
+                                double limit) const {
+  constexpr double kStep = 0.05;        // rad
+  constexpr double kResolution = 1e-3;  // rad
   const models::RobotModel& robot = reduction_.full();
-  dynamics::TreeKinematics kinematics(robot);
-  // Links of the joint's own limb, including the root.
-  std::set<int> limb = {0};
-  for (int link = reduction_.joints()[joint].left + 1; link > 0;
-       link = robot.joints[link - 1].parent) {
-    limb.insert(link);
-  }
-  const auto own = [&limb](const models::Proximity& pair) {
-    return limb.contains(pair.link) && limb.contains(pair.other);
-  };
-  const double begin = q[3 + joint];
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(limit - begin) / kStep)));
-  double reached = begin;
-  for (int i = 1; i <= steps; ++i) {
+  const std::set<int> limb = LimbOf(robot, reduction_.joints()[joint].left);
+  const auto is_free = [&](double position) {
     VectorXd moved = q;
-    moved[3 + joint] = begin + (limit - begin) * i / steps;
-    kinematics.SetPosition(reduction_.ExpandConfiguration(moved));
-    const std::vector<models::Proximity> touching =
-        checker.SelfProximities(kinematics.X_WL(), kClearance);
-    if (std::any_of(touching.begin(), touching.end(), own)) return reached;
-    reached = moved[3 + joint];
+    moved[3 + joint] = position;
+    const auto faults = clearance.Faults(reduction_.ExpandConfiguration(moved), kSelfClearance);
+    return std::none_of(faults.begin(), faults.end(), [&limb](const SelfClearance::Fault& fault) {
+      return limb.contains(fault.pair.link) && limb.contains(fault.pair.other);
+    });
+  };
+  double reached = q[3 + joint];
+  double step = std::copysign(kStep, limit - reached);
+  while (std::abs(step) >= kResolution && reached != limit) {
+    const double next = std::abs(limit - reached) > std::abs(step) ? reached + step : limit;
+    if (is_free(next)) {
+      reached = next;
+    } else {
+      step /= 2;
+    }
   }
   return reached;
 }

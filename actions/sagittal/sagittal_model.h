@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "actions/motion/nominal_stance.h"
+#include "actions/motion/self_clearance.h"
 #include "dynamics/sagittal/sagittal_reduction.h"
 #include "dynamics/tree/contact_point.h"
 #include "models/robot/robot_model.h"
-#include "models/world/collision.h"
 
 namespace possibility::actions {
 
@@ -62,8 +62,8 @@ class SagittalModel {
   /// Between the trunk and the feet.
   const std::vector<Separation>& separations() const { return separations_; }
 
-  /// Limits of the planar joints within which no link collides with its own limb or the trunk, with
-  /// the other joints as in either stance. Within the position limits, rad or m.
+  /// Limits of the planar joints within which links keep kSelfClearance from their own limb and the
+  /// trunk, with the other joints as in either stance. Within the position limits, rad or m.
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
   /// Points of the body that must stay above the ground by the radius of their surroundings: joints
@@ -88,7 +88,7 @@ class SagittalModel {
   void FindGuards();
   void FindSeparations();
   void FindFreeRanges(const models::RobotModel& robot);
-  double FreeLimit(const models::CollisionChecker& checker, const Eigen::VectorXd& q, int joint,
+  double FreeLimit(const SelfClearance& clearance, const Eigen::VectorXd& q, int joint,
                    double limit) const;
 
   dynamics::SagittalReduction reduction_;

@@ -198,5 +198,36 @@ TEST_P(DynamicGaitTest, SlowJointsLeaveTheQuasiStaticGait) {
 INSTANTIATE_TEST_SUITE_P(Gaits, DynamicGaitTest, ::testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
 
+/// Stopping aside, the expected duration of a way is the sum of its strides' shares.
+TEST(DynamicGait, ExpectedDurationOfAWayIsTheSumOfItsStrides) {
+  const LocomotionModel::GaitEntry& walk = *DrcHubo1Locomotion().gaits[0];
+  const models::GaitParameters& parameters = walk.gait.parameters;
+  const auto strides_of = [&](const PlanarPose& from, const PlanarPose& to) {
+    const std::vector<PlanarPose> strides = PlanStrides(parameters, from, to);
+    double duration = 0;
+    for (std::size_t i = 1; i < strides.size(); ++i) {
+      duration +=
+          walk.motion->DisplacementDuration(parameters, strides[i - 1].Inverse() * strides[i]);
+    }
+    return duration;
+  };
+  const PlanarPose ahead{1, 0, 0};
+  const double stop = walk.motion->WayDuration(parameters, {}, ahead) - strides_of({}, ahead);
+  EXPECT_GT(stop, 0);
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int way = 0; way < 2000; ++way) {
+    const PlanarPose from{3 * unit(generator), 3 * unit(generator), 3 * unit(generator)};
+    // Of every class of strides: parts of the displacement are left out in turn.
+    PlanarPose displacement{2 * unit(generator), unit(generator), 3 * unit(generator)};
+    if ((way & 1) != 0) displacement.x = 0;
+    if ((way & 2) != 0) displacement.y = 0;
+    if ((way & 4) != 0) displacement.yaw = 0;
+    const PlanarPose to = from * displacement;
+    const double expected = (way & 7) == 7 ? 0 : stop + strides_of(from, to);
+    EXPECT_NEAR(walk.motion->WayDuration(parameters, from, to), expected, 1e-9) << way;
+  }
+}
+
 }  // namespace
 }  // namespace possibility::actions

@@ -40,7 +40,7 @@ models::Obstacle Beam() {
   models::Obstacle beam;
   beam.name = "beam";
   beam.shape = models::Shape::Box({0.04, 6, 0.04});
-  beam.X_WO.translation() << 0.1, 0, 1.32;
+  beam.X_WO.translation() << 0.1, 0, 1.2;
   return beam;
 }
 
