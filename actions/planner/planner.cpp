@@ -267,25 +267,21 @@ class TraversalPlanner {
     if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
   }
 
-  /// Edges begin and end in motion where gaits flow; the route begins and ends at rest.
+  /// Edges of a gait begin and end in motion. A route of them begins and ends at rest.
   SearchReport ReportOf(const graph::PathResult& path) const {
     SearchReport report{path.found_by, path.first_duration, path.duration, path.lower_bound};
-    if (path.path.empty()) return report;
-    const double rest = RestTimes(goals_[path.goal]);
-    report.first_duration += rest;
-    report.duration += rest;
-    if (report.lower_bound > 0) {
-      double least = rest;
-      for (const GroundedStance& goal : goals_) least = std::min(least, RestTimes(goal));
-      report.lower_bound += least;
-    }
+    const Route route = RouteAlong(model_, searched_, path.path);
+    if (route.empty()) return report;
+    const double rest_time = RestTime(route.front()) + RestTime(route.back());
+    report.first_duration += rest_time;
+    report.duration += rest_time;
     return report;
   }
 
-  /// Of the start and a goal, s.
-  double RestTimes(const GroundedStance& goal) const {
-    return model_.gaits[start_.gait]->motion->RestTime() +
-           model_.gaits[goal.gait]->motion->RestTime();
+  /// Of a leg's gait, s. Transitions and manoeuvres include theirs.
+  double RestTime(const RouteLeg& leg) const {
+    const bool is_way = leg.manoeuvre == nullptr && leg.transition < 0;
+    return is_way ? model_.gaits[leg.gait]->motion->RestTime() : 0;
   }
 
   static PlanStatus StatusOf(graph::PathStatus status) {
