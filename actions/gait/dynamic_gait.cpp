@@ -207,9 +207,9 @@ bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
   settings.knot_spacing = kKnotSpacing;
   settings.minimum_intervals = kLeastIntervals;
   try {
-    const Demands demands = DemandsOf(settings, {});
-    const std::vector<Phase> motion = MotionAt(pace, Repeated(step, kFitSteps), demands, false, {});
-    RequireSelfClearance(motion, demands, kSelfClearance + kFitClearance);
+    Demands demands = DemandsOf(settings, {});
+    demands.clearance = kSelfClearance + kFitClearance;
+    MotionAt(pace, Repeated(step, kFitSteps), demands, false, {});
     return true;
   } catch (const MotionError&) {
     return false;
@@ -246,7 +246,7 @@ DynamicGait::Demands DynamicGait::DemandsOf(const MotionSettings& settings,
     rests.push_back(stance_->q);
     rests.back().tail(robot_->num_joints()) = end.joints;
   }
-  return {settings, end, SelfClearance(*robot_, rests)};
+  return {settings, end, SelfClearance(*robot_, rests), kLeastClearance};
 }
 
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
@@ -286,15 +286,15 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
       MotionBuilder(*robot_, demands.settings)
           .Build(PatternPhases(*robot_, *stance_, schedule, pattern, cancellation), guess,
                  cancellation);
-  RequireSelfClearance(motion, demands, kLeastClearance);
+  RequireSelfClearance(motion, demands);
   return motion;
 }
 
-void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands,
-                                       double clearance) const {
+void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion,
+                                       const Demands& demands) const {
   for (const Phase& phase : motion) {
     for (const Knot& knot : phase.knots) {
-      const auto faults = demands.self_clearance.Faults(knot.q, clearance);
+      const auto faults = demands.self_clearance.Faults(knot.q, demands.clearance);
       if (faults.empty()) continue;
       const auto& [pair, required] = faults.front();
       throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
@@ -310,24 +310,21 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, con
   MotionSettings settings;
   settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
   settings.minimum_intervals = kLeastIntervals;
-  const Demands demands = DemandsOf(settings, end);
+  Demands demands = DemandsOf(settings, end);
   std::string fault = "no pace fits";
-  std::vector<Phase> reserve;
-  for (const Pace& pace : paces_) {
-    for (const double share : kShorter) {
-      try {
-        std::vector<Phase> motion =
-            MotionAt(Shortened(pace, share), strides, demands, true, cancellation);
-        if (reserve.empty()) reserve = motion;
-        RequireSelfClearance(motion, demands, kSelfClearance);
-        return motion;
-      } catch (const MotionError& error) {
-        fault = error.what();
+  for (const double clearance : {kSelfClearance, kLeastClearance}) {
+    demands.clearance = clearance;
+    for (const Pace& pace : paces_) {
+      for (const double share : kShorter) {
+        try {
+          return MotionAt(Shortened(pace, share), strides, demands, true, cancellation);
+        } catch (const MotionError& error) {
+          fault = error.what();
+        }
       }
     }
   }
-  if (reserve.empty()) throw MotionError(fault);
-  return reserve;
+  throw MotionError(fault);
 }
 
 std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,

@@ -56,6 +56,7 @@ class DynamicGait final : public GaitMotion {
     MotionSettings settings;
     FlowEnd end;
     SelfClearance self_clearance;
+    double clearance = 0;  ///< m, between links
   };
   Demands DemandsOf(const MotionSettings& settings, const FlowEnd& end) const;
   std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
@@ -69,9 +70,8 @@ class DynamicGait final : public GaitMotion {
   bool Fits(const Pace& pace, const PlanarPose& step) const;
   /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
   std::optional<Pace> Fitted(Pace pace) const;
-  /// @throws MotionError naming two links that come closer than `clearance`, m.
-  void RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands,
-                            double clearance) const;
+  /// @throws MotionError naming two links that come closer than demanded.
+  void RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands) const;
 
   const models::RobotModel* robot_;
   const NominalStance* stance_;
