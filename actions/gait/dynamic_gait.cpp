@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
+
+#include "actions/motion/phase_sequence.h"
 
 namespace possibility::actions {
 namespace {
@@ -304,9 +307,44 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion,
   }
 }
 
+std::vector<std::vector<PlanarPose>> DynamicGait::Divided(
+    const std::vector<PlanarPose>& strides) const {
+  std::vector<double> times = {0};
+  for (std::size_t i = 1; i < strides.size(); ++i) {
+    const PlanarPose displacement = strides[i - 1].Inverse() * strides[i];
+    const bool bends = i > 1 && Bends(strides[i - 2], strides[i - 1], strides[i]);
+    times.push_back(times.back() + (bends ? Stop(paces_.front()) : 0) +
+                    DisplacementDuration(stance_->gait->parameters, displacement));
+  }
+  const double parts = std::max(1.0, std::ceil(times.back() / kLongestFlow));
+  std::vector<std::vector<PlanarPose>> ways = {{strides.front()}};
+  for (std::size_t i = 1; i < strides.size(); ++i) {
+    ways.back().push_back(strides[i]);
+    const bool is_last = i + 1 == strides.size();
+    const double share = static_cast<double>(ways.size()) / parts;
+    if (!is_last && times[i] >= share * times.back()) ways.push_back({strides[i]});
+  }
+  return ways;
+}
+
 std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, const FlowEnd& end,
                                      double knot_spacing,
                                      const CancellationToken& cancellation) const {
+  const std::vector<std::vector<PlanarPose>> ways = Divided(strides);
+  std::vector<Phase> motion;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const bool is_last = i + 1 == ways.size();
+    std::vector<Phase> more =
+        FlowThrough(ways[i], is_last ? end : FlowEnd(), knot_spacing, cancellation);
+    if (!motion.empty()) ShiftTime(motion.back().knots.back().t, &more);
+    std::move(more.begin(), more.end(), std::back_inserter(motion));
+  }
+  return motion;
+}
+
+std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strides,
+                                            const FlowEnd& end, double knot_spacing,
+                                            const CancellationToken& cancellation) const {
   MotionSettings settings;
   settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
   settings.minimum_intervals = kLeastIntervals;

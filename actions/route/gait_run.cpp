@@ -85,20 +85,13 @@ std::vector<int> Cuts(const LocomotionModel& model, const Route& route, int firs
 int RunLength(const LocomotionModel& model, const Route& route, int first) {
   const RouteLeg& begin = route[first];
   if (!IsStraightWay(model, begin) || !model.gaits[begin.gait]->motion->Flows()) return 1;
-  const auto duration = [&](const RouteLeg& leg) {
-    const LocomotionModel::GaitEntry& gait = *model.gaits[leg.gait];
-    return gait.motion->WayDuration(gait.gait.parameters, leg.from, leg.to);
-  };
   int count = 1;
-  double time = duration(begin);
   while (first + count < static_cast<int>(route.size())) {
     const RouteLeg& next = route[first + count];
     if (!IsStraightWay(model, next) || next.gait != begin.gait ||
         std::abs(next.z - begin.z) > kSameHeight) {
       break;
     }
-    time += duration(next);
-    if (time > kLongestRun) break;
     ++count;
   }
   return count;

@@ -10,12 +10,8 @@
 
 namespace possibility::actions {
 
-/// Longest expected duration of a run of several legs, s. A robot with feedback of its joints alone
-/// strays a little at every touchdown, by up to 0.05 m in 100 s of walking with many turns.
-inline constexpr double kLongestRun = 40;
-
 /// Number of legs from `first` on that one motion may flow through: straight ways of one gait on
-/// one height, of kLongestRun in all. At least 1.
+/// one height. At least 1.
 int RunLength(const LocomotionModel& model, const Route& route, int first);
 
 /// One motion through `count` legs of a run, cut where it passes their ends: the phases of every

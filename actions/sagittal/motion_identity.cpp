@@ -8,6 +8,9 @@
 namespace possibility::actions {
 namespace {
 
+/// Of SagittalModel; motions solved with another version's joint limits are stale.
+constexpr double kModelVersion = 2;
+
 // Every new field of the settings must be added here.
 
 std::vector<double> Fields(const collocation::SagittalLimits& l) {
@@ -25,7 +28,7 @@ std::vector<double> Fields(const SagittalSettings& s) {
 
 std::string MotionIdentity(const models::RobotModel& robot, const SagittalSettings& settings,
                            const std::vector<double>& own) {
-  return models::HashOfParts({robot.content_hash,
+  return models::HashOfParts({robot.content_hash, fmt::format("{}", kModelVersion),
                               fmt::format("{}", fmt::join(Fields(settings.limits), " ")),
                               fmt::format("{}", fmt::join(Fields(settings), " ")),
                               fmt::format("{}", fmt::join(own, " "))});

@@ -51,9 +51,9 @@ Eigen::AlignedBox3d BoundsOf(const models::Link& link) {
 std::set<int> LimbOf(const models::RobotModel& robot, int joint) {
   std::set<int> limb = {0};
   for (int link = joint + 1; link > 0; link = robot.joints[link - 1].parent) limb.insert(link);
-  for (int tip = joint + 2; tip < robot.num_links(); ++tip) {
-    for (int link = tip; link > 0; link = robot.joints[link - 1].parent) {
-      if (link == joint + 1) limb.insert(tip);
+  for (int carried = joint + 2; carried < robot.num_links(); ++carried) {
+    for (int link = carried; link > 0; link = robot.joints[link - 1].parent) {
+      if (link == joint + 1) limb.insert(carried);
     }
   }
   return limb;

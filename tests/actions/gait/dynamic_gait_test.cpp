@@ -26,7 +26,7 @@ std::string FaultsOf(const std::vector<Phase>& motion, const std::string& gait,
                      const PlanarPose& from, const PlanarPose& to, bool simulates = false) {
   const models::RobotModel& robot = DrcHubo1();
   models::Scenario scenario = testing::FlatScenario();
-  constexpr double kHalf = 12;  // m
+  constexpr double kHalf = 70;  // m
   scenario.environment.obstacles.front().shape = models::Shape::Box({2 * kHalf, 2 * kHalf, 0.1});
   scenario.environment.bounds =
       Eigen::AlignedBox2d(Eigen::Vector2d(-kHalf, -kHalf), Eigen::Vector2d(kHalf, kHalf));
@@ -197,6 +197,46 @@ TEST_P(DynamicGaitTest, SlowJointsLeaveTheQuasiStaticGait) {
 
 INSTANTIATE_TEST_SUITE_P(Gaits, DynamicGaitTest, ::testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
+
+/// Instants at which a motion is at rest between two phases, s, its beginning and its end.
+std::vector<double> Rests(const std::vector<Phase>& motion) {
+  std::vector<double> rests = {0};
+  for (const Phase& phase : motion) {
+    const Knot& knot = phase.knots.back();
+    if (knot.v.norm() < 1e-6 && knot.a.norm() < 1e-6) rests.push_back(knot.t);
+  }
+  return rests;
+}
+
+TEST(DynamicGait, ALongFlowRestsInTimeInAStanceOnItsWay) {
+  for (const std::string name : {"walk", "crawl"}) {
+    const LocomotionModel::GaitEntry& gait =
+        *DrcHubo1Locomotion().gaits[DrcHubo1Locomotion().GaitIndex(name)];
+    // 60 m straight ahead, and a third of it with a bend every metre.
+    const PlanarPose far{60, 0, 0};
+    std::vector<PlanarPose> straight = PlanStrides(gait.gait.parameters, {}, far);
+    std::vector<PlanarPose> bent = {PlanarPose()};
+    for (int i = 0; i < 20; ++i) {
+      const PlanarPose next = bent.back() * PlanarPose{1, 0, 0};
+      for (const PlanarPose& to : {next, next * PlanarPose{0, 0, i % 2 == 0 ? 0.5 : -0.5}}) {
+        const auto more = PlanStrides(gait.gait.parameters, bent.back(), to);
+        bent.insert(bent.end(), more.begin() + 1, more.end());
+      }
+    }
+    for (const std::vector<PlanarPose>& strides : {straight, bent}) {
+      const std::vector<Phase> motion = gait.motion->Flow(strides, {}, kKnotSpacing, {});
+      const std::vector<double> rests = Rests(motion);
+      EXPECT_NEAR(rests.back(), Duration(motion), 1e-9);
+      EXPECT_GT(rests.size(), 2u);
+      for (std::size_t i = 1; i < rests.size(); ++i) {
+        EXPECT_LT(rests[i] - rests[i - 1], 1.1 * kLongestFlow) << name;
+        EXPECT_GT(rests[i] - rests[i - 1], 0.4 * kLongestFlow) << name;
+      }
+      EXPECT_EQ(FaultsOf({motion.begin(), motion.end()}, name, strides.front(), strides.back()),
+                "");
+    }
+  }
+}
 
 /// Stopping aside, the expected duration of a way is the sum of its strides' shares.
 TEST(DynamicGait, ExpectedDurationOfAWayIsTheSumOfItsStrides) {
