@@ -260,8 +260,9 @@ std::optional<LongJump::Leap> LongJump::Widened(const Leap& leap) const {
   const auto steps = static_cast<int>(2 * kFarthestMove / JumpLibrary::kDistanceStep);
   for (int i = 0; i <= 2 * steps && !moves.empty(); ++i) {
     // Similar distances first, longer before shorter ones.
-    const double change = (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2) * JumpLibrary::kDistanceStep;
-    const JumpTask task = JumpLibrary::OnGrid({leap.task.distance + change, leap.task.height});
+    const int change = i % 2 == 0 ? -i / 2 : (i + 1) / 2;
+    const JumpTask task = JumpLibrary::OnGrid(
+        {leap.task.distance + change * JumpLibrary::kDistanceStep, leap.task.height});
     if (!reach_.Allows(task) || IsImpossible(task)) continue;
     if (std::optional<Leap> wide = WidenedTo(leap, task, moves)) return wide;
   }

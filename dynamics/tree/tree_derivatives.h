@@ -61,6 +61,8 @@ class TreeDerivatives {
   const PointDerivatives& DifferentiatePoint(int link, const Eigen::Vector3d& p_L);
   /// Adds the derivative of J' f with respect to q, f (world axes) held fixed, to `dq`: nv x nv.
   void AddPointForceDerivative(int link, const Eigen::Vector3d& p_L, const Eigen::Vector3d& f,
+                               // A writable Eigen::Ref is passed by value.
+                               // NOLINTNEXTLINE(performance-unnecessary-value-param)
                                Eigen::Ref<Eigen::MatrixXd> dq) const {
     dynamics::AddPointForceDerivative(motion_, link, p_L, f, dq);
   }
