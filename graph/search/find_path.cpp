@@ -24,6 +24,9 @@ constexpr double kSameDuration = 1e-9;
 /// Extra wait for jobs that may improve a confirmed path, s.
 constexpr double kPatience = 0.1;
 
+/// Time that jobs on threads get before the oracle is asked beside them, s.
+constexpr double kHeadStart = 1;
+
 std::vector<ExplorerFactory> ExplorersOf(const FindPathSettings& settings) {
   return settings.explorers.empty() ? std::vector<ExplorerFactory>{RandomExploration()}
                                     : settings.explorers;
@@ -209,9 +212,18 @@ class PathFinder {
     return false;
   }
 
-  bool OracleIsDue() const {
-    return cycles_ >= settings_.ask_oracle_after ||
-           (exploration_.SomebodyIsThrough(stage()) && q_confirmation_.num_open() == 0);
+  bool OracleIsDue() {
+    const bool jobs_are_open = q_confirmation_.num_open() > 0;
+    if (exploration_.SomebodyIsThrough(stage()) && !jobs_are_open) return true;
+    if (cycles_ < settings_.ask_oracle_after) return false;
+    return settings_.confirmation_threads == 0 || !jobs_are_open || HeadStartIsOver();
+  }
+
+  /// Cycles pass quickly beside jobs on threads. No result is collected while the oracle searches,
+  /// so jobs that are nearly done come first.
+  bool HeadStartIsOver() {
+    if (!head_start_began_) head_start_began_ = deadline_.Elapsed();
+    return deadline_.Elapsed() - *head_start_began_ >= kHeadStart;
   }
 
   /// Without threads no result can arrive during a wait.
@@ -281,6 +293,7 @@ class PathFinder {
   std::int64_t cycles_ = 0;
   int refuted_ = 0;
   bool oracle_asked_ = false;
+  std::optional<double> head_start_began_;  ///< when the oracle became due beside jobs, s
   bool last_turn_is_over_ = false;
   double next_progress_ = 0;
   double best_route_seconds_ = 0;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/graph/path_checks.h"
@@ -164,6 +165,39 @@ TEST_P(WithJobs, JobsThatNeverEndDoNotHoldUpTheTimeLimit) {
   settings.time_limit = 0.3;
   EXPECT_LT(LeastOvershoot({walk}, settings), 0.05);
   EXPECT_GT(spawned, 0);
+}
+
+/// A walk that is uncertain in one place. Jobs decide in about 30 ms, or never.
+std::shared_ptr<UncertainAction> WalkWithSlowJobs(Ending ending) {
+  return std::make_shared<UncertainAction>(
+      "walk", Interval{0.7, 1}, 0.85, Interval{4.9, 5.1}, [ending](const Edge&) {
+        return std::make_unique<ScriptedJob>(ending, 100, std::chrono::microseconds(200));
+      });
+}
+
+/// A search and how often it asked its oracle, which answers "exhausted".
+std::pair<PathResult, int> SearchWithOracle(Ending ending, int threads) {
+  int asked = 0;
+  FindPathSettings settings{
+      .time_limit = 10, .confirmation_threads = threads, .ask_oracle_after = 200};
+  settings.oracle = [&asked] {
+    ++asked;
+    return RouteOracleAnswer::kExhausted;
+  };
+  PathResult result = FindPath(Start(), {Goal()}, {WalkWithSlowJobs(ending)}, kRoom, settings);
+  return {std::move(result), asked};
+}
+
+TEST_P(WithJobs, TheOracleIsNotAskedBeforeAQuickJobConfirms) {
+  const auto [result, asked] = SearchWithOracle(Ending::kConfirm, GetParam());
+  EXPECT_EQ(result.status, PathStatus::kFound);
+  EXPECT_EQ(asked, 0);
+}
+
+TEST_P(WithJobs, TheOracleIsAskedBesideJobsThatNeverEnd) {
+  const auto [result, asked] = SearchWithOracle(Ending::kNever, GetParam());
+  EXPECT_EQ(result.status, PathStatus::kExhausted);
+  EXPECT_EQ(asked, 1);
 }
 
 /// A search of this many cycles. Its jobs have this many checkpoints, with a pause after each.
