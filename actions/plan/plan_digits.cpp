@@ -15,6 +15,12 @@ constexpr int kSignificant = 12;
 /// milliseconds apart would turn rounding errors into accelerations.
 constexpr int kSignificantOfPosition = 15;
 constexpr double kLargestFixed = 1e15;
+constexpr double kPowers[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10};
+
+int Significant(int decimals) {
+  // More digits than a double guarantees would not read back to the same text.
+  return decimals == PlanDigits::kPosition ? kSignificantOfPosition : kSignificant;
+}
 
 void RequireFinite(double x) {
   if (!std::isfinite(x)) throw std::invalid_argument("a plan holds a number that is not finite");
@@ -35,8 +41,7 @@ int DecimalExponent(double x, int significant) {
 void AppendRounded(double x, int decimals, std::string* text) {
   RequireFinite(x);
   if (std::abs(x) >= kLargestFixed) return AppendExact(x, text);
-  // More digits than a double guarantees would not read back to the same text.
-  const int significant = decimals == PlanDigits::kPosition ? kSignificantOfPosition : kSignificant;
+  const int significant = Significant(decimals);
   if (x != 0) {
     decimals = std::clamp(significant - 1 - DecimalExponent(x, significant), 0, decimals);
   }
@@ -52,6 +57,12 @@ void AppendRounded(double x, int decimals, std::string* text) {
 }
 
 double Rounded(double x, int decimals) {
+  // Scaled by the power of ten, such a number is an integer that a double holds exactly, and the
+  // quotient is the double next to the decimal number.
+  const double power = kPowers[decimals];
+  if (std::abs(x) < kPowers[Significant(decimals) - 1 - decimals]) {
+    return std::nearbyint(x * power) / power + 0.0;  // not -0, which is written as 0
+  }
   std::string text;
   AppendRounded(x, decimals, &text);
   return std::strtod(text.c_str(), nullptr);

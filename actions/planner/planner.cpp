@@ -14,6 +14,7 @@
 #include "actions/flood/flood_oracle.h"
 #include "actions/jump/long_jump.h"
 #include "actions/motion/motion_schedule.h"
+#include "actions/plan/plan_rounding.h"
 #include "actions/planner/passage_explanation.h"
 #include "actions/planner/plan_explanation.h"
 #include "actions/planner/request_checks.h"
@@ -349,6 +350,7 @@ class TraversalPlanner {
       plan->segments = GenerateMotion(
           model_, scenario_.environment, route, request_.threads, CancellationToken(last_deadline_),
           [this](double fraction) { Report("generating motion", fraction); });
+      RoundToPlanDigits(plan);
       return true;
     } catch (const LegError& error) {
       const RouteLeg& leg = route[static_cast<size_t>(error.leg())];

@@ -27,8 +27,10 @@ GuardSearch::GuardSearch(const OdeProblem& problem, const OdeSettings& settings)
       values_(problem.guards.size()) {
   if (problem.guards.empty()) return;
   Evaluate(problem.start_time, problem.start, &values_);
-  for (const double value : values_) {
-    sides_.push_back(std::abs(value) <= settings.guard_zero ? 0 : Sign(value));
+  for (int i = 0; i < static_cast<int>(values_.size()); ++i) {
+    const double side = Sign(values_[i]);
+    const bool is_beyond = problem.guards[i].beyond_is_zero && !Watched(i, side);
+    sides_.push_back(std::abs(values_[i]) <= settings.guard_zero || is_beyond ? 0 : side);
   }
 }
 
@@ -61,8 +63,8 @@ bool GuardSearch::Watched(int guard, double from_side) const {
   return from_side != 0;
 }
 
-/// Handles a guard that was zero at the start and is not zero at `end`. The side to which it left
-/// first tells whether it has crossed since or moved off in the watched direction.
+/// Handles a guard that counted as zero at the start and is not zero at `end`. The side to which it
+/// left first tells whether it has crossed since or moved off in the watched direction.
 std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdeTrajectory& trajectory,
                                                            double begin, double end, int guard) {
   const double side = Sign(ValueAt(trajectory, end, guard));

@@ -53,7 +53,7 @@ class GuardSearch {
   const OdeSettings& settings_;
   double searched_;  ///< s: the end of the last search
   Eigen::VectorXd values_;
-  std::vector<double> sides_;  ///< -1 or 1; 0: at zero since the start
+  std::vector<double> sides_;  ///< -1 or 1; 0: counts as zero since the start
   long evaluations_ = 0;
 };
 

@@ -34,8 +34,11 @@ enum class GuardDirection { kFalling, kRising, kBoth };
 struct OdeGuard {
   GuardDirection direction = GuardDirection::kFalling;
   /// Whether a guard that starts at zero and leaves it in its direction fires at the start; kBoth
-  /// never does. A guard that starts beyond zero fires only after it has come back.
+  /// never does.
   bool fires_from_zero = true;
+  /// Whether a guard that starts beyond zero counts as one that starts at zero. Otherwise it fires
+  /// only after it has come back.
+  bool beyond_is_zero = false;
 };
 
 enum class OdeMethod {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace possibility::dynamics {
@@ -52,7 +53,18 @@ OdeGuard RolloutGuards::Watched(int index) const {
       guard.kind == Kind::kTouchdown && robot_->contact(guard.contact).lands != nullptr;
   const bool rises = guard.kind == Kind::kUnjamming || guard.kind == Kind::kClearing ||
                      (guard.kind == Kind::kCalm && stance_->calm_since);
-  return {rises ? GuardDirection::kRising : GuardDirection::kFalling, !passes};
+  OdeGuard watched{rises ? GuardDirection::kRising : GuardDirection::kFalling, !passes};
+  // A patch that carries almost nothing may be selected although it pulls by a rounding error. It
+  // would stick to the ground.
+  watched.beyond_is_zero = guard.kind == Kind::kTipping && !IsJammed(guard.patch);
+  return watched;
+}
+
+bool RolloutGuards::IsJammed(int patch) const {
+  const std::vector<int>& points = stance_->patches[patch].points;
+  return std::any_of(points.begin(), points.end(), [this](int point) {
+    return std::binary_search(stance_->jammed.begin(), stance_->jammed.end(), stance_->held[point]);
+  });
 }
 
 std::string RolloutGuards::NameOf(int index) const {

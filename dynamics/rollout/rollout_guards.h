@@ -46,6 +46,8 @@ class RolloutGuards {
  private:
   double Value(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                const Eigen::Matrix3Xd& forces, const RolloutGuard& guard) const;
+  /// Whether friction jams a point of the patch. Such a point may pull.
+  bool IsJammed(int patch) const;
 
   std::shared_ptr<const RolloutStance> stance_;
   RobotRolloutSettings settings_;

@@ -52,6 +52,8 @@ TEST(PlanDigits, RoundingTwiceChangesNothing) {
     const std::string text = Rounded(x, decimals);
     const double read = std::stod(text);
     EXPECT_EQ(Rounded(read, decimals), text) << x;
+    const double rounded = actions::Rounded(x, decimals);
+    EXPECT_EQ(std::stod(Rounded(rounded, decimals)), rounded) << x;
     EXPECT_LE(std::abs(read - x), std::max(0.51 * std::pow(10, -decimals), 6e-12 * std::abs(x)));
   }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 #include "actions/plan/plan_reader.h"
+#include "actions/plan/plan_rounding.h"
 #include "actions/plan/plan_writer.h"
 #include "models/input/input_error.h"
 #include "tests/actions/plan/random_plan.h"
@@ -129,6 +131,34 @@ TEST_F(PlanFile, ReadsBackAsWritten) {
   EXPECT_EQ(read.explored.vertices[1].yaw, plan_.explored.vertices[1].yaw);
   ASSERT_EQ(read.explored.edges.size(), 1u);
   EXPECT_EQ(read.explored.edges[0].action, "walk");
+}
+
+TEST_F(PlanFile, ReadsBackToTheSameBitsIfItWasRounded) {
+  std::mt19937 generator(12);
+  for (int trial = 0; trial < 100; ++trial) {
+    Plan plan = RandomPlan(&generator);
+    const double large = std::pow(10, trial % 8);
+    for (Phase& phase : plan.segments[0].phases) {
+      for (Knot& knot : phase.knots) knot.tau *= large;
+    }
+    RoundToPlanDigits(&plan);
+    WritePlan(plan, file());
+    const Plan read = ReadPlan(folder_);
+    for (std::size_t s = 0; s < plan.segments.size(); ++s) {
+      for (std::size_t p = 0; p < plan.segments[s].phases.size(); ++p) {
+        const Phase& expected = plan.segments[s].phases[p];
+        const Phase& phase = read.segments[s].phases[p];
+        EXPECT_EQ(phase.impulses, expected.impulses);
+        for (std::size_t k = 0; k < expected.knots.size(); ++k) {
+          EXPECT_EQ(phase.knots[k].q, expected.knots[k].q);
+          EXPECT_EQ(phase.knots[k].v, expected.knots[k].v);
+          EXPECT_EQ(phase.knots[k].a, expected.knots[k].a);
+          EXPECT_EQ(phase.knots[k].tau, expected.knots[k].tau);
+          EXPECT_EQ(phase.knots[k].forces, expected.knots[k].forces);
+        }
+      }
+    }
+  }
 }
 
 TEST_F(PlanFile, WritesTheSameBytesEachTimeAndAfterReading) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "actions/plan/plan_rounding.h"
 #include "actions/plan/plan_writer.h"
 #include "actions/route/route_motion.h"
 #include "actions/verify/verification_report.h"
@@ -40,6 +41,23 @@ void ExpectVerifiedPlans(const std::string& name, const std::vector<std::string>
 
 TEST(PlannerTest, WalksWhereAWalkingRouteExists) {
   ExpectVerifiedPlans("three_routes_a", {"walk"}, 1);
+}
+
+TEST(PlannerTest, VerifiesTheMotionThatItsFileHolds) {
+  Plan plan =
+      PlanTraversal(DrcHubo1(), ShippedScenario("three_routes_a"), Request(1, {"walk"})).plan;
+  const Plan verified = plan;
+  RoundToPlanDigits(&plan);
+  ASSERT_FALSE(plan.segments.empty());
+  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
+    for (std::size_t p = 0; p < plan.segments[s].phases.size(); ++p) {
+      const std::vector<Knot>& knots = plan.segments[s].phases[p].knots;
+      for (std::size_t k = 0; k < knots.size(); ++k) {
+        EXPECT_EQ(verified.segments[s].phases[p].knots[k].tau, knots[k].tau);
+        EXPECT_EQ(verified.segments[s].phases[p].knots[k].q, knots[k].q);
+      }
+    }
+  }
 }
 
 TEST(PlannerTest, CrawlsUnderTheBars) {

@@ -316,6 +316,26 @@ TEST(OdeIntegrator, AGuardThatStartsBelowZeroFiresAfterItHasRisen) {
   EXPECT_NEAR(solution.time, std::acos(2 / amplitude) - shift + 2 * std::numbers::pi, 1e-9);
 }
 
+TEST(OdeIntegrator, AGuardThatStartsBelowZeroFiresAtOnceIfItStaysThereAndIsSetTo) {
+  const auto value = [](double, State x, Output out) { out[0] = x[1] - 1e-4; };  // -sin t - 1e-4
+  OdeProblem problem = Watching(Oscillator(10), {{GuardDirection::kFalling}}, value);
+  EXPECT_GT(Integrate(problem, Accurate()).time, 3);
+  problem.guards[0].beyond_is_zero = true;
+  const OdeSolution at_once = Integrate(problem, Accurate());
+  EXPECT_EQ(at_once.end, OdeEnd::kGuard);
+  EXPECT_EQ(at_once.time, 0);
+  EXPECT_EQ(at_once.state, problem.start);
+}
+
+TEST(OdeIntegrator, AGuardThatRisesFromBelowZeroAtOnceDoesNotFireThere) {
+  const auto value = [](double, State x, Output out) { out[0] = -x[1] - 1e-30; };  // sin t - 1e-30
+  OdeProblem problem = Watching(Oscillator(10), {{GuardDirection::kFalling}}, value);
+  problem.guards[0].beyond_is_zero = true;
+  OdeSettings settings = Accurate();
+  settings.guard_zero = 0;
+  EXPECT_NEAR(Integrate(problem, settings).time, std::numbers::pi, 1e-9);
+}
+
 TEST(OdeIntegrator, AGuardEvaluatedAloneGivesTheSameBytes) {
   const auto values = [](double t, State x, Output out) {
     out << x[0] - 0.3, x[1] + 0.2 * t, x[0] * x[1] - 0.4;

@@ -383,9 +383,9 @@ TEST(RobotRollout, BoxOnASlopeStaysSlipsOrTips) {
   EXPECT_GT(tips.v[1], 0.1) << "it turns downhill";
 }
 
-TEST(RobotRollout, PushedBoxTipsAboutItsEdgeWhenTheMomentReachesZero) {
-  // An arm slides along the box until the weight is over the box's edge. Then the box begins to
-  // tip.
+/// A box with a slider of the same mass on an arm, which keeps its speed of 0.2 m/s. Their common
+/// centre is over the box's edge when the slider is at 0.4 m.
+RobotRollout SlideBeyondTheEdge(double start, double duration) {
   models::RobotModel robot = Box();
   robot.links.push_back(LinkOf("slider", 1, Vector3d::Zero(), 1e-3));
   models::Joint joint;
@@ -398,18 +398,32 @@ TEST(RobotRollout, PushedBoxTipsAboutItsEdgeWhenTheMomentReachesZero) {
   joint.effort = 1000;
   robot.joints.push_back(joint);
   const auto model = MultibodyModel::Spatial(robot);
-  JointControl control;  // keeps its speed of 0.2 m/s
   VectorXd q = VectorXd::Zero(8), v = VectorXd::Zero(7);
   q.head<7>() = BoxAt(0.1);
+  q[7] = start;
   v[6] = 0.2;
-  RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), control, AccurateRollout(1e-11));
-  const RobotRollout rollout = simulator.Run(q, v, 0, 2.5);
+  RobotSimulator simulator(model, Corners(Vector3d::UnitZ()), {}, AccurateRollout(1e-11));
+  return simulator.Run(q, v, 0, duration);
+}
+
+TEST(RobotRollout, PushedBoxTipsAboutItsEdgeWhenTheMomentReachesZero) {
+  const RobotRollout rollout = SlideBeyondTheEdge(0, 2.5);
   ASSERT_GE(rollout.events.size(), 2);
-  // Both masses are 1 kg: the common centre is over the edge when the slider is at 0.4 m.
   EXPECT_NEAR(rollout.events[1].time, 2, 1e-8);
   EXPECT_EQ(rollout.events[1].held, (std::vector<int>{2, 3}));
   EXPECT_EQ(rollout.events[1].released, (std::vector<int>{0, 1}));
   EXPECT_GT(rollout.v[1], 0.1);
+}
+
+/// So little beyond that the points behind are selected as bearing. They must not stick.
+TEST(RobotRollout, BoxWhoseWeightIsBeyondItsEdgeByARoundingErrorTipsAtOnce) {
+  for (const double beyond : {1e-12, 1e-10, 1e-8, 1e-7}) {
+    const RobotRollout rollout = SlideBeyondTheEdge(0.4 + beyond, 0.5);
+    ASSERT_GE(rollout.events.size(), 1);
+    EXPECT_LT(rollout.events.back().time, 1e-3);
+    EXPECT_EQ(rollout.events.back().held, (std::vector<int>{2, 3}));
+    EXPECT_GT(rollout.v[1], 0.1);
+  }
 }
 
 TEST(RobotRollout, ABallInAGrooveRestsOnBothPlanes) {
