@@ -158,6 +158,7 @@ std::optional<GuardCrossing> GuardSearch::Search(const OdeTrajectory& trajectory
     const std::vector<Bracket> brackets = Brackets(trajectory, from, searched_);
     if (brackets.empty()) continue;
     std::vector<double> roots;
+    roots.reserve(brackets.size());
     for (const Bracket& bracket : brackets) roots.push_back(Root(trajectory, bracket));
     GuardCrossing crossing;
     crossing.time = *std::min_element(roots.begin(), roots.end());

@@ -152,6 +152,7 @@ class PathFinder {
 
   std::vector<PathEdge> EdgesOf(const std::vector<EdgeId>& path) const {
     std::vector<PathEdge> edges;
+    edges.reserve(path.size());
     for (const EdgeId edge : path) {
       edges.push_back({master_.confirmed_by(edge), master_.points(edge),
                        master_.topology().from(edge), master_.topology().to(edge)});
