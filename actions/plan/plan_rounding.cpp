@@ -1,5 +1,7 @@
 #include "actions/plan/plan_rounding.h"
 
+#include <cmath>
+
 #include "actions/plan/plan_digits.h"
 
 namespace possibility::actions {
@@ -7,7 +9,9 @@ namespace {
 
 template <typename Numbers>
 void RoundAll(int decimals, Numbers* numbers) {
-  for (double& number : numbers->reshaped()) number = Rounded(number, decimals);
+  for (double& number : numbers->reshaped()) {
+    if (std::isfinite(number)) number = Rounded(number, decimals);
+  }
 }
 
 void RoundKnot(Knot* knot) {

@@ -49,7 +49,7 @@ struct FindPathSettings {
   /// takes about half a GB.
   std::int64_t max_graph_size = 2'500'000;
   /// The oracle is asked after this many cycles without a confirmed path, or as soon as an explorer
-  /// has nothing left to explore while no job is open. Jobs on threads get a second more first.
+  /// has nothing left to explore while no job is open. Open jobs on threads first get one second.
   std::int64_t ask_oracle_after = 200;
   RouteOracle oracle = {};  ///< may be empty
   /// First tests C_S of the straight edge from the start to each goal with every action. If it

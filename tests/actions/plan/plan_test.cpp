@@ -161,6 +161,18 @@ TEST_F(PlanFile, ReadsBackToTheSameBitsIfItWasRounded) {
   }
 }
 
+/// Motion of other programs may be malformed. The verifier says so, not the rounding.
+TEST_F(PlanFile, RoundingLeavesNumbersThatAreNotFinite) {
+  Knot& knot = plan_.segments[0].phases[0].knots[1];
+  knot.q[8] = std::nan("");
+  knot.tau[0] = INFINITY;
+  knot.v[0] = 0.1234567890123;
+  RoundToPlanDigits(&plan_);
+  EXPECT_TRUE(std::isnan(knot.q[8]));
+  EXPECT_EQ(knot.tau[0], INFINITY);
+  EXPECT_EQ(knot.v[0], 0.123456789);
+}
+
 TEST_F(PlanFile, WritesTheSameBytesEachTimeAndAfterReading) {
   const std::string first = Written(plan_);
   EXPECT_EQ(Written(plan_), first);
