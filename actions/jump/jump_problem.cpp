@@ -56,8 +56,7 @@ void JumpProblem::AddPhases(const JumpSettings& settings) {
   AddPhase("settle", Feet(), {0.03, 1.2});
   AddPhase("landing", FeetAndHands(), {0.3, 1.5});
   for (int phase = 1; phase < kNumPhases; ++phase) {
-    collocation::ContinueSagittally(&problem_, phases_[phase - 1], phases_[phase],
-                                    phase != kSettle);
+    collocation::ContinueRobot(&problem_, phases_[phase - 1], phases_[phase], phase != kSettle);
   }
 }
 
@@ -88,7 +87,7 @@ void JumpProblem::Fly(const JumpSettings& settings) {
 }
 
 void JumpProblem::Land(const JumpSettings& settings) {
-  const collocation::SagittalPhase& descent = phases_[kDescent];
+  const collocation::RobotPhase& descent = phases_[kDescent];
   const double speed = settings.max_contact_speed;
   descent.phase->Constrain("touchdown speed", PointVelocities(model_.planar(), Feet()),
                            descent.State(), {{-speed, speed}}, At::kEnd);
@@ -106,8 +105,8 @@ void JumpProblem::Land(const JumpSettings& settings) {
 }
 
 void JumpProblem::AddImpact() {
-  const collocation::SagittalPhase& before = phases_[kDescent];
-  const collocation::SagittalPhase& after = phases_[kSettle];
+  const collocation::RobotPhase& before = phases_[kDescent];
+  const collocation::RobotPhase& after = phases_[kSettle];
   const double friction = settings_.limits.friction * settings_.limits.friction_fraction;
   std::vector<EndVariable> impact;
   for (const Variable& q : after.q) impact.push_back({q, At::kStart});

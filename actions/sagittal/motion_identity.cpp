@@ -13,7 +13,7 @@ constexpr double kModelVersion = 2;
 
 // Every new field of the settings must be added here.
 
-std::vector<double> Fields(const collocation::SagittalLimits& l) {
+std::vector<double> Fields(const collocation::RobotLimits& l) {
   return {l.friction,         l.friction_fraction, l.speed_fraction,
           l.torque_fraction,  l.max_acceleration,  l.max_base_speed,
           l.min_normal_force, l.max_normal_force,  l.joint_margin};

@@ -89,12 +89,12 @@ std::vector<ContactPoint> SagittalProblem::FeetAndHands() const {
 void SagittalProblem::AddPhase(const std::string& name, const std::vector<ContactPoint>& points,
                                Bounds duration) {
   phases_.push_back(
-      collocation::AddSagittalPhase(&problem_, name, model_.planar(), points, settings_.limits));
+      collocation::AddRobotPhase(&problem_, name, model_.planar(), points, settings_.limits));
   phases_.back().phase->SetDuration(duration);
 }
 
 void SagittalProblem::StartAtRest(int phase) {
-  const collocation::SagittalPhase& robot = phases_[phase];
+  const collocation::RobotPhase& robot = phases_[phase];
   for (int i = 0; i < static_cast<int>(robot.q.size()); ++i) {
     robot.phase->Fix(robot.q[i], model_.ready()[i], At::kStart);
     robot.phase->Fix(robot.v[i], 0, At::kStart);
@@ -125,7 +125,7 @@ void SagittalProblem::ContinueAccelerations(int from, int to) {
 }
 
 void SagittalProblem::HoldPoints(int phase, const std::vector<Bounds>& held, At at) {
-  const collocation::SagittalPhase& robot = phases_[phase];
+  const collocation::RobotPhase& robot = phases_[phase];
   robot.phase->ConstrainKnots("contacts", PointVelocities(model_.planar(), robot.points),
                               robot.State(), held, at);
   robot.phase->ConstrainKnots("still", PointAccelerations(model_.planar(), robot.points),
@@ -137,7 +137,7 @@ void SagittalProblem::HoldSoles(int phase, At at) {
 }
 
 void SagittalProblem::HoldSoles(int phase, At at, const SoleShares& least) {
-  const collocation::SagittalPhase& robot = phases_[phase];
+  const collocation::RobotPhase& robot = phases_[phase];
   HoldPoints(phase, HeldSolesAnd(robot.points.size() - 2), at);
   robot.phase->Constrain("centre of pressure",
                          Differentiated<2, 2>([least](const auto& f, auto* g) {
@@ -175,13 +175,13 @@ void SagittalProblem::KeepUpright(int phase, const ContactPoint& hand, At at,
 }
 
 void SagittalProblem::StartHeld(int phase, const std::vector<Bounds>& held) {
-  const collocation::SagittalPhase& robot = phases_[phase];
+  const collocation::RobotPhase& robot = phases_[phase];
   robot.phase->Constrain("held", PointAccelerations(model_.planar(), robot.points), robot.Motion(),
                          held, At::kStart, {kAcceleration});
 }
 
 void SagittalProblem::StartPlaced(int phase, int first_point) {
-  const collocation::SagittalPhase& robot = phases_[phase];
+  const collocation::RobotPhase& robot = phases_[phase];
   const std::vector<ContactPoint> points(robot.points.begin() + first_point, robot.points.end());
   std::vector<Bounds> places;
   for (const ContactPoint& point : points) {
@@ -196,7 +196,7 @@ void SagittalProblem::StartPlaced(int phase, int first_point) {
 }
 
 void SagittalProblem::EndAtRest(int phase) {
-  const collocation::SagittalPhase& robot = phases_[phase];
+  const collocation::RobotPhase& robot = phases_[phase];
   // With the contacts held, legs and arms follow from the root. Fixes only the root and what no
   // contact determines.
   const VectorXd& q = model_.landed();
@@ -258,7 +258,7 @@ void SagittalProblem::KeepHandsAbove(int phase, double clearance, At at) {
 
 void SagittalProblem::StayWithinRanges(int phase, At at) {
   const double margin = settings_.limits.joint_margin;
-  collocation::SagittalPhase& robot = phases_[phase];
+  collocation::RobotPhase& robot = phases_[phase];
   for (int joint = 0; joint < model_.planar()->num_joints(); ++joint) {
     // The stances themselves are fixed.
     const double begin = std::min(model_.ready()[3 + joint], model_.landed()[3 + joint]);
@@ -283,7 +283,7 @@ void SagittalProblem::KeepBent(int phase, const std::string& name, const Sagitta
 }
 
 void SagittalProblem::AddCosts() {
-  for (const collocation::SagittalPhase& phase : phases_) {
+  for (const collocation::RobotPhase& phase : phases_) {
     std::vector<Variable> joints(phase.a.begin() + 3, phase.a.end());
     joints.push_back(phase.a[0]);
     collocation::AddSquareCost("acceleration", joints, 10, 0.01, phase.phase);
@@ -296,7 +296,7 @@ void SagittalProblem::GuessLine(int phase, double duration, double from, double 
   VectorXd landed = model_.landed();
   landed[1] += distance_;
   landed[2] += height_;
-  collocation::SagittalPhase& robot = phases_[phase];
+  collocation::RobotPhase& robot = phases_[phase];
   robot.phase->Guess(robot.phase->duration(), duration);
   for (int k = 0; k < static_cast<int>(robot.q.size()); ++k) {
     const double begin = ready[k] + from * (landed[k] - ready[k]);

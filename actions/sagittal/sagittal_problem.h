@@ -6,7 +6,7 @@
 
 #include "actions/sagittal/sagittal_model.h"
 #include "collocation/problem/optimal_control_problem.h"
-#include "collocation/robot/sagittal_phase.h"
+#include "collocation/robot/robot_phase.h"
 #include "collocation/robot/step_clearance.h"
 
 namespace possibility::actions {
@@ -20,12 +20,12 @@ struct SoleShares {
 /// Limits and safety margins of a dynamic action in the sagittal plane.
 struct SagittalSettings {
   /// Keeps a reserve of every limit for the whole robot's asymmetry and for feedback.
-  collocation::SagittalLimits limits = {.friction_fraction = 0.65,
-                                        .speed_fraction = 0.9,
-                                        .torque_fraction = 0.9,
-                                        .max_base_speed = 8,
-                                        .min_normal_force = 30,
-                                        .joint_margin = 0.03};
+  collocation::RobotLimits limits = {.friction_fraction = 0.65,
+                                     .speed_fraction = 0.9,
+                                     .torque_fraction = 0.9,
+                                     .max_base_speed = 8,
+                                     .min_normal_force = 30,
+                                     .joint_margin = 0.03};
   double body_clearance = 0.02;  ///< m, guards above the ground in every phase
   double hand_clearance = 0.03;  ///< m, hands above the ground they leave
   double hand_approach = 0.01;   ///< m, hands above the ground they are about to touch
@@ -52,7 +52,7 @@ class SagittalProblem {
   SagittalProblem& operator=(const SagittalProblem&) = delete;
 
   const collocation::OptimalControlProblem& problem() const { return problem_; }
-  const collocation::SagittalPhase& phase(int index) const { return phases_[index]; }
+  const collocation::RobotPhase& phase(int index) const { return phases_[index]; }
 
  protected:
   SagittalProblem(const std::string& name, const SagittalModel& model, double distance,
@@ -120,7 +120,7 @@ class SagittalProblem {
   std::optional<collocation::SmoothStep> step_;
   SagittalSettings settings_;
   collocation::OptimalControlProblem problem_;
-  std::vector<collocation::SagittalPhase> phases_;
+  std::vector<collocation::RobotPhase> phases_;
 };
 
 }  // namespace possibility::actions

@@ -28,7 +28,7 @@ SitDownProblem::SitDownProblem(const SagittalModel& model, const SitDownSettings
     : SagittalProblem("sit down", model, Displacement(model), 0, settings) {
   AddPhase("sit", Feet(), settings.sit);
   AddPhase("bear", FeetAndHands(), settings.bear);
-  collocation::ContinueSagittally(&problem_, phases_[kSit], phases_[kBear], true);
+  collocation::ContinueRobot(&problem_, phases_[kSit], phases_[kBear], true);
   ContinueAccelerations(kSit, kBear);
   StartAtRest(kSit);
   HoldSoles(kSit, At::kAfterStart);

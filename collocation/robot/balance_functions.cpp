@@ -2,9 +2,8 @@
 #include "collocation/robot/balance_functions.h"
 
 #include <Eigen/Core>
-#include <array>
 
-#include "collocation/robot/planar_function.h"
+#include "collocation/robot/robot_function.h"
 
 namespace possibility::collocation {
 
@@ -16,79 +15,94 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// World axes in the plane, in the order of a point's components.
-const std::array<Vector3d, 2>& Axes() {
-  static const std::array<Vector3d, 2> axes = {Vector3d::UnitX(), Vector3d::UnitZ()};
-  return axes;
-}
-
 /// A balance of forces or impulses: a function of q, v, a (or of q and two velocities) minus J' f.
-/// The inputs end with f of all points.
-class BalanceFunction : public PlanarFunction {
+/// After q, v, a come f of all points and perhaps other forces.
+class BalanceFunction : public RobotFunction {
  public:
-  BalanceFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
-      : PlanarFunction(model, points, 3 * model->nv() + 2 * static_cast<int>(points.size()),
-                       model->nv()) {}
-
-  Mask HessianMask() const override {
-    Mask mask = Mask::Constant(num_inputs(), num_inputs(), true);
-    mask.bottomRightCorner(num_inputs() - n_, num_inputs() - n_).setConstant(false);
-    return mask;
-  }
+  BalanceFunction(const RobotSystem& model, const std::vector<ContactPoint>& points,
+                  int num_other = 0)
+      : RobotFunction(
+            model, ComponentsOf(*model, points),
+            3 * model->nv() + static_cast<int>(ComponentsOf(*model, points).size()) + num_other,
+            model->nv()) {}
 
  protected:
   VectorXd PointForces(const VectorXd& z) const {
     VectorXd forces = VectorXd::Zero(n_);
-    for (int i = 0; i < num_points(); ++i) {
-      dynamics_.AddPointForce(points_[i], ForceOn(i, z), forces);
+    for (const Point& point : points_) {
+      dynamics_.AddPointForce(point.point, ForceOn(point, z), forces);
     }
     return forces;
   }
 
   void SubtractForceJacobian(const VectorXd& z, MatrixXd* J) {
     MatrixXd jacobian(3, n_);
-    for (int i = 0; i < num_points(); ++i) {
-      dynamics_.AddPointForceDerivative(points_[i], -ForceOn(i, z), J->leftCols(n_));
-      dynamics_.Jacobian(points_[i], jacobian);
-      for (int k = 0; k < 2; ++k) {
-        J->col(ForceColumn(i) + k) = -jacobian.transpose() * Axes()[k];
+    for (const Point& point : points_) {
+      dynamics_.AddPointForceDerivative(point.point, -ForceOn(point, z), J->leftCols(n_));
+      dynamics_.Jacobian(point.point, jacobian);
+      for (const int i : point.components) {
+        J->col(3 * n_ + i) = -jacobian.transpose() * components_[i].axis;
       }
     }
   }
 
   /// The terms that -lambda' J' f adds to the second derivatives with respect to q.
   std::vector<PointTerm> MinusForceTerms(const VectorXd& z) const {
-    return Terms(&PointTerm::force, -z.tail(2 * num_points()));
+    return Terms(&PointTerm::force, -ForcesIn(z));
   }
 
-  /// d2(-lambda' J' f) / dq df into both triangles of H.
-  void SubtractForceHessian(const VectorXd& lambda, MatrixXd* H) {
-    MatrixXd dq(n_, n_);
-    for (int i = 0; i < num_points(); ++i) {
-      for (int k = 0; k < 2; ++k) {
-        dq.setZero();
-        dynamics_.AddPointForceDerivative(points_[i], Axes()[k], dq);
-        const int column = ForceColumn(i) + k;
-        H->block(0, column, n_, 1) = -dq.transpose() * lambda;
+  /// d2(-lambda' J' f) / dq df into both triangles of H, after dynamics_.Hessian with lambda.
+  void SubtractForceHessian(MatrixXd* H) {
+    for (const Point& point : points_) {
+      const MatrixXd& dq = dynamics_.DifferentiateVirtualVelocity(point.point);
+      for (const int i : point.components) {
+        const int column = 3 * n_ + i;
+        H->block(0, column, n_, 1) = -dq.transpose() * components_[i].axis;
         H->block(column, 0, 1, n_) = H->block(0, column, n_, 1).transpose();
       }
     }
   }
 
+  /// The columns of q and of f.
+  Mask BalanceMask() const {
+    Mask mask = Mask::Constant(n_, num_inputs(), false);
+    mask.leftCols(n_) = RelatedMask(true, false);
+    mask.middleCols(3 * n_, num_components()) = DriveMask().transpose();
+    return mask;
+  }
+
+  /// The blocks of q with q, `parts` more of v, a, and f.
+  Mask BalanceHessianMask(int parts) const {
+    Mask mask = Mask::Constant(num_inputs(), num_inputs(), false);
+    const auto pair = [&](int column, const Mask& block) {
+      mask.block(0, column, n_, block.cols()) = block;
+      mask.block(column, 0, block.cols(), n_) = block.transpose();
+    };
+    pair(0, RelatedMask(false, false));
+    for (int part = 0; part < parts; ++part) pair((1 + part) * n_, RelatedMask(false, true));
+    pair(3 * n_, TurnMask().transpose());
+    return mask;
+  }
+
  private:
-  int ForceColumn(int point) const { return 3 * n_ + 2 * point; }
-  Vector3d ForceOn(int point, const VectorXd& z) const {
-    return {z[ForceColumn(point)], 0, z[ForceColumn(point) + 1]};
+  VectorXd ForcesIn(const VectorXd& z) const { return z.segment(3 * n_, num_components()); }
+  Vector3d ForceOn(const Point& point, const VectorXd& z) const {
+    return Combined(point, ForcesIn(z));
   }
 };
 
 class EquationOfMotionFunction : public BalanceFunction {
  public:
-  using BalanceFunction::BalanceFunction;
+  /// `with_torques`: the joint torques are the last inputs.
+  EquationOfMotionFunction(const RobotSystem& model, const std::vector<ContactPoint>& points,
+                           bool with_torques)
+      : BalanceFunction(model, points, with_torques ? model->num_joints() : 0),
+        num_torques_(with_torques ? model->num_joints() : 0) {}
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
     SetPositionVelocityAcceleration(z);
     *y = dynamics_.InverseDynamics() - PointForces(z);
+    y->tail(num_torques_) -= z.tail(num_torques_);
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
@@ -98,24 +112,35 @@ class EquationOfMotionFunction : public BalanceFunction {
     J->middleCols(n_, n_) = D.dv;
     J->middleCols(2 * n_, n_) = D.da;
     SubtractForceJacobian(z, J);
+    J->rightCols(num_torques_).setZero();
+    J->bottomRightCorner(num_torques_, num_torques_).diagonal().setConstant(-1);
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
     SetPositionVelocityAcceleration(z);
     PutHessian(dynamics_.Hessian(multipliers, MinusForceTerms(z)), H);
-    SubtractForceHessian(multipliers, H);
+    SubtractForceHessian(H);
   }
 
-  // Forces depend neither on the robot's position nor on its linear velocity as a whole, so the
-  // columns of x, z are zero. The points' Jacobians do not depend on them either.
-  Mask JacobianMask() const override { return JacobianMaskWithoutBase(2); }
-
-  Mask HessianMask() const override {
-    Mask mask = BalanceFunction::HessianMask();
-    mask.block(n_, n_, n_, n_).setConstant(true);
-    MaskBase(2, &mask);
+  // Forces depend neither on the robot's position nor on its linear velocity as a whole.
+  Mask JacobianMask() const override {
+    Mask mask = BalanceMask();
+    mask.middleCols(n_, n_) = RelatedMask(true, false);
+    mask.middleCols(2 * n_, n_) = RelatedMask(true, true);
+    mask.bottomRightCorner(num_torques_, num_torques_).matrix().diagonal().setConstant(true);
     return mask;
   }
+
+  Mask HessianMask() const override {
+    Mask mask = BalanceHessianMask(2);
+    const Mask related = RelatedMask(false, false);
+    mask.block(n_, n_, n_, n_) = related;
+    mask.block(0, n_, n_, n_) = mask.block(n_, 0, n_, n_) = related;
+    return mask;
+  }
+
+ private:
+  int num_torques_;
 };
 
 class ImpactMapFunction : public BalanceFunction {
@@ -147,8 +172,16 @@ class ImpactMapFunction : public BalanceFunction {
     H->topLeftCorner(n_, n_) = products.qq - dynamics_.Hessian(multipliers).qq;
     PutPair(-products.qa, 0, n_, H);
     PutPair(products.qa, 0, 2 * n_, H);
-    SubtractForceHessian(multipliers, H);
+    SubtractForceHessian(H);
   }
+
+  Mask JacobianMask() const override {
+    Mask mask = BalanceMask();
+    mask.middleCols(n_, n_) = mask.middleCols(2 * n_, n_) = RelatedMask(true, true);
+    return mask;
+  }
+
+  Mask HessianMask() const override { return BalanceHessianMask(2); }
 
  private:
   VectorXd Change(const VectorXd& z) const { return z.segment(2 * n_, n_) - z.segment(n_, n_); }
@@ -156,12 +189,17 @@ class ImpactMapFunction : public BalanceFunction {
 
 }  // namespace
 
-std::shared_ptr<Function> EquationOfMotion(const PlanarModel& model,
+std::shared_ptr<Function> EquationOfMotion(const RobotSystem& model,
                                            const std::vector<ContactPoint>& points) {
-  return std::make_shared<EquationOfMotionFunction>(model, points);
+  return std::make_shared<EquationOfMotionFunction>(model, points, false);
 }
 
-std::shared_ptr<Function> ImpactMap(const PlanarModel& model,
+std::shared_ptr<Function> ActuatedMotion(const RobotSystem& model,
+                                         const std::vector<ContactPoint>& points) {
+  return std::make_shared<EquationOfMotionFunction>(model, points, true);
+}
+
+std::shared_ptr<Function> ImpactMap(const RobotSystem& model,
                                     const std::vector<ContactPoint>& points) {
   return std::make_shared<ImpactMapFunction>(model, points);
 }

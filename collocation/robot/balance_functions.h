@@ -6,12 +6,17 @@ namespace possibility::collocation {
 
 /// ID(q, v, a) - J' f; nv outputs, base rows first. The equation of motion is that the base rows
 /// are zero; the joint rows are the joint torques. Inputs: q, v, a, f of all points.
-std::shared_ptr<Function> EquationOfMotion(const PlanarModel& model,
+std::shared_ptr<Function> EquationOfMotion(const RobotSystem& model,
                                            const std::vector<dynamics::ContactPoint>& points);
 
-/// M(q) (v+ - v-) - J' impulses: nv outputs, zero at an impact. Inputs: q, v-, v+, impulses (x, z
-/// of each point, N s).
-std::shared_ptr<Function> ImpactMap(const PlanarModel& model,
+/// ID(q, v, a) - J' f - S tau, with the joint torques tau as inputs after f: the equation of motion
+/// is that all nv outputs are zero.
+std::shared_ptr<Function> ActuatedMotion(const RobotSystem& model,
+                                         const std::vector<dynamics::ContactPoint>& points);
+
+/// M(q) (v+ - v-) - J' impulses: nv outputs, zero at an impact. Inputs: q, v-, v+, impulses (the
+/// components of each point, N s).
+std::shared_ptr<Function> ImpactMap(const RobotSystem& model,
                                     const std::vector<dynamics::ContactPoint>& points);
 
 }  // namespace possibility::collocation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -8,10 +9,21 @@
 
 namespace possibility::collocation {
 
-/// A planar multibody system as functions of one instant, with exact first and second derivatives
-/// from dynamics/. q, v, a, f are stacked in that order; f has a horizontal (x) and a vertical (z)
-/// component per contact point, world axes, N, on the robot. Each function keeps its own workspace.
-/// @throws std::invalid_argument unless the model's base is planar.
-using PlanarModel = std::shared_ptr<const dynamics::MultibodyModel>;
+/// A multibody system whose v is the rate of q (Base::kPlanar or kJoints), as functions of one
+/// instant with exact first and second derivatives from dynamics/. q, v, a, f are stacked in that
+/// order; f has one number per component of a contact point, N, on the robot. Each function keeps
+/// its own workspace.
+/// @throws std::invalid_argument if the model's base is a quaternion.
+using RobotSystem = std::shared_ptr<const dynamics::MultibodyModel>;
+
+/// One component of a point's position, velocity, acceleration or force.
+struct PointComponent {
+  dynamics::ContactPoint point;
+  Eigen::Vector3d axis;  ///< unit, world
+};
+
+/// All components of each point that the system has: x and z in the plane; x, y and z in space.
+std::vector<PointComponent> ComponentsOf(const dynamics::MultibodyModel& model,
+                                         const std::vector<dynamics::ContactPoint>& points);
 
 }  // namespace possibility::collocation

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "collocation/robot/planar_function.h"
+#include "collocation/robot/robot_function.h"
 
 namespace possibility::collocation {
 
@@ -12,31 +12,52 @@ namespace {
 using dynamics::ContactPoint;
 using dynamics::PointTerm;
 using Eigen::MatrixXd;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-Vector2d InPlane(const Vector3d& vector) { return {vector.x(), vector.z()}; }
-
-class PointPositionsFunction : public PlanarFunction {
+/// Components of a quantity of points that depends on the first `parts` of q, v, a.
+class PointFunction : public RobotFunction {
  public:
-  PointPositionsFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
-      : PlanarFunction(model, points, model->nv(), 2 * static_cast<int>(points.size())) {}
+  PointFunction(const RobotSystem& model, const std::vector<PointComponent>& components, int parts)
+      : RobotFunction(model, components, parts * model->nv(), static_cast<int>(components.size())) {
+  }
+
+  Mask JacobianMask() const override {
+    Mask mask(num_outputs(), num_inputs());
+    const int parts = num_inputs() / n_;
+    for (int part = 0; part < parts; ++part) {
+      mask.middleCols(part * n_, n_) = part == parts - 1 ? DriveMask() : TurnMask();
+    }
+    return mask;
+  }
+
+ protected:
+  template <typename Quantity>
+  void PutComponents(const Quantity& quantity, VectorXd* y) const {
+    for (const Point& point : points_) {
+      const Vector3d value = quantity(point.point);
+      for (const int i : point.components) (*y)[i] = components_[i].axis.dot(value);
+    }
+  }
+  Eigen::RowVector3d Axis(int component) const { return components_[component].axis.transpose(); }
+};
+
+class PointPositionsFunction : public PointFunction {
+ public:
+  PointPositionsFunction(const RobotSystem& model, const std::vector<PointComponent>& components)
+      : PointFunction(model, components, 1) {}
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
     dynamics_.SetState(z, VectorXd::Zero(n_));
-    for (int i = 0; i < num_points(); ++i) {
-      y->segment<2>(2 * i) = InPlane(dynamics_.Position(points_[i]));
-    }
+    PutComponents([this](const ContactPoint& point) { return dynamics_.Position(point); }, y);
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
     dynamics_.SetState(z, VectorXd::Zero(n_));
     MatrixXd jacobian(3, n_);
-    for (int i = 0; i < num_points(); ++i) {
-      dynamics_.Jacobian(points_[i], jacobian);
-      J->row(2 * i) = jacobian.row(0);
-      J->row(2 * i + 1) = jacobian.row(2);
+    for (const Point& point : points_) {
+      dynamics_.Jacobian(point.point, jacobian);
+      for (const int i : point.components) J->row(i) = Axis(i) * jacobian;
     }
   }
 
@@ -45,85 +66,93 @@ class PointPositionsFunction : public PlanarFunction {
     *H = dynamics_.Hessian(VectorXd::Zero(n_), Terms(&PointTerm::on_position, multipliers)).qq;
   }
 
-  Mask HessianMask() const override {
-    Mask mask = Mask::Constant(n_, n_, true);
-    MaskBase(1, &mask);
-    return mask;
-  }
+  Mask HessianMask() const override { return PointPairMask(); }
 };
 
-/// |p_0 - p_1|^2; independent of the base.
-class SquaredDistanceFunction : public PlanarFunction {
+/// |p_0 - p_1|^2; independent of the base and of what moves both points as one body.
+class SquaredDistanceFunction : public RobotFunction {
  public:
-  SquaredDistanceFunction(const PlanarModel& model, const ContactPoint& from,
+  SquaredDistanceFunction(const RobotSystem& model, const ContactPoint& from,
                           const ContactPoint& to)
-      : PlanarFunction(model, {from, to}, model->nv(), 1) {}
+      : RobotFunction(model, ComponentsOf(*model, {from, to}), model->nv(), 1),
+        from_(from),
+        to_(to) {
+    for (int i = 0; i < n_; ++i) bends_.push_back(model->MovesApart(i, from.link, to.link));
+  }
 
   void Evaluate(const VectorXd& z, VectorXd* y) override { (*y)[0] = Difference(z).squaredNorm(); }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
     const Vector3d difference = Difference(z);
     *J = 2 * difference.transpose() * DifferenceJacobian();
-    J->leftCols(3).setZero();  // the base's contributions cancel but for rounding
+    // Other contributions cancel but for rounding.
+    for (int i = 0; i < n_; ++i) {
+      if (!bends_[i]) (*J)(0, i) = 0;
+    }
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
-    const Vector2d gradient = 2 * multipliers[0] * InPlane(Difference(z));
-    VectorXd gradients(4);
-    gradients << gradient, -gradient;
+    const Vector3d gradient = 2 * multipliers[0] * Difference(z);
+    std::vector<PointTerm> terms(2);
+    terms[0] = {.link = from_.link, .p_L = from_.p_L, .on_position = gradient};
+    terms[1] = {.link = to_.link, .p_L = to_.p_L, .on_position = -gradient};
     const MatrixXd J = DifferenceJacobian();
-    *H = dynamics_.Hessian(VectorXd::Zero(n_), Terms(&PointTerm::on_position, gradients)).qq +
-         2 * multipliers[0] * J.transpose() * J;
-    H->topRows(3).setZero();
-    H->leftCols(3).setZero();
+    *H = dynamics_.Hessian(VectorXd::Zero(n_), terms).qq + 2 * multipliers[0] * J.transpose() * J;
+    for (int i = 0; i < n_; ++i) {
+      if (bends_[i]) continue;
+      H->row(i).setZero();
+      H->col(i).setZero();
+    }
   }
 
   Mask JacobianMask() const override {
-    Mask mask = Mask::Constant(1, n_, true);
-    mask.leftCols(3).setConstant(false);
+    Mask mask(1, n_);
+    for (int i = 0; i < n_; ++i) mask(0, i) = bends_[i];
     return mask;
   }
 
   Mask HessianMask() const override {
-    Mask mask = Mask::Constant(n_, n_, true);
-    mask.topRows(3).setConstant(false);
-    mask.leftCols(3).setConstant(false);
+    Mask mask(n_, n_);
+    for (int r = 0; r < n_; ++r) {
+      for (int c = 0; c < n_; ++c) mask(r, c) = bends_[r] && bends_[c];
+    }
     return mask;
   }
 
  private:
   Vector3d Difference(const VectorXd& z) {
     dynamics_.SetState(z, VectorXd::Zero(n_));
-    return dynamics_.Position(points_[0]) - dynamics_.Position(points_[1]);
+    return dynamics_.Position(from_) - dynamics_.Position(to_);
   }
 
   MatrixXd DifferenceJacobian() {
     MatrixXd first(3, n_);
     MatrixXd second(3, n_);
-    dynamics_.Jacobian(points_[0], first);
-    dynamics_.Jacobian(points_[1], second);
+    dynamics_.Jacobian(from_, first);
+    dynamics_.Jacobian(to_, second);
     return first - second;
   }
+
+  ContactPoint from_, to_;
+  std::vector<bool> bends_;
 };
 
-class PointVelocitiesFunction : public PlanarFunction {
+class PointVelocitiesFunction : public PointFunction {
  public:
-  PointVelocitiesFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
-      : PlanarFunction(model, points, 2 * model->nv(), 2 * static_cast<int>(points.size())) {}
+  PointVelocitiesFunction(const RobotSystem& model, const std::vector<PointComponent>& components)
+      : PointFunction(model, components, 2) {}
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
     dynamics_.SetState(z.head(n_), z.tail(n_));
-    for (int i = 0; i < num_points(); ++i) {
-      y->segment<2>(2 * i) = InPlane(dynamics_.Velocity(points_[i]));
-    }
+    PutComponents([this](const ContactPoint& point) { return dynamics_.Velocity(point); }, y);
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
     dynamics_.SetState(z.head(n_), z.tail(n_));
-    for (int i = 0; i < num_points(); ++i) {
-      const dynamics::PointDerivatives& D = dynamics_.DifferentiatePoint(points_[i]);
-      for (int k = 0; k < 2; ++k) {
-        J->row(2 * i + k) << D.velocity_dq.row(2 * k), D.jacobian.row(2 * k);
+    for (const Point& point : points_) {
+      const dynamics::PointDerivatives& D = dynamics_.DifferentiatePoint(point.point);
+      for (const int i : point.components) {
+        J->row(i) << Axis(i) * D.velocity_dq, Axis(i) * D.jacobian;
       }
     }
   }
@@ -137,35 +166,30 @@ class PointVelocitiesFunction : public PlanarFunction {
     PutPair(products.qv, 0, n_, H);
   }
 
-  Mask JacobianMask() const override { return JacobianMaskWithoutBase(1); }
-
   Mask HessianMask() const override {
-    Mask mask = Mask::Constant(2 * n_, 2 * n_, true);
+    Mask mask = PointPairMask().replicate(2, 2);
     mask.bottomRightCorner(n_, n_).setConstant(false);
-    MaskBase(2, &mask);
     return mask;
   }
 };
 
-class PointAccelerationsFunction : public PlanarFunction {
+class PointAccelerationsFunction : public PointFunction {
  public:
-  PointAccelerationsFunction(const PlanarModel& model, const std::vector<ContactPoint>& points)
-      : PlanarFunction(model, points, 3 * model->nv(), 2 * static_cast<int>(points.size())) {}
+  PointAccelerationsFunction(const RobotSystem& model,
+                             const std::vector<PointComponent>& components)
+      : PointFunction(model, components, 3) {}
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
     SetPositionVelocityAcceleration(z);
-    for (int i = 0; i < num_points(); ++i) {
-      y->segment<2>(2 * i) = InPlane(dynamics_.Acceleration(points_[i]));
-    }
+    PutComponents([this](const ContactPoint& point) { return dynamics_.Acceleration(point); }, y);
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
     SetPositionVelocityAcceleration(z);
-    for (int i = 0; i < num_points(); ++i) {
-      const dynamics::PointDerivatives& D = dynamics_.DifferentiatePoint(points_[i]);
-      for (int k = 0; k < 2; ++k) {
-        J->row(2 * i + k) << D.acceleration_dq.row(2 * k), D.acceleration_dv.row(2 * k),
-            D.jacobian.row(2 * k);
+    for (const Point& point : points_) {
+      const dynamics::PointDerivatives& D = dynamics_.DifferentiatePoint(point.point);
+      for (const int i : point.components) {
+        J->row(i) << Axis(i) * D.acceleration_dq, Axis(i) * D.acceleration_dv, Axis(i) * D.jacobian;
       }
     }
   }
@@ -176,37 +200,50 @@ class PointAccelerationsFunction : public PlanarFunction {
         dynamics_.Hessian(VectorXd::Zero(n_), Terms(&PointTerm::on_acceleration, multipliers)), H);
   }
 
-  Mask JacobianMask() const override { return JacobianMaskWithoutBase(2); }
-
   Mask HessianMask() const override {
-    Mask mask = Mask::Constant(num_inputs(), num_inputs(), true);
+    const Mask pairs = PointPairMask();
+    Mask mask = pairs.replicate(3, 3);
     mask.bottomRightCorner(2 * n_, 2 * n_).setConstant(false);
-    mask.block(n_, n_, n_, n_).setConstant(true);
-    MaskBase(3, &mask);
+    mask.block(n_, n_, n_, n_) = pairs;
     return mask;
   }
 };
 
 }  // namespace
 
-std::shared_ptr<Function> PointPositions(const PlanarModel& model,
-                                         const std::vector<ContactPoint>& points) {
-  return std::make_shared<PointPositionsFunction>(model, points);
+std::shared_ptr<Function> PointPositions(const RobotSystem& model,
+                                         const std::vector<PointComponent>& components) {
+  return std::make_shared<PointPositionsFunction>(model, components);
 }
 
-std::shared_ptr<Function> SquaredDistance(const PlanarModel& model, const ContactPoint& from,
+std::shared_ptr<Function> PointPositions(const RobotSystem& model,
+                                         const std::vector<ContactPoint>& points) {
+  return PointPositions(model, ComponentsOf(*model, points));
+}
+
+std::shared_ptr<Function> SquaredDistance(const RobotSystem& model, const ContactPoint& from,
                                           const ContactPoint& to) {
   return std::make_shared<SquaredDistanceFunction>(model, from, to);
 }
 
-std::shared_ptr<Function> PointVelocities(const PlanarModel& model,
-                                          const std::vector<ContactPoint>& points) {
-  return std::make_shared<PointVelocitiesFunction>(model, points);
+std::shared_ptr<Function> PointVelocities(const RobotSystem& model,
+                                          const std::vector<PointComponent>& components) {
+  return std::make_shared<PointVelocitiesFunction>(model, components);
 }
 
-std::shared_ptr<Function> PointAccelerations(const PlanarModel& model,
+std::shared_ptr<Function> PointVelocities(const RobotSystem& model,
+                                          const std::vector<ContactPoint>& points) {
+  return PointVelocities(model, ComponentsOf(*model, points));
+}
+
+std::shared_ptr<Function> PointAccelerations(const RobotSystem& model,
+                                             const std::vector<PointComponent>& components) {
+  return std::make_shared<PointAccelerationsFunction>(model, components);
+}
+
+std::shared_ptr<Function> PointAccelerations(const RobotSystem& model,
                                              const std::vector<ContactPoint>& points) {
-  return std::make_shared<PointAccelerationsFunction>(model, points);
+  return PointAccelerations(model, ComponentsOf(*model, points));
 }
 
 }  // namespace possibility::collocation

@@ -4,21 +4,28 @@
 
 namespace possibility::collocation {
 
-/// x, z of each point. Inputs: q.
-std::shared_ptr<Function> PointPositions(const PlanarModel& model,
+/// Components of points. Inputs: q.
+std::shared_ptr<Function> PointPositions(const RobotSystem& model,
+                                         const std::vector<PointComponent>& components);
+/// Of all components of each point: x, z in the plane, x, y, z in space. The same below.
+std::shared_ptr<Function> PointPositions(const RobotSystem& model,
                                          const std::vector<dynamics::ContactPoint>& points);
 
 /// The squared distance of two points of the system, m^2. Inputs: q.
-std::shared_ptr<Function> SquaredDistance(const PlanarModel& model,
+std::shared_ptr<Function> SquaredDistance(const RobotSystem& model,
                                           const dynamics::ContactPoint& from,
                                           const dynamics::ContactPoint& to);
 
-/// Velocities, x and z of each point. Inputs: q, v.
-std::shared_ptr<Function> PointVelocities(const PlanarModel& model,
+/// Components of velocities. Inputs: q, v.
+std::shared_ptr<Function> PointVelocities(const RobotSystem& model,
+                                          const std::vector<PointComponent>& components);
+std::shared_ptr<Function> PointVelocities(const RobotSystem& model,
                                           const std::vector<dynamics::ContactPoint>& points);
 
-/// Accelerations, x and z of each point. Inputs: q, v, a.
-std::shared_ptr<Function> PointAccelerations(const PlanarModel& model,
+/// Components of accelerations. Inputs: q, v, a.
+std::shared_ptr<Function> PointAccelerations(const RobotSystem& model,
+                                             const std::vector<PointComponent>& components);
+std::shared_ptr<Function> PointAccelerations(const RobotSystem& model,
                                              const std::vector<dynamics::ContactPoint>& points);
 
 }  // namespace possibility::collocation

@@ -49,11 +49,23 @@ class StepClearanceFunction : public Function {
     }
   }
 
+  Mask JacobianMask() const override {
+    const Mask positions = positions_->JacobianMask();
+    Mask mask(num_outputs(), num_inputs());
+    for (int i = 0; i < num_outputs(); ++i) {
+      mask.row(i) = positions.row(2 * i) || positions.row(2 * i + 1);
+    }
+    return mask;
+  }
+
   Mask HessianMask() const override {
-    // The base's height enters linearly.
-    Mask mask = Mask::Constant(num_inputs(), num_inputs(), true);
-    mask.row(2).setConstant(false);
-    mask.col(2).setConstant(false);
+    const Mask positions = positions_->JacobianMask();
+    Mask mask = positions_->HessianMask();
+    // The ground bends along x.
+    for (int i = 0; i < num_outputs(); ++i) {
+      const Eigen::VectorXd x = positions.row(2 * i).cast<double>().matrix().transpose();
+      mask = mask || (x * x.transpose()).array() != 0.0;
+    }
     return mask;
   }
 
@@ -81,11 +93,14 @@ double SmoothStep::Curvature(double x) const {
   return height * 60 * s * (1 - s) * (1 - 2 * s) / ((end - begin) * (end - begin));
 }
 
-std::shared_ptr<Function> StepClearance(const PlanarModel& model,
+std::shared_ptr<Function> StepClearance(const RobotSystem& model,
                                         const std::vector<dynamics::ContactPoint>& points,
                                         const SmoothStep& step) {
   if (!(step.begin < step.end)) {
     throw std::invalid_argument("a step must begin before it ends");
+  }
+  if (model->base() != dynamics::Base::kPlanar) {
+    throw std::invalid_argument("the clearance above a step needs a planar model");
   }
   return std::make_shared<StepClearanceFunction>(PointPositions(model, points), step);
 }

@@ -21,8 +21,8 @@ struct SmoothStep {
 };
 
 /// Height of each point above the ground below it, m. Inputs: q.
-/// @throws std::invalid_argument unless step.begin < step.end.
-std::shared_ptr<Function> StepClearance(const PlanarModel& model,
+/// @throws std::invalid_argument unless step.begin < step.end and the model is planar.
+std::shared_ptr<Function> StepClearance(const RobotSystem& model,
                                         const std::vector<dynamics::ContactPoint>& points,
                                         const SmoothStep& step);
 

@@ -206,4 +206,13 @@ const HessianProduct& MultibodyDynamics::Hessian(const Eigen::Ref<const VectorXd
   return hessian_;
 }
 
+const MatrixXd& MultibodyDynamics::DifferentiateVirtualVelocity(const ContactPoint& point) {
+  CheckPoint(point);
+  const MatrixXd& tree = tree_.DifferentiateVirtualVelocity(point.link, point.p_L);
+  if (model_->is_identity()) return tree;
+  virtual_velocity_dq_.resize(3, model_->nv());
+  ReduceColumns(tree, virtual_velocity_dq_);
+  return virtual_velocity_dq_;
+}
+
 }  // namespace possibility::dynamics

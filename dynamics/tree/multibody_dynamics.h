@@ -64,6 +64,9 @@ class MultibodyDynamics {
   /// `lambda`: nv.
   const HessianProduct& Hessian(const Eigen::Ref<const Eigen::VectorXd>& lambda,
                                 const std::vector<PointTerm>& terms = {});
+  /// After Hessian at the same state: d(J lambda) / dq of a point, 3 x nv. Its rows are the second
+  /// derivatives of lambda' J' f with respect to q and f.
+  const Eigen::MatrixXd& DifferentiateVirtualVelocity(const ContactPoint& point);
 
   /// Kinematics of the tree: poses, Jacobians and centre of mass in the tree's own coordinates.
   const TreeKinematics& kinematics() const { return tree_.kinematics(); }
@@ -84,6 +87,7 @@ class MultibodyDynamics {
   PointDerivatives point_;
   CentroidalQuantities centroidal_;
   HessianProduct hessian_;
+  Eigen::MatrixXd virtual_velocity_dq_;
 };
 
 }  // namespace possibility::dynamics

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dynamics/tree/base_joints.h"
 #include "models/robot/rotation_vector.h"
 
 namespace possibility::dynamics {
@@ -43,48 +44,129 @@ void CheckPlanar(const models::RobotModel& tree) {
 }  // namespace
 
 std::shared_ptr<const MultibodyModel> MultibodyModel::Spatial(const models::RobotModel& robot) {
-  return std::shared_ptr<const MultibodyModel>(new MultibodyModel(robot, Base::kFloating));
+  return std::shared_ptr<const MultibodyModel>(new MultibodyModel(robot, Base::kFloating, {}));
 }
 
 std::shared_ptr<const MultibodyModel> MultibodyModel::Planar(const models::RobotModel& tree) {
   CheckPlanar(tree);
-  return std::shared_ptr<const MultibodyModel>(new MultibodyModel(tree, Base::kPlanar));
+  return std::shared_ptr<const MultibodyModel>(new MultibodyModel(tree, Base::kPlanar, {}));
 }
 
-MultibodyModel::MultibodyModel(models::RobotModel tree, Base base)
+std::shared_ptr<const MultibodyModel> MultibodyModel::OnJoints(
+    const models::RobotModel& robot, const std::map<int, double>& locked) {
+  std::map<int, double> locked_in_tree;
+  for (const auto& [joint, position] : locked) {
+    if (joint < 0 || joint >= robot.num_joints()) {
+      throw std::invalid_argument(fmt::format(
+          "MultibodyModel: joint {} is locked, expected 0 to {}", joint, robot.num_joints() - 1));
+    }
+    const std::string& name = robot.joints[joint].name;
+    if (robot.joints[joint].mimic) {
+      throw std::invalid_argument(
+          fmt::format("MultibodyModel: joint '{}' is locked but mimics another one", name));
+    }
+    if (!std::isfinite(position)) {
+      throw std::invalid_argument(
+          fmt::format("MultibodyModel: joint '{}' is locked at {}", name, position));
+    }
+    locked_in_tree[kNumBaseJoints + joint] = position;
+  }
+  return std::shared_ptr<const MultibodyModel>(
+      new MultibodyModel(OnBaseJoints(robot), Base::kJoints, locked_in_tree));
+}
+
+MultibodyModel::MultibodyModel(models::RobotModel tree, Base base,
+                               const std::map<int, double>& locked)
     : tree_(std::move(tree)), base_(base) {
-  CoupleJoints();
+  CoupleBase();
+  CoupleJoints(locked);
   CombineLimits();
+  FindMovedLinks();
 }
 
-void MultibodyModel::CoupleJoints() {
+void MultibodyModel::CoupleBase() {
+  couplings_.resize(tree_.nv());
+  switch (base_) {
+    case Base::kFloating:
+      for (int i = 0; i < 6; ++i) couplings_[i].independent = i;
+      translations_ = {{3, Eigen::Vector3d::UnitX()},
+                       {4, Eigen::Vector3d::UnitY()},
+                       {5, Eigen::Vector3d::UnitZ()}};
+      break;
+    case Base::kPlanar:
+      couplings_[kPitch].independent = 0;
+      couplings_[kX].independent = 1;
+      couplings_[kZ].independent = 2;
+      translations_ = {{1, Eigen::Vector3d::UnitX()}, {2, Eigen::Vector3d::UnitZ()}};
+      break;
+    case Base::kJoints:
+      for (int i = 0; i < kNumBaseJoints; ++i) couplings_[6 + i].independent = i;
+      translations_ = {{0, Eigen::Vector3d::UnitX()},
+                       {1, Eigen::Vector3d::UnitY()},
+                       {2, Eigen::Vector3d::UnitZ()}};
+      break;
+  }
+}
+
+void MultibodyModel::CoupleJoints(const std::map<int, double>& locked) {
+  const int first = base_ == Base::kJoints ? kNumBaseJoints : 0;
   std::vector<int> independent(tree_.num_joints(), -1);
-  for (int j = 0; j < tree_.num_joints(); ++j) {
-    if (tree_.joints[j].mimic) continue;
-    independent[j] = static_cast<int>(joints_.size());
+  for (int j = first; j < tree_.num_joints(); ++j) {
+    if (tree_.joints[j].mimic || locked.contains(j)) continue;
+    independent[j] = num_base_velocities() + static_cast<int>(joints_.size());
     joints_.push_back(j);
   }
-  couplings_.resize(tree_.nv());
-  if (base_ == Base::kFloating) {
-    for (int i = 0; i < 6; ++i) couplings_[i].independent = i;
-  } else {
-    couplings_[kPitch].independent = 0;
-    couplings_[kX].independent = 1;
-    couplings_[kZ].independent = 2;
-  }
   offsets_ = VectorXd::Zero(tree_.num_joints());
-  for (int j = 0; j < tree_.num_joints(); ++j) {
+  for (int j = first; j < tree_.num_joints(); ++j) {
     const auto& mimic = tree_.joints[j].mimic;
     const int master = mimic ? mimic->joint : j;
-    if (master < 0 || master >= tree_.num_joints() || independent[master] < 0) {
+    const bool exists = master >= first && master < tree_.num_joints();
+    if (!exists || (independent[master] < 0 && !locked.contains(master))) {
       throw std::invalid_argument(fmt::format(
           "MultibodyModel: joint '{}' mimics no independent joint", tree_.joints[j].name));
     }
-    couplings_[6 + j] = {num_base_velocities() + independent[master],
-                         mimic ? mimic->multiplier : 1.0};
+    const double factor = mimic ? mimic->multiplier : 1.0;
+    couplings_[6 + j] = {independent[master], factor};
     if (mimic) offsets_[j] = mimic->offset;
+    if (independent[master] < 0) offsets_[j] += factor * locked.at(master);
   }
   is_identity_ = base_ == Base::kFloating && num_joints() == tree_.num_joints();
+}
+
+void MultibodyModel::FindMovedLinks() {
+  carried_by_.assign(tree_.num_links(), std::vector<bool>(tree_.num_joints(), false));
+  for (int link = 1; link < tree_.num_links(); ++link) {
+    carried_by_[link] = carried_by_[tree_.joints[link - 1].parent];
+    carried_by_[link][link - 1] = true;
+  }
+  sources_.resize(nv());
+  for (int i = 0; i < tree_.nv(); ++i) {
+    if (couplings_[i].independent >= 0) sources_[couplings_[i].independent].push_back(i);
+  }
+  moves_.assign(nv(), std::vector<bool>(tree_.num_links(), false));
+  related_.assign(nv(), std::vector<bool>(nv(), false));
+  for (int i = 0; i < nv(); ++i) {
+    for (const int source : sources_[i]) {
+      for (int link = 0; link < tree_.num_links(); ++link) {
+        if (MovesInTree(source, link)) moves_[i][link] = true;
+      }
+    }
+    for (int j = 0; j <= i; ++j) {
+      for (int link = 0; link < tree_.num_links(); ++link) {
+        if (moves_[i][link] && moves_[j][link]) related_[i][j] = related_[j][i] = true;
+      }
+    }
+  }
+}
+
+bool MultibodyModel::MovesInTree(int tree_velocity, int link) const {
+  return tree_velocity < 6 || carried_by_[link][tree_velocity - 6];
+}
+
+bool MultibodyModel::MovesApart(int velocity, int link, int other) const {
+  return std::any_of(sources_.at(velocity).begin(), sources_.at(velocity).end(), [&](int source) {
+    return MovesInTree(source, link) != MovesInTree(source, other);
+  });
 }
 
 void MultibodyModel::CombineLimits() {
@@ -104,6 +186,7 @@ void MultibodyModel::CombineLimits() {
     const models::Joint& joint = tree_.joints[j];
     if (!joint.mimic) continue;
     const int i = couplings_[6 + j].independent - num_base_velocities();
+    if (i < 0) continue;  // its master is locked
     const double factor = joint.mimic->multiplier;
     const double a = (joint.lower - joint.mimic->offset) / factor;
     const double b = (joint.upper - joint.mimic->offset) / factor;
@@ -118,13 +201,17 @@ VectorXd MultibodyModel::TreeConfiguration(const Eigen::Ref<const VectorXd>& q) 
   VectorXd tree(tree_.nq());
   if (base_ == Base::kFloating) {
     tree.head<7>() = q.head<7>();
-  } else {
+  } else if (base_ == Base::kPlanar) {
     tree.head<7>() << std::cos(q[0] / 2), 0, std::sin(q[0] / 2), 0, q[1], 0, q[2];
+  } else {
+    tree.head<7>().setUnit(0);
   }
   const int shift = num_base_positions() - num_base_velocities();
   for (int j = 0; j < tree_.num_joints(); ++j) {
     const CoupledVelocity& coupling = couplings_[6 + j];
-    tree[7 + j] = coupling.factor * q[coupling.independent + shift] + offsets_[j];
+    const double moved =
+        coupling.independent < 0 ? 0 : coupling.factor * q[coupling.independent + shift];
+    tree[7 + j] = moved + offsets_[j];
   }
   return tree;
 }
@@ -154,7 +241,7 @@ VectorXd MultibodyModel::Displaced(const Eigen::Ref<const VectorXd>& q,
   CheckSize("q", q.size(), nq());
   CheckSize("a tangent", tangent.size(), nv());
   VectorXd displaced = q;
-  if (base_ == Base::kPlanar) {
+  if (base_ != Base::kFloating) {
     displaced += tangent;
     return displaced;
   }
@@ -170,7 +257,7 @@ VectorXd MultibodyModel::ConfigurationRate(const Eigen::Ref<const VectorXd>& q,
                                            const Eigen::Ref<const VectorXd>& v) const {
   CheckSize("q", q.size(), nq());
   CheckSize("v", v.size(), nv());
-  if (base_ == Base::kPlanar) return v;
+  if (base_ != Base::kFloating) return v;
   VectorXd rate(nq());
   const Eigen::Quaterniond spin(0, v[0] / 2, v[1] / 2, v[2] / 2);
   const Eigen::Quaterniond turned = spin * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);

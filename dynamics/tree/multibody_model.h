@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +12,8 @@ namespace possibility::dynamics {
 
 enum class Base {
   kFloating,  ///< q: quaternion (w, x, y, z), position; v: angular, linear velocity, world axes
-  kPlanar     ///< q: pitch about +y, x, z; v: their rates
+  kPlanar,    ///< q: pitch about +y, x, z; v: their rates
+  kJoints     ///< q: x, y, z, yaw, roll, pitch of the joints that carry the root; v: their rates
 };
 
 /// One velocity of the tree as a multiple of one independent velocity.
@@ -33,18 +35,38 @@ class MultibodyModel {
   static std::shared_ptr<const MultibodyModel> Spatial(const models::RobotModel& robot);
   /// A tree whose joints all stay in the plane y = 0 (parallel to y, or prismatic in it).
   static std::shared_ptr<const MultibodyModel> Planar(const models::RobotModel& tree);
+  /// The robot in space, its root on joints, so that v is the rate of q. `locked`: positions (rad,
+  /// m) of joints of `robot`, by index, that do not move. Links and joints of tree() are those of
+  /// OnBaseJoints. @throws std::invalid_argument for a locked joint that does not exist, mimics
+  /// another one or is not finite.
+  static std::shared_ptr<const MultibodyModel> OnJoints(const models::RobotModel& robot,
+                                                        const std::map<int, double>& locked = {});
 
   const models::RobotModel& tree() const { return tree_; }
   Base base() const { return base_; }
   int nq() const { return num_base_positions() + num_joints(); }
   int nv() const { return num_base_velocities() + num_joints(); }
-  int num_base_positions() const { return base_ == Base::kFloating ? 7 : 3; }
-  int num_base_velocities() const { return base_ == Base::kFloating ? 6 : 3; }
+  int num_base_positions() const { return base_ == Base::kFloating ? 7 : num_base_velocities(); }
+  int num_base_velocities() const { return base_ == Base::kPlanar ? 3 : 6; }
   int num_joints() const { return static_cast<int>(joints_.size()); }  ///< independent ones
   /// By independent joint: index into tree().joints of the joint whose value it is.
   const std::vector<int>& joints() const { return joints_; }
   /// True if the tree velocities are the independent velocities, in the same order.
   bool is_identity() const { return is_identity_; }
+  /// What the dynamics do not depend on: the velocities that translate the whole robot, by index
+  /// into v, and their directions.
+  struct Translation {
+    int index = 0;
+    Eigen::Vector3d direction;
+  };
+  const std::vector<Translation>& translations() const { return translations_; }
+  /// Whether a velocity, by index into v, moves a link of the tree.
+  bool Moves(int velocity, int link) const { return moves_[velocity][link]; }
+  /// Whether it moves one of the links against the other.
+  bool MovesApart(int velocity, int link, int other) const;
+  /// Whether some link is moved by both velocities.
+  bool AreRelated(int velocity, int other) const { return related_[velocity][other]; }
+
   /// By tree velocity (tree().nv() of them).
   const std::vector<CoupledVelocity>& couplings() const { return couplings_; }
 
@@ -68,15 +90,22 @@ class MultibodyModel {
                                     const Eigen::Ref<const Eigen::VectorXd>& v) const;
 
  private:
-  MultibodyModel(models::RobotModel tree, Base base);
-  void CoupleJoints();
+  MultibodyModel(models::RobotModel tree, Base base, const std::map<int, double>& locked);
+  void CoupleBase();
+  void CoupleJoints(const std::map<int, double>& locked);
   void CombineLimits();
+  void FindMovedLinks();
+  bool MovesInTree(int tree_velocity, int link) const;
 
   models::RobotModel tree_;
   Base base_;
   std::vector<int> joints_;
   std::vector<CoupledVelocity> couplings_;
   Eigen::VectorXd offsets_;  ///< by tree joint: its value when the independent joint is at 0
+  std::vector<Translation> translations_;
+  std::vector<std::vector<bool>> carried_by_;       ///< by link and joint of the tree
+  std::vector<std::vector<int>> sources_;           ///< by velocity: the tree's that it drives
+  std::vector<std::vector<bool>> moves_, related_;  ///< by velocity and link, by two velocities
   bool is_identity_ = true;
   Eigen::VectorXd lower_, upper_, velocity_, effort_;
 };

@@ -74,6 +74,11 @@ class TreeDerivatives {
                                 const std::vector<PointTerm>& terms) {
     return hessian_.Compute(motion_, lambda, terms);
   }
+  /// After Hessian at the same state: TreeHessian::DifferentiateVirtualVelocity.
+  const Eigen::MatrixXd& DifferentiateVirtualVelocity(int link, const Eigen::Vector3d& p_L) {
+    hessian_.DifferentiateVirtualVelocity(link, p_L, &virtual_velocity_dq_);
+    return virtual_velocity_dq_;
+  }
 
  private:
   void DifferentiateRoot();
@@ -85,6 +90,7 @@ class TreeDerivatives {
   PointDerivatives point_;
   CentroidalQuantities centroidal_;
   TreeHessian hessian_;
+  Eigen::MatrixXd virtual_velocity_dq_;
 };
 
 }  // namespace possibility::dynamics

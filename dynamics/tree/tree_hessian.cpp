@@ -6,7 +6,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 TreeHessian::TreeHessian(const models::RobotModel& model)
-    : w_(model.num_links()), virtual_rates_(model.nv()), virtual_bodies_(model.num_links()) {
+    : w_(model.num_links()),
+      virtual_rates_(model.nv()),
+      virtual_bodies_(model.num_links()),
+      forces_(model.num_links()) {
   const int nv = model.nv();
   for (Eigen::MatrixXd* m : {&hessian_.qq, &hessian_.qv, &hessian_.vv, &hessian_.qa}) {
     m->setZero(nv, nv);
@@ -21,7 +24,15 @@ const HessianProduct& TreeHessian::Compute(const TreeMotion& motion,
   FindVirtualMotion(lambda);
   for (int i = motion_->num_links() - 1; i > 0; --i) AddJointHessian(i);
   AddRootHessian();
-  for (const PointTerm& term : terms) AddPointHessian(term);
+  CollectForces(terms);
+  for (int i = 0; i < motion_->num_links(); ++i) {
+    if (forces_[i].any) AddForceHessian(i);
+  }
+  for (const PointTerm& term : terms) {
+    const bool moves = !term.on_position.isZero(0) || !term.on_velocity.isZero(0) ||
+                       !term.on_acceleration.isZero(0);
+    if (moves) AddPointHessian(term);
+  }
   // The root's rotations do not commute: the second derivative along a curve is the mean.
   const Matrix3d root = hessian_.qq.topLeftCorner<3, 3>();
   hessian_.qq.topLeftCorner<3, 3>() = (root + root.transpose()) / 2;
@@ -124,24 +135,94 @@ void TreeHessian::AddRootHessian() {
   }
 }
 
-void TreeHessian::AddPointHessian(const PointTerm& term) {
-  const PointMotion point = MotionOf(*motion_, term.link, term.p_L);
-  const Vector3d virtual_velocity = VelocityAt(w_[term.link], point.p);
-  for (int i = term.link; i > 0; i = motion_->parent(i)) {
-    for (int j = i; j > 0; j = motion_->parent(j)) {
-      AddPointPair(term, point, virtual_velocity, TreeMotion::Coordinate(j),
-                   TreeMotion::Coordinate(i));
-    }
-    const int c = TreeMotion::Coordinate(i);
-    for (int d = 0; d < 3; ++d) AddPointPair(term, point, virtual_velocity, d, c);
-  }
-  for (int d = 0; d < 3; ++d) {
-    for (int c = 0; c < 3; ++c) AddRootPointPair(term, point, virtual_velocity, d, c);
+void TreeHessian::CollectForces(const std::vector<PointTerm>& terms) {
+  for (LinkForces& forces : forces_) forces = {};
+  for (const PointTerm& term : terms) {
+    if (term.force.isZero(0)) continue;
+    const Vector3d p = motion_->kinematics().Position(term.link, term.p_L) -
+                       motion_->kinematics().X_WL()[0].translation();
+    LinkForces& forces = forces_[term.link];
+    forces.any = true;
+    forces.wrench += {p.cross(term.force), term.force};
+    forces.virial += term.force * p.transpose();
   }
 }
 
-void TreeHessian::AddPointPair(const PointTerm& term, const PointMotion& point,
-                               const Vector3d& virtual_velocity, int outer, int inner) {
+void TreeHessian::AddForceHessian(int link) {
+  auto& qq = hessian_.qq;
+  for (int i = link; i > 0; i = motion_->parent(i)) {
+    const int c = TreeMotion::Coordinate(i);
+    const auto add = [&](int d) {
+      const double second = ForcePair(link, d, c);
+      qq(d, c) += second;
+      if (d != c) qq(c, d) += second;
+    };
+    for (int j = i; j > 0; j = motion_->parent(j)) add(TreeMotion::Coordinate(j));
+    for (int d = 0; d < 3; ++d) add(d);
+  }
+  for (int d = 0; d < 3; ++d) {
+    for (int c = 0; c < 3; ++c) qq(d, c) += RootForcePair(link, d, c);
+  }
+}
+
+/// Second derivative of the power of a link's forces under the multipliers.
+double TreeHessian::ForcePair(int link, int outer, int inner) const {
+  const LinkForces& forces = forces_[link];
+  const Vector3d& s_j = motion_->axis(outer).S.angular;
+  const Vector3d& s_k = motion_->axis(inner).S.angular;
+  const SpatialVector& w = w_[link];
+  // f' (s_j x (s_k x (w at p))): the double product, once for w's linear part and once for its
+  // turn.
+  const double turned_twice = Dot(forces.wrench.linear, Cross(s_j, Cross(s_k, w.linear))) +
+                              Dot(Cross(s_j, w.angular), Times(forces.virial, s_k)) -
+                              Dot(s_k, w.angular) * Dot(s_j, forces.wrench.angular);
+  return turned_twice + forces.Turned(s_j, virtual_rates_[inner]) +
+         Dot(forces.wrench, CrossMotion(virtual_rates_[outer], motion_->axis(inner).S)) +
+         forces.Turned(s_k, virtual_rates_[outer]);
+}
+
+double TreeHessian::RootForcePair(int link, int j, int k) const {
+  const LinkForces& forces = forces_[link];
+  const Vector3d e_j = Vector3d::Unit(j);
+  const Vector3d e_k = Vector3d::Unit(k);
+  const SpatialVector& w = w_[link];
+  const double turned_twice = Dot(forces.wrench.linear, Cross(e_k, Cross(e_j, w.linear))) +
+                              Dot(Cross(e_k, w.angular), Times(forces.virial, e_j)) -
+                              e_j.dot(w.angular) * Dot(e_k, forces.wrench.angular);
+  return forces.Turned(virtual_rates_[k].angular, e_j) + forces.Turned(e_k, virtual_rates_[j]) +
+         turned_twice;
+}
+
+void TreeHessian::DifferentiateVirtualVelocity(int link, const Vector3d& p_L,
+                                               Eigen::MatrixXd* derivative) const {
+  const Vector3d p =
+      motion_->kinematics().Position(link, p_L) - motion_->kinematics().X_WL()[0].translation();
+  const Vector3d virtual_velocity = VelocityAt(w_[link], p);
+  derivative->setZero(3, static_cast<Eigen::Index>(virtual_rates_.size()));
+  const auto fill = [&](int c) {
+    derivative->col(c) =
+        VelocityAt(virtual_rates_[c], p) + motion_->axis(c).S.angular.cross(virtual_velocity);
+  };
+  for (int c = 0; c < 3; ++c) fill(c);
+  for (int i = link; i > 0; i = motion_->parent(i)) fill(TreeMotion::Coordinate(i));
+}
+
+void TreeHessian::AddPointHessian(const PointTerm& term) {
+  const PointMotion point = MotionOf(*motion_, term.link, term.p_L);
+  for (int i = term.link; i > 0; i = motion_->parent(i)) {
+    for (int j = i; j > 0; j = motion_->parent(j)) {
+      AddPointPair(term, point, TreeMotion::Coordinate(j), TreeMotion::Coordinate(i));
+    }
+    const int c = TreeMotion::Coordinate(i);
+    for (int d = 0; d < 3; ++d) AddPointPair(term, point, d, c);
+  }
+  for (int d = 0; d < 3; ++d) {
+    for (int c = 0; c < 3; ++c) AddRootPointPair(term, point, d, c);
+  }
+}
+
+void TreeHessian::AddPointPair(const PointTerm& term, const PointMotion& point, int outer,
+                               int inner) {
   const TreeAxis& j = motion_->axis(outer);
   const TreeAxis& k = motion_->axis(inner);
   const Vector3d s_j = j.S.angular;
@@ -150,20 +231,15 @@ void TreeHessian::AddPointPair(const PointTerm& term, const PointMotion& point,
   const Vector3d rate_j = VelocityAt(j.rate, point.p);
   const SpatialVector turned_rate = CrossMotion(j.rate, k.S);
 
-  // Of the velocity, with the rates v and with the multipliers.
   const Vector3d velocity = s_j.cross(VelocityDerivative(*motion_, point, inner)) +
                             VelocityAt(turned_rate, point.p) + s_k.cross(rate_j);
-  const Vector3d virtual_rate_j = VelocityAt(virtual_rates_[outer], point.p);
-  const Vector3d virtual_second =
-      s_j.cross(VelocityAt(virtual_rates_[inner], point.p) + s_k.cross(virtual_velocity)) +
-      VelocityAt(CrossMotion(virtual_rates_[outer], k.S), point.p) + s_k.cross(virtual_rate_j);
   const Vector3d acceleration =
       s_j.cross(AccelerationDerivative(*motion_, point, inner)) +
       s_k.cross(VelocityAt(j.rate_rate, point.p) + 2 * j.rate.angular.cross(point.velocity)) +
       VelocityAt(CrossMotion(j.rate_rate, k.S) + 2 * CrossMotion(j.rate, k.rate), point.p) +
       2 * turned_rate.angular.cross(point.velocity) + 2 * k.rate.angular.cross(rate_j);
   const double qq = term.on_position.dot(moved) + term.on_velocity.dot(velocity) +
-                    term.on_acceleration.dot(acceleration) + term.force.dot(virtual_second);
+                    term.on_acceleration.dot(acceleration);
 
   const Vector3d& on_a = term.on_acceleration;
   const Vector3d c_j = VelocityAt(j.S, point.p);
@@ -189,27 +265,22 @@ void TreeHessian::AddPointPair(const PointTerm& term, const PointMotion& point,
   H.qa(outer, inner) += qa;
 }
 
-void TreeHessian::AddRootPointPair(const PointTerm& term, const PointMotion& point,
-                                   const Vector3d& virtual_velocity, int j, int k) {
+void TreeHessian::AddRootPointPair(const PointTerm& term, const PointMotion& point, int j, int k) {
   // Rotating the robot does not change the root's own axes, velocity and acceleration.
   const Vector3d e_j = Vector3d::Unit(j);
   const Vector3d e_k = Vector3d::Unit(k);
   const TreeAxis& axis = motion_->axis(k);
   const Vector3d moved = e_j.cross(point.p);
   const Vector3d velocity_j = VelocityDerivative(*motion_, point, j);
-  const Vector3d virtual_velocity_j =
-      VelocityAt(virtual_rates_[j], point.p) + e_j.cross(virtual_velocity);
   const Vector3d rate = axis.rate.angular;
   const Vector3d& on_a = term.on_acceleration;
 
   const Vector3d acceleration = e_k.cross(AccelerationDerivative(*motion_, point, j)) +
                                 axis.rate_rate.angular.cross(moved) + 2 * rate.cross(velocity_j);
-  const Vector3d virtual_angular = virtual_rates_[k].angular;
   auto& H = hessian_;
   H.qq(j, k) += term.on_position.dot(e_k.cross(moved)) +
                 term.on_velocity.dot(rate.cross(moved) + e_k.cross(velocity_j)) +
-                on_a.dot(acceleration) +
-                term.force.dot(virtual_angular.cross(moved) + e_k.cross(virtual_velocity_j));
+                on_a.dot(acceleration);
   H.qv(j, k) += term.on_velocity.dot(e_k.cross(moved)) +
                 on_a.dot(rate.cross(moved) + 2 * e_k.cross(velocity_j));
   H.vv(j, k) += on_a.dot(e_j.cross(e_k).cross(point.p) + 2 * e_k.cross(moved));

@@ -44,6 +44,14 @@ class TreeHessian {
                                 const Eigen::Ref<const Eigen::VectorXd>& lambda,
                                 const std::vector<PointTerm>& terms);
 
+  /// Derivative with respect to q of J lambda, the virtual velocity of a point under the
+  /// multipliers of the last Compute, whose motion must not have changed; 3 x nv. Its product with
+  /// a force is the derivative of lambda' J' f, so its rows are the second derivatives of lambda'
+  /// ID
+  /// - lambda' J' f with respect to q and minus f.
+  void DifferentiateVirtualVelocity(int link, const Eigen::Vector3d& p_L,
+                                    Eigen::MatrixXd* derivative) const;
+
  private:
   /// Counterpart of SpatialBody for the virtual velocity w, whose rates are the multipliers
   /// (Hessian).
@@ -58,19 +66,39 @@ class TreeHessian {
     }
   };
 
+  /// Forces at points of one link, which do not turn with it: all that the second derivatives of
+  /// their power need, however many points there are.
+  struct LinkForces {
+    bool any = false;
+    SpatialVector wrench;                              ///< about the root's origin
+    Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();  ///< sum of force times position'
+
+    /// Sum of f' (s x (t x p)).
+    double Turned(const Eigen::Vector3d& s, const Eigen::Vector3d& t) const {
+      return Dot(t, Times(virial, s)) - Dot(s, t) * virial.trace();
+    }
+    /// Sum of f' (s x the motion's velocity at p).
+    double Turned(const Eigen::Vector3d& s, const SpatialVector& motion) const {
+      return Dot(wrench.linear, Cross(s, motion.linear)) + Turned(s, motion.angular);
+    }
+  };
+
   void FindVirtualMotion(const Eigen::Ref<const Eigen::VectorXd>& lambda);
   void AddJointHessian(int link);
   void AddRootHessian();
+  void CollectForces(const std::vector<PointTerm>& terms);
+  void AddForceHessian(int link);
+  double ForcePair(int link, int outer, int inner) const;
+  double RootForcePair(int link, int j, int k) const;
   void AddPointHessian(const PointTerm& term);
-  void AddPointPair(const PointTerm& term, const PointMotion& point,
-                    const Eigen::Vector3d& virtual_velocity, int outer, int inner);
-  void AddRootPointPair(const PointTerm& term, const PointMotion& point,
-                        const Eigen::Vector3d& virtual_velocity, int j, int k);
+  void AddPointPair(const PointTerm& term, const PointMotion& point, int outer, int inner);
+  void AddRootPointPair(const PointTerm& term, const PointMotion& point, int j, int k);
 
   const TreeMotion* motion_ = nullptr;        // during Compute
   std::vector<SpatialVector> w_;              // by link, virtual velocity
   std::vector<SpatialVector> virtual_rates_;  // by coordinate, chi: w_parent x S
   std::vector<VirtualBody> virtual_bodies_;   // by link
+  std::vector<LinkForces> forces_;            // by link
   HessianProduct hessian_;
 };
 

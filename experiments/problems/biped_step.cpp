@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "collocation/problem/function_algebra.h"
 #include "collocation/robot/balance_functions.h"
 #include "collocation/robot/multibody_functions.h"
 #include "collocation/robot/point_functions.h"
 #include "experiments/problems/legged_models.h"
 #include "experiments/problems/legged_problem.h"
-#include "experiments/problems/linear_extension.h"
 
 namespace possibility::experiments {
 
@@ -46,7 +46,7 @@ MatrixXd Relabelling() {
 }
 
 struct Biped {
-  PlanarModel model = dynamics::MultibodyModel::Planar(FiveLinkBiped());
+  RobotSystem model = dynamics::MultibodyModel::Planar(FiveLinkBiped());
   std::vector<dynamics::ContactPoint> stance = {{0, Eigen::Vector3d::Zero()}};
   std::vector<dynamics::ContactPoint> swing = {{kSwingShank, SwingFoot()}};
   Variables q, v, a;

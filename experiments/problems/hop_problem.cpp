@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "collocation/problem/function_algebra.h"
 #include "collocation/robot/balance_functions.h"
 #include "collocation/robot/multibody_functions.h"
 #include "experiments/problems/legged_models.h"
 #include "experiments/problems/legged_problem.h"
-#include "experiments/problems/linear_extension.h"
 
 namespace possibility::experiments {
 
@@ -37,7 +37,7 @@ struct HopPhase {
 /// Upright, the leg half extended.
 Eigen::Vector<double, kHopperSize> Balanced() { return {0, 0, 0, 0.5, 0}; }
 
-HopPhase AddHopPhase(const PlanarModel& model, const std::string& name, Bounds duration,
+HopPhase AddHopPhase(const RobotSystem& model, const std::string& name, Bounds duration,
                      OptimalControlProblem* problem) {
   HopPhase hop;
   hop.phase = &problem->AddPhase(name, 2);
@@ -59,7 +59,7 @@ HopPhase AddHopPhase(const PlanarModel& model, const std::string& name, Bounds d
   return hop;
 }
 
-void AddHopDynamics(const PlanarModel& model, bool stands, HopPhase* hop) {
+void AddHopDynamics(const RobotSystem& model, bool stands, HopPhase* hop) {
   constexpr double kForce = 150, kTorque = 20;
   Variables force;
   std::vector<dynamics::ContactPoint> foot;
@@ -102,7 +102,7 @@ void Rest(At at, HopPhase* hop) {
   }
 }
 
-void AddTouchdown(const PlanarModel& model, const HopPhase& flight, const HopPhase& landing,
+void AddTouchdown(const RobotSystem& model, const HopPhase& flight, const HopPhase& landing,
                   OptimalControlProblem* problem) {
   const Variables impulse = {problem->AddParameter("impulse x", {-100, 100}, 10),
                              problem->AddParameter("impulse z", {0, 100}, 10, 10)};
@@ -120,7 +120,7 @@ void AddTouchdown(const PlanarModel& model, const HopPhase& flight, const HopPha
 
 std::unique_ptr<OptimalControlProblem> Hop(double distance) {
   auto problem = std::make_unique<OptimalControlProblem>("hop");
-  const PlanarModel model = dynamics::MultibodyModel::Planar(Hopper());
+  const RobotSystem model = dynamics::MultibodyModel::Planar(Hopper());
   HopPhase push = AddHopPhase(model, "push", {kStance, kStance}, problem.get());
   HopPhase flight = AddHopPhase(model, "flight", {0.2, 0.5}, problem.get());
   HopPhase landing = AddHopPhase(model, "landing", {kStance, kStance}, problem.get());

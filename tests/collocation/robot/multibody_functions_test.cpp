@@ -21,20 +21,36 @@ using dynamics::ContactPoint;
 using dynamics::RelativeError;
 using Eigen::VectorXd;
 
-std::vector<ContactPoint> TwoPoints(std::mt19937* random, const PlanarModel& model) {
+std::vector<ContactPoint> TwoPoints(std::mt19937* random, const RobotSystem& model) {
   const int links = model->tree().num_links();
   return {{links - 1, dynamics::RandomVector(random, 3, 0.3)},
           {static_cast<int>((*random)() % links), dynamics::RandomVector(random, 3, 0.3)}};
 }
 
+/// In turn a planar tree and one on joints in space, some of them with a locked or a mimic joint.
+RobotSystem SomeSystem(std::mt19937* random, int trial) {
+  const int joints = 1 + trial / 2 % 6;
+  if (trial % 2 == 0) {
+    return dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(random, joints));
+  }
+  models::RobotModel tree = dynamics::RandomTree(random, joints);
+  if (joints > 3) tree.joints[1].mimic = models::Mimic{3, -2, 0.5};
+  return joints > 2 ? dynamics::MultibodyModel::OnJoints(tree, {{2, 0.7}})
+                    : dynamics::MultibodyModel::OnJoints(tree);
+}
+
 TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
   std::mt19937 random(1);
-  for (int trial = 0; trial < 20; ++trial) {
-    const PlanarModel model =
-        dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
+  for (int trial = 0; trial < 40; ++trial) {
+    const RobotSystem model = SomeSystem(&random, trial);
     const auto points = TwoPoints(&random, model);
-    for (const auto& f : {EquationOfMotion(model, points), PointPositions(model, points),
-                          PointVelocities(model, points), PointAccelerations(model, points),
+    const std::vector<PointComponent> components = {{points[0], Eigen::Vector3d(0.6, 0, 0.8)},
+                                                    {points[1], Eigen::Vector3d::UnitZ()},
+                                                    {points[1], Eigen::Vector3d::UnitX()}};
+    for (const auto& f : {EquationOfMotion(model, points), ActuatedMotion(model, points),
+                          PointPositions(model, points), PointPositions(model, components),
+                          PointVelocities(model, points), PointVelocities(model, components),
+                          PointAccelerations(model, points), PointAccelerations(model, components),
                           SquaredDistance(model, points[0], points[1]), ImpactMap(model, points)}) {
       ExpectExactDerivatives(f.get(), dynamics::RandomVector(&random, f->num_inputs(), 1.5),
                              dynamics::RandomVector(&random, f->num_outputs(), 1));
@@ -42,9 +58,46 @@ TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
   }
 }
 
+TEST(MultibodyFunctionsTest, BranchesAreMaskedFromEachOther) {
+  // Two branches of one joint each: neither's torque depends on the other's motion, given the
+  // root's.
+  std::mt19937 random(8);
+  models::RobotModel tree = dynamics::RandomTree(&random, 2);
+  for (models::Joint& joint : tree.joints) joint.parent = 0;
+  const auto model = dynamics::MultibodyModel::OnJoints(tree);
+  const auto motion = EquationOfMotion(model, {});
+  for (const int part : {0, 8, 16}) {
+    EXPECT_FALSE(motion->JacobianMask()(6, part + 7));
+    EXPECT_FALSE(motion->JacobianMask()(7, part + 6));
+    EXPECT_FALSE(motion->HessianMask()(6, part + 7));
+    EXPECT_TRUE(motion->JacobianMask()(6, part + 6));
+  }
+  const auto distance = SquaredDistance(model, {7, {0.1, 0, 0}}, {6, {0, 0, 0.1}});
+  EXPECT_EQ(distance->JacobianMask().count(), 1);
+}
+
+TEST(MultibodyFunctionsTest, TorquesAreWhatInverseDynamicsAsks) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    const RobotSystem model = SomeSystem(&random, trial);
+    const auto points = TwoPoints(&random, model);
+    const auto inverse = EquationOfMotion(model, points);
+    const auto actuated = ActuatedMotion(model, points);
+    VectorXd z = dynamics::RandomVector(&random, actuated->num_inputs(), 1.5);
+    VectorXd torques(model->nv());
+    inverse->Evaluate(z.head(inverse->num_inputs()), &torques);
+    z.tail(model->num_joints()) = torques.tail(model->num_joints());
+    VectorXd residual(model->nv());
+    actuated->Evaluate(z, &residual);
+    const int base = model->num_base_velocities();
+    EXPECT_EQ(residual.head(base), torques.head(base));
+    EXPECT_EQ(residual.tail(model->num_joints()), VectorXd::Zero(model->num_joints()));
+  }
+}
+
 TEST(MultibodyFunctionsTest, ForwardDynamicsSolvesTheEquationOfMotion) {
   std::mt19937 random(2);
-  const PlanarModel model =
+  const RobotSystem model =
       dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 5));
   const int n = model->nv();
   const auto f = EquationOfMotion(model, {});
@@ -64,7 +117,7 @@ TEST(MultibodyFunctionsTest, ForwardDynamicsSolvesTheEquationOfMotion) {
 TEST(MultibodyFunctionsTest, AnImpactSolvesTheImpactMap) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 50; ++trial) {
-    const PlanarModel model =
+    const RobotSystem model =
         dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 4));
     const int n = model->nv();
     const std::vector<ContactPoint> points = {{1, dynamics::RandomVector(&random, 3, 0.3)}};
@@ -84,7 +137,7 @@ TEST(MultibodyFunctionsTest, AnImpactSolvesTheImpactMap) {
 TEST(MultibodyFunctionsTest, PointAccelerationsAndDistancesAgreeWithTheDynamics) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 20; ++trial) {
-    const PlanarModel model =
+    const RobotSystem model =
         dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
     const int n = model->nv();
     const auto points = TwoPoints(&random, model);
@@ -122,7 +175,7 @@ class Along {
 TEST(MultibodyFunctionsTest, AccelerationsAreSecondDerivativesOfPositionsInTime) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 20; ++trial) {
-    const PlanarModel model =
+    const RobotSystem model =
         dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 1 + trial % 6));
     const auto points = TwoPoints(&random, model);
     const VectorXd z = dynamics::RandomVector(&random, 3 * model->nv(), 1.5);
@@ -139,7 +192,7 @@ TEST(MultibodyFunctionsTest, AccelerationsAreSecondDerivativesOfPositionsInTime)
 
 TEST(MultibodyFunctionsTest, DistancesAndAccelerationsAreMaskedWhereNothingDepends) {
   std::mt19937 random(7);
-  const PlanarModel model =
+  const RobotSystem model =
       dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 4));
   const int n = model->nv();
   const auto points = TwoPoints(&random, model);
@@ -154,12 +207,13 @@ TEST(MultibodyFunctionsTest, DistancesAndAccelerationsAreMaskedWhereNothingDepen
   EXPECT_TRUE(mask.middleCols(2 * n + 1, 2).any());
 }
 
-TEST(MultibodyFunctionsTest, RefusesASpatialModel) {
+TEST(MultibodyFunctionsTest, RefusesABaseWithAQuaternion) {
   std::mt19937 random(4);
   const auto model = dynamics::MultibodyModel::Spatial(dynamics::RandomTree(&random, 2));
-  EXPECT_THROW(PointAccelerations(model, {}), std::invalid_argument);
+  const std::vector<ContactPoint> no_points;
+  EXPECT_THROW(PointAccelerations(model, no_points), std::invalid_argument);
   EXPECT_THROW(SquaredDistance(model, {}, {}), std::invalid_argument);
-  EXPECT_THROW(EquationOfMotion(model, {}), std::invalid_argument);
+  EXPECT_THROW(EquationOfMotion(model, no_points), std::invalid_argument);
 }
 
 }  // namespace

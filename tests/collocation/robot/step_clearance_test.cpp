@@ -67,10 +67,12 @@ TEST(StepClearance, DerivativesAgreeWithDifferences) {
   }
 }
 
-TEST(StepClearance, RefusesAStepOfNoLength) {
+TEST(StepClearance, RefusesAStepOfNoLengthAndASpatialModel) {
   std::mt19937 random(3);
   const auto model = dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(&random, 2));
   EXPECT_THROW(StepClearance(model, {}, {1, 1, 0.1}), std::invalid_argument);
+  const auto spatial = dynamics::MultibodyModel::OnJoints(dynamics::RandomTree(&random, 2));
+  EXPECT_THROW(StepClearance(spatial, {}, {1, 2, 0.1}), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@
 namespace possibility::dynamics {
 namespace {
 
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -96,6 +98,52 @@ TEST(MultibodyModelTest, APlanarModelMovesInItsPlane) {
                             both * (Vector3d(0.1, 0.2, 0.3) + Vector3d(0.5, 0, 0));
   EXPECT_LT((dynamics.Position({2, Vector3d::Zero()}) - expected).norm(), 1e-14);
   EXPECT_EQ(model->Displaced(q, VectorXd::Ones(5)), q + VectorXd::Ones(5));
+}
+
+TEST(MultibodyModelTest, ALockedJointStaysWhereItIs) {
+  std::mt19937 random(7);
+  models::RobotModel tree = RandomTree(&random, 5);
+  tree.joints[4].mimic = models::Mimic{1, 3, 0.2};
+  const auto locked = MultibodyModel::OnJoints(tree, {{1, 0.3}});
+  const auto free = MultibodyModel::OnJoints(tree);
+  EXPECT_EQ(locked->num_joints(), 3);
+  EXPECT_EQ(locked->joints(), (std::vector<int>{6, 8, 9}));
+  const VectorXd q = RandomVector(&random, 9, 1);
+  VectorXd with_locked(10);
+  with_locked << q.head(7), 0.3, q.tail(2);
+  EXPECT_EQ(locked->TreeConfiguration(q), free->TreeConfiguration(with_locked));
+  EXPECT_EQ(locked->TreeVelocity(q)[6 + 7], 0);
+  EXPECT_EQ(locked->TreeVelocity(q)[6 + 10], 0);  // the mimic of the locked joint
+  EXPECT_THROW(MultibodyModel::OnJoints(tree, {{5, 0}}), std::invalid_argument);
+  EXPECT_THROW(MultibodyModel::OnJoints(tree, {{4, 0}}), std::invalid_argument);
+  EXPECT_THROW(MultibodyModel::OnJoints(tree, {{1, std::nan("")}}), std::invalid_argument);
+}
+
+TEST(MultibodyModelTest, KnowsWhichVelocitiesMoveWhichLinks) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    models::RobotModel tree = RandomTree(&random, 6);
+    if (trial % 2 == 0) tree.joints[1].mimic = models::Mimic{3, -2, 0.5};
+    for (const auto& model : {MultibodyModel::Spatial(tree), MultibodyModel::OnJoints(tree)}) {
+      MultibodyDynamics dynamics(model);
+      VectorXd q = RandomVector(&random, model->nq(), 1);
+      if (model->base() == Base::kFloating) q.head<4>().normalize();
+      dynamics.SetState(q, VectorXd::Zero(model->nv()));
+      MatrixXd J(3, model->nv());
+      for (int link = 0; link < model->tree().num_links(); ++link) {
+        dynamics.Jacobian({link, RandomVector(&random, 3, 0.3)}, J);
+        for (int i = 0; i < model->nv(); ++i) {
+          EXPECT_EQ(J.col(i).isZero(0), !model->Moves(i, link)) << i << " " << link;
+        }
+      }
+      const MatrixXd M = dynamics.MassMatrix();
+      for (int i = 6; i < model->nv(); ++i) {
+        for (int j = 6; j < model->nv(); ++j) {
+          EXPECT_EQ(M(i, j) == 0.0, !model->AreRelated(i, j)) << i << " " << j;
+        }
+      }
+    }
+  }
 }
 
 TEST(MultibodyModelTest, RefusesInvalidModelsAndSizes) {

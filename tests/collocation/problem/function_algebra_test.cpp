@@ -1,15 +1,16 @@
-#include "experiments/problems/linear_extension.h"
+#include "collocation/problem/function_algebra.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
-namespace possibility::experiments {
+#include "tests/collocation/robot/exact_derivatives.h"
+
+namespace possibility::collocation {
 namespace {
 
-using collocation::Differentiated;
-using collocation::Function;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -32,28 +33,31 @@ TEST(LinearExtension, DerivativesAgreeWithDifferences) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 50; ++trial) {
     const auto f = LinearExtension(Inner(), Sparse(3, 4, &random), Sparse(2, 4, &random));
-    const VectorXd z = VectorXd::NullaryExpr(4, [&] { return std::normal_distribution()(random); });
-    const VectorXd multipliers = VectorXd::Random(2);
-    MatrixXd J(2, 4), H(4, 4);
-    f->Jacobian(z, &J);
-    f->Hessian(z, multipliers, &H);
-    constexpr double kStep = 1e-5;
-    for (int i = 0; i < 4; ++i) {
-      VectorXd above = z, below = z, y_above(2), y_below(2);
-      above[i] += kStep;
-      below[i] -= kStep;
-      f->Evaluate(above, &y_above);
-      f->Evaluate(below, &y_below);
-      EXPECT_LT(((y_above - y_below) / (2 * kStep) - J.col(i)).norm(), 1e-7);
-      MatrixXd J_above(2, 4), J_below(2, 4);
-      f->Jacobian(above, &J_above);
-      f->Jacobian(below, &J_below);
-      const VectorXd row = (J_above - J_below).transpose() * multipliers / (2 * kStep);
-      EXPECT_LT((row - H.col(i)).norm(), 1e-7);
-    }
-    EXPECT_EQ((!f->JacobianMask() && J.array() != 0).count(), 0);
-    EXPECT_EQ((!f->HessianMask() && H.array() != 0).count(), 0);
+    ExpectExactDerivatives(
+        f.get(), VectorXd::NullaryExpr(4, [&] { return std::normal_distribution()(random); }),
+        VectorXd::Random(2));
   }
+}
+
+TEST(SeparateSum, AddsTheFunctionsWithTheirDerivatives) {
+  const auto angle = Differentiated<1, 2>([](const auto& z, auto* y) {
+    (*y)[0] = cos(z[0]);
+    (*y)[1] = z[0];
+  });
+  const auto sum = SeparateSum(Inner(), angle);
+  const Eigen::Vector4d z(0.3, -0.7, 1.1, 0.4);
+  Eigen::VectorXd y(2);
+  sum->Evaluate(z, &y);
+  EXPECT_DOUBLE_EQ(y[0], 0.3 * std::sin(-0.7) + std::cos(0.4));
+  EXPECT_DOUBLE_EQ(y[1], -0.7 * 1.1 * 1.1 + 0.4);
+  ExpectExactDerivatives(sum.get(), z, Eigen::Vector2d(0.8, -1.3));
+  // Neither argument knows the other.
+  EXPECT_FALSE(sum->HessianMask().topRightCorner(3, 1).any());
+}
+
+TEST(SeparateSum, RefusesFunctionsOfDifferentSizes) {
+  const auto one = Differentiated<1, 1>([](const auto& z, auto* y) { (*y)[0] = z[0]; });
+  EXPECT_THROW(SeparateSum(Inner(), one), std::invalid_argument);
 }
 
 TEST(LinearExtension, IsTheSumOfTheFunctionAndALinearTerm) {
@@ -75,4 +79,4 @@ TEST(LinearExtension, RefusesMatricesOfTheWrongSize) {
 }
 
 }  // namespace
-}  // namespace possibility::experiments
+}  // namespace possibility::collocation
