@@ -1,10 +1,10 @@
 #include "collocation/kkt/kkt_analysis.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <numeric>
 #include <utility>
+
+#include "collocation/kkt/kkt_order.h"
 
 namespace possibility::collocation {
 namespace {
@@ -30,72 +30,6 @@ Graph MakeGraph(int size, const std::vector<KktEdge>& edges, const std::vector<i
     graph.neighbour[next[label[edge.column]]++] = label[edge.row];
   }
   return graph;
-}
-
-/// For each row, the dual row that it is paired with, or -1.
-std::vector<int> PairDualRows(int size, int num_dual, const std::vector<KktEdge>& edges) {
-  const int first_dual = size - num_dual;
-  std::vector<std::vector<std::pair<double, int>>> choices(num_dual);
-  for (const KktEdge& edge : edges) {
-    const int dual = std::max(edge.row, edge.column);
-    const int primal = std::min(edge.row, edge.column);
-    if (dual >= first_dual && primal < first_dual && edge.weight > 0) {
-      choices[dual - first_dual].emplace_back(edge.weight, primal);
-    }
-  }
-  // Rows with the fewest choices choose first.
-  std::vector<int> turn(num_dual);
-  std::iota(turn.begin(), turn.end(), 0);
-  std::stable_sort(turn.begin(), turn.end(),
-                   [&](int a, int b) { return choices[a].size() < choices[b].size(); });
-  std::vector<int> partner(size, -1);
-  for (const int dual : turn) {
-    std::pair<double, int> best(0, -1);
-    for (const auto& choice : choices[dual]) {
-      if (partner[choice.second] < 0 && choice.first > best.first) best = choice;
-    }
-    if (best.second >= 0) partner[best.second] = first_dual + dual;
-  }
-  return partner;
-}
-
-/// Position -> row: approximate minimum degree on the graph whose nodes are pairs and single rows.
-std::vector<int> OrderPairs(int size, const std::vector<KktEdge>& edges,
-                            const std::vector<int>& partner) {
-  std::vector<int> node(size, -1);
-  std::vector<int> head;
-  std::vector<bool> is_second(size, false);
-  for (const int second : partner) {
-    if (second >= 0) is_second[second] = true;
-  }
-  for (int row = 0; row < size; ++row) {
-    if (is_second[row]) continue;
-    node[row] = static_cast<int>(head.size());
-    if (partner[row] >= 0) node[partner[row]] = node[row];
-    head.push_back(row);
-  }
-  std::vector<Eigen::Triplet<double>> places;
-  places.reserve(edges.size());
-  for (const KktEdge& edge : edges) {
-    const auto [low, high] = std::minmax(node[edge.row], node[edge.column]);
-    if (low != high) places.emplace_back(high, low, 1.0);
-  }
-  const int num_nodes = static_cast<int>(head.size());
-  // Eigen's AMD takes a node without a diagonal entry for a dense one.
-  for (int k = 0; k < num_nodes; ++k) places.emplace_back(k, k, 1.0);
-  Eigen::SparseMatrix<double> graph(num_nodes, num_nodes);
-  graph.setFromTriplets(places.begin(), places.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(graph, order);
-
-  std::vector<int> variable_at;
-  variable_at.reserve(size);
-  for (int k = 0; k < num_nodes; ++k) {
-    const int row = head[order.indices()[k]];
-    variable_at.push_back(row);
-    if (partner[row] >= 0) variable_at.push_back(partner[row]);
-  }
-  return variable_at;
 }
 
 /// Parent of each position in the elimination tree, or -1 (Liu 1990, with path compression).
@@ -287,28 +221,50 @@ std::vector<int> Inverse(const std::vector<int>& permutation) {
   return inverse;
 }
 
-}  // namespace
-
-KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
-                       const CancellationToken& cancellation) {
+/// Groups the rows into fronts. `variable_at`: elimination position -> row.
+KktAnalysis FrontsOf(const std::vector<int>& variable_at, const std::vector<KktEdge>& edges,
+                     const CancellationToken& cancellation) {
   auto step = [&cancellation](auto result) {
     cancellation.ThrowIfCancelled();
     return result;
   };
-  const std::vector<int> partner = step(PairDualRows(size, num_dual, edges));
-  std::vector<int> variable_at = step(OrderPairs(size, edges, partner));
-  const std::vector<int> parent =
-      step(EliminationTree(MakeGraph(size, edges, Inverse(variable_at))));
+  const std::vector<int> parent = step(EliminationTree(
+      MakeGraph(static_cast<int>(variable_at.size()), edges, Inverse(variable_at))));
   std::vector<int> reordered;
-  reordered.reserve(size);
+  reordered.reserve(variable_at.size());
   for (const int position : Postorder(parent)) reordered.push_back(variable_at[position]);
-  const Graph graph = step(MakeGraph(size, edges, Inverse(reordered)));
+  const Graph graph =
+      step(MakeGraph(static_cast<int>(variable_at.size()), edges, Inverse(reordered)));
   std::vector<Group> groups = step(FundamentalGroups(graph, EliminationTree(graph)));
   MergeSmallGroups(&groups);
   KktAnalysis analysis;
   LayOutFronts(groups, &analysis, reordered);
   analysis.position_of = Inverse(analysis.variable_at);
   return step(std::move(analysis));
+}
+
+}  // namespace
+
+double KktAnalysis::Flops() const {
+  double flops = 0;
+  for (const KktFront& front : fronts) {
+    const auto size =
+        static_cast<double>(front.num_columns) + static_cast<double>(front.rows.size());
+    for (int k = 0; k < front.num_columns; ++k) flops += (size - k) * (size - k);
+  }
+  return flops;
+}
+
+KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
+                       const std::vector<double>& times, const CancellationToken& cancellation) {
+  const KktPairs pairs(size, num_dual, edges, times);
+  cancellation.ThrowIfCancelled();
+  KktAnalysis analysis = FrontsOf(pairs.OrderByDegree(), edges, cancellation);
+  if (const auto order = pairs.OrderAlongTime()) {
+    KktAnalysis along_time = FrontsOf(*order, edges, cancellation);
+    if (along_time.Flops() < analysis.Flops()) return along_time;
+  }
+  return analysis;
 }
 
 }  // namespace possibility::collocation

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "collocation/kkt/kkt_order.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::collocation {
@@ -23,21 +24,16 @@ struct KktAnalysis {
   std::vector<int> variable_at;  ///< elimination position -> row of the matrix
   std::vector<int> position_of;  ///< its inverse
   std::vector<KktFront> fronts;  ///< children before parents, each subtree contiguous
-};
 
-/// An off-diagonal entry of a symmetric matrix, with its relative size.
-struct KktEdge {
-  int row = 0;
-  int column = 0;
-  double weight = 0;
+  /// Multiplications of a factorisation without delayed pivots.
+  double Flops() const;
 };
 
 /// Orders the `size` rows of a symmetric indefinite matrix for little fill and groups them into
-/// fronts. Each of the last `num_dual` rows, which may have a zero diagonal, is paired with its
-/// heaviest neighbour among the other rows that is still free, so that the two can serve as one 2x2
-/// pivot (Duff & Pralet 2005). The pairs are then ordered by approximate minimum degree.
-/// `cancellation` is asked from time to time. @throws Cancelled.
+/// fronts. `num_dual`, `times`: as KktPairs takes them. Of the orders by degree and along time, the
+/// one that needs fewer operations is taken. `cancellation` is asked from time to time.
+/// @throws Cancelled.
 KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
-                       const CancellationToken& cancellation);
+                       const std::vector<double>& times, const CancellationToken& cancellation);
 
 }  // namespace possibility::collocation

@@ -18,9 +18,14 @@ constexpr int kFrontsPerQuestion = 16;
 }  // namespace
 
 KktFactorisation::KktFactorisation(int size, int num_dual, std::vector<int> rows,
-                                   std::vector<int> columns)
-    : size_(size), num_dual_(num_dual), rows_(std::move(rows)), columns_(std::move(columns)) {
-  if (size < 0 || num_dual < 0 || num_dual > size || rows_.size() != columns_.size()) {
+                                   std::vector<int> columns, std::vector<double> times)
+    : size_(size),
+      num_dual_(num_dual),
+      rows_(std::move(rows)),
+      columns_(std::move(columns)),
+      times_(std::move(times)) {
+  if (size < 0 || num_dual < 0 || num_dual > size || rows_.size() != columns_.size() ||
+      (!times_.empty() && times_.size() != static_cast<size_t>(size))) {
     throw std::invalid_argument("KktFactorisation: sizes do not fit");
   }
   for (size_t t = 0; t < rows_.size(); ++t) {
@@ -45,7 +50,7 @@ void KktFactorisation::Analyse(const double* values, const CancellationToken& ca
     const double bound = std::sqrt(largest[rows_[t]]) * std::sqrt(largest[columns_[t]]);
     edges.push_back({rows_[t], columns_[t], bound > 0 ? std::abs(values[t]) / bound : 0});
   }
-  analysis_ = AnalyseKkt(size_, num_dual_, edges, cancellation);
+  analysis_ = AnalyseKkt(size_, num_dual_, edges, times_, cancellation);
 
   SortPlaces();
   const int places = static_cast<int>(place_row_.size());

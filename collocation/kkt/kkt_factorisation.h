@@ -24,9 +24,10 @@ class KktFactorisation {
  public:
   /// The pattern: entry t couples rows[t] and columns[t] (0-based, either triangle, each
   /// off-diagonal entry given once; repeated entries add up). The last `num_dual` rows may have a
-  /// zero diagonal: a hint for the ordering.
-  /// @throws std::invalid_argument for an index out of range.
-  KktFactorisation(int size, int num_dual, std::vector<int> rows, std::vector<int> columns);
+  /// zero diagonal; `times` as KktPairs takes them: hints for the ordering.
+  /// @throws std::invalid_argument for an index out of range or sizes that do not fit.
+  KktFactorisation(int size, int num_dual, std::vector<int> rows, std::vector<int> columns,
+                   std::vector<double> times = {});
 
   /// `values`: one per entry of the pattern. A pivot is accepted if it bounds the multipliers by
   /// 1 / pivot_threshold, in (0, 0.5]. `cancellation` is asked from time to time.
@@ -43,6 +44,8 @@ class KktFactorisation {
   int num_negative() const { return num_negative_; }
   /// Number of columns delayed to a later front for lack of a pivot, counted once per front left.
   int num_delayed() const { return num_delayed_; }
+  /// Multiplications of a factorisation without delayed columns; 0 before the first.
+  double flops() const { return analysis_.Flops(); }
   /// Number of stored entries of the factor.
   size_t factor_size() const { return factor_.size(); }
 
@@ -75,6 +78,7 @@ class KktFactorisation {
   int size_;
   int num_dual_;
   std::vector<int> rows_, columns_;
+  std::vector<double> times_;
   bool analysed_ = false;
   KktAnalysis analysis_;
 

@@ -49,6 +49,11 @@ class NonlinearProgram {
   /// For messages: "swing, knot 3: knee_rate".
   virtual std::string VariableName(int variable) const = 0;
   virtual std::string ConstraintName(int constraint) const = 0;
+  /// Places along time of variables and constraints, in any unit; NaN: of no instant. A hint for
+  /// the linear algebra: couplings of neighbouring instants only are quick to factorise. Empty: the
+  /// program has no time.
+  virtual std::vector<double> VariableTimes() const { return {}; }
+  virtual std::vector<double> ConstraintTimes() const { return {}; }
   /// Divisors of variables and constraints, so that messages can report their own units.
   virtual double VariableScale(int) const { return 1; }
   virtual double ConstraintScale(int) const { return 1; }

@@ -77,8 +77,8 @@ void Register() {
 
 }  // namespace
 
-HslScope::HslScope(int num_dual, SolveClock* clock)
-    : num_dual_(num_dual), clock_(clock), outer_(current_scope) {
+HslScope::HslScope(int num_dual, std::vector<double> times, SolveClock* clock)
+    : num_dual_(num_dual), times_(std::move(times)), clock_(clock), outer_(current_scope) {
   Register();
   current_scope = this;
 }
@@ -95,8 +95,10 @@ void HslScope::SetPattern(const void* instance, int size, int entries, const int
     for (int& index : shifted) --index;
     return shifted;
   };
+  const bool fits = times_.size() == static_cast<std::size_t>(size);
   factorisations_[instance] = std::make_unique<KktFactorisation>(
-      size, std::min(num_dual_, size), zero_based(rows), zero_based(columns));
+      size, std::min(num_dual_, size), zero_based(rows), zero_based(columns),
+      fits ? times_ : std::vector<double>());
 }
 
 std::optional<KktStatus> HslScope::Factorise(const void* instance, const double* values,

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "collocation/kkt/kkt_factorisation.h"
 #include "collocation/solver/solve_clock.h"
@@ -17,9 +18,10 @@ namespace possibility::collocation {
 /// pass through Ipopt: it would leak its work arrays.
 class HslScope {
  public:
-  /// `num_dual`: number of constraint rows, which come last in Ipopt's augmented system. `clock` is
-  /// asked during the computations and must outlive the scope.
-  HslScope(int num_dual, SolveClock* clock);
+  /// `num_dual`: number of constraint rows, which come last in Ipopt's augmented system. `times`:
+  /// of the augmented system's rows, as KktPairs takes them; not used for a system of another size.
+  /// `clock` is asked during the computations and must outlive the scope.
+  HslScope(int num_dual, std::vector<double> times, SolveClock* clock);
   ~HslScope();
   HslScope(const HslScope&) = delete;
   HslScope& operator=(const HslScope&) = delete;
@@ -40,6 +42,7 @@ class HslScope {
 
  private:
   int num_dual_;
+  std::vector<double> times_;
   SolveClock* clock_;
   HslScope* outer_;
   std::map<const void*, std::unique_ptr<KktFactorisation>> factorisations_;

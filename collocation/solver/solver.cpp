@@ -246,12 +246,35 @@ void ReadIpoptTimes(Ipopt::IpoptApplication* application, SolverTimes* times) {
       statistics.StdAugSystemSolverMultiSolve().TotalWallclockTime() - times->back_solves;
 }
 
+/// Places along time of the rows of Ipopt's augmented system: free variables, slacks of
+/// inequalities, equalities, inequalities. Empty if the program has no time.
+std::vector<double> AugmentedTimes(const NonlinearProgram& program) {
+  const std::vector<double> variables = program.VariableTimes();
+  const std::vector<double> constraints = program.ConstraintTimes();
+  std::vector<double> times, equalities, inequalities;
+  if (variables.empty() || constraints.empty()) return times;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (program.lower()[k] != program.upper()[k]) times.push_back(variables[i]);
+  }
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const bool is_equality = program.constraint_lower()[k] == program.constraint_upper()[k];
+    (is_equality ? equalities : inequalities).push_back(constraints[i]);
+  }
+  for (const auto* part : {&inequalities, &equalities, &inequalities}) {
+    times.insert(times.end(), part->begin(), part->end());
+  }
+  return times;
+}
+
 ApplicationReturnStatus RunIpopt(const SolverOptions& options, const SolverGuess& guess,
                                  const NonlinearProgram& program, SolveClock* clock,
                                  const Ipopt::SmartPtr<IpoptAdapter>& adapter, SolverTimes* times) {
   std::optional<HslScope> scope;
-  if (options.linear_solver == LinearSolver::kSparseLdlt)
-    scope.emplace(program.num_constraints(), clock);
+  if (options.linear_solver == LinearSolver::kSparseLdlt) {
+    scope.emplace(program.num_constraints(), AugmentedTimes(program), clock);
+  }
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   SetIpoptOptions(options, IsWarm(guess), LargestBound(program), Ipopt::GetRawPtr(application));
   ApplicationReturnStatus status = application->Initialize("");

@@ -54,6 +54,11 @@ class Transcription : public NonlinearProgram {
     return functions_.row_scales().at(constraint);
   }
   double VariableScale(int variable) const override { return layout_.scales().at(variable); }
+  /// Phases follow each other; each takes one unit.
+  std::vector<double> VariableTimes() const override { return layout_.TimesOf(layout_.names()); }
+  std::vector<double> ConstraintTimes() const override {
+    return layout_.TimesOf(functions_.row_names());
+  }
 
   /// The problem's own guesses.
   Eigen::VectorXd InitialGuess() const;

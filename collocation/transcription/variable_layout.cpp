@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace possibility::collocation {
@@ -256,6 +257,17 @@ std::string VariableLayout::FullName(const PlacedName& name) const {
 double VariableLayout::DurationOf(int phase, const Eigen::VectorXd& x) const {
   const PhaseLayout& layout = phases_[phase];
   return layout.duration < 0 ? layout.fixed_duration : x[layout.duration];
+}
+
+std::vector<double> VariableLayout::TimesOf(const std::vector<PlacedName>& names) const {
+  std::vector<double> times;
+  times.reserve(names.size());
+  for (const PlacedName& name : names) {
+    const bool is_placed = name.phase >= 0 && name.point >= 0;
+    times.push_back(is_placed ? name.phase + phases_[name.phase].points[name.point].share
+                              : std::numeric_limits<double>::quiet_NaN());
+  }
+  return times;
 }
 
 }  // namespace possibility::collocation

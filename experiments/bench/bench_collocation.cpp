@@ -9,6 +9,7 @@
 #include "collocation/solver/solver.h"
 #include "collocation/study/optimal_control.h"
 #include "collocation/transcription/transcription.h"
+#include "experiments/bench/bench_spatial_step.h"
 #include "experiments/bench/differenced_program.h"
 #include "experiments/problems/regression_problems.h"
 #include "experiments/problems/robot_problems.h"
@@ -20,6 +21,7 @@ namespace {
 using namespace collocation;  // most of this file is calls to it
 
 constexpr int kRounds = 3;
+constexpr int kSpatialGuesses = 100;
 constexpr double kSecondsPerBatch = 0.02;  // short solves are repeated for about this long
 constexpr double kOnceSeconds = 2;         // longer ones are not repeated in later rounds
 constexpr double kPatience = 15;           // times the duration of the exact solve
@@ -269,7 +271,7 @@ BenchmarkReport BenchCollocation(const models::RobotModel& robot,
     tally.AddRound(contests);
   }
   const double throughput = Throughput(problems);
-  progress(kRounds, kRounds);
+  const auto spatial_step = BenchSpatialStep(robot, kSpatialGuesses, progress);
 
   const Filter all = [](const Contest&) { return true; };
   const Filter robots = [](const Contest& contest) { return contest.is_robot; };
@@ -287,6 +289,7 @@ BenchmarkReport BenchCollocation(const models::RobotModel& robot,
        tally.Ratio("first mesh, limited memory", "first mesh", contests, all),
        "limited-memory Hessian / exact"},
       {"two_thread_throughput", throughput, "solves by two threads / by one"}};
+  report.groups = {{"spatial_step", spatial_step}};
   return report;
 }
 

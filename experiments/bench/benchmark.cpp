@@ -105,6 +105,9 @@ nlohmann::ordered_json BenchmarkReport::Json() const {
   json["ratios"] = nlohmann::ordered_json::object();
   for (const BenchmarkRatio& ratio : ratios) json["ratios"][ratio.name] = ratio.value;
   for (const auto& [name, value] : figures) json[name] = value;
+  for (const auto& [group, values] : groups) {
+    for (const auto& [name, value] : values) json[group][name] = value;
+  }
   return json;
 }
 
@@ -117,6 +120,11 @@ std::string BenchmarkReport::Text() const {
   }
   for (const BenchmarkRatio& ratio : ratios) {
     text += fmt::format("{:<28}{:>8.2f}   {}\n", ratio.name, ratio.value, ratio.meaning);
+  }
+  for (const auto& [group, values] : groups) {
+    text += group + ":";
+    for (const auto& [name, value] : values) text += fmt::format("  {} {:.4g}", name, value);
+    text += "\n";
   }
   return text;
 }

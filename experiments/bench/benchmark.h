@@ -35,9 +35,11 @@ struct BenchmarkReport {
   std::vector<BenchmarkRatio> ratios;
   /// Figures that are not ratios: "cold_s_median", ...
   std::vector<std::pair<std::string, double>> figures;
+  /// Figures that belong together, by name: "spatial_step".
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, double>>>> groups;
 
-  /// {"rows": [{"name", "microseconds", and each figure}...], "ratios": {name: value...}, and each
-  /// figure}
+  /// {"rows": [{"name", "microseconds", and each figure}...], "ratios": {name: value...}, each
+  /// figure, and each group as an object}
   nlohmann::ordered_json Json() const;
   std::string Text() const;
   /// Median over rounds of slow / fast, the two of a round measured close together. Rows by name.

@@ -10,6 +10,7 @@
 #include "collocation/robot/point_functions.h"
 #include "collocation/robot/robot_phase.h"
 #include "dynamics/sagittal/sagittal_reduction.h"
+#include "experiments/problems/walking_step.h"
 
 namespace possibility::experiments {
 namespace {
@@ -74,7 +75,12 @@ std::vector<RegressionProblem> RobotProblems(const models::RobotModel& humanoid)
            "ours: both linear solvers, and a mesh of 80 intervals",
            {{"global", 0.478078, 1e-5}},
            [humanoid] { return SquatToStand(humanoid); },
-           20}};
+           20},
+          {"drchubo1_walking_step",
+           "ours: both linear solvers, and a mesh of 40 intervals",
+           {{"global", 0.846036, 2e-5}},
+           [humanoid] { return WalkingStep(humanoid); },
+           15}};
 }
 
 }  // namespace possibility::experiments
