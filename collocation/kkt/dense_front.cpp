@@ -5,11 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "collocation/kkt/rank_update.h"
+
 namespace possibility::collocation {
 namespace {
 
 using Column = Eigen::Map<Eigen::VectorXd>;
-using Panel = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
 constexpr int kWindow = 32;              // columns that one block of pivots updates at once
 constexpr double kSafeThreshold = 0.01;  // tried before the caller's threshold, which is laxer
@@ -158,23 +159,8 @@ void DenseFront::UpdateTrailing(int first_pivot, int from) {
   const int count = pending_;
   pending_ = 0;
   if (rows == 0 || count == 0) return;
-  if (static_cast<double>(rows) * rows * count < 2000) {  // too small for a blocked product
-    for (int p = 0; p < count; ++p) {
-      const double* multipliers = column(first_pivot + p);
-      const double* scaled = scaled_.data() + static_cast<size_t>(p) * size_;
-      for (int j = from; j < size_; ++j) {
-        if (scaled[j] == 0) continue;
-        double* target = column(j);
-        for (int i = j; i < size_; ++i) target[i] -= scaled[j] * multipliers[i];
-      }
-    }
-    return;
-  }
-  const Eigen::OuterStride<> stride(size_);
-  const Panel multipliers(column(first_pivot) + from, rows, count, stride);
-  const Panel scaled(scaled_.data() + from, rows, count, stride);
-  Panel(column(from) + from, rows, rows, stride).triangularView<Eigen::Lower>() -=
-      multipliers * scaled.transpose();
+  LowerProducts().front()(rows, count, size_, column(first_pivot) + from, scaled_.data() + from,
+                          column(from) + from);
 }
 
 void DenseFront::Eliminate(int candidates, double threshold, bool last,
