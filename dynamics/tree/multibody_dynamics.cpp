@@ -135,6 +135,8 @@ Eigen::Vector3d MultibodyDynamics::Acceleration(const ContactPoint& point) const
   return tree_.Acceleration(point.link, point.p_L);
 }
 
+// A writable Eigen::Ref is passed by value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void MultibodyDynamics::Jacobian(const ContactPoint& point, Eigen::Ref<MatrixXd> J) const {
   CheckPoint(point);
   if (model_->is_identity()) {
@@ -168,9 +170,10 @@ void MultibodyDynamics::AddPointForce(const ContactPoint& point, const Eigen::Ve
   forces.noalias() += J.transpose() * force;
 }
 
-void MultibodyDynamics::AddPointForceDerivative(const ContactPoint& point,
-                                                const Eigen::Vector3d& force,
-                                                Eigen::Ref<MatrixXd> dq) const {
+void MultibodyDynamics::AddPointForceDerivative(
+    const ContactPoint& point, const Eigen::Vector3d& force,
+    // NOLINTNEXTLINE(performance-unnecessary-value-param)
+    Eigen::Ref<MatrixXd> dq) const {
   CheckPoint(point);
   if (model_->is_identity()) {
     tree_.AddPointForceDerivative(point.link, point.p_L, force, dq);

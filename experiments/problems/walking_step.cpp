@@ -54,6 +54,7 @@ std::map<int, double> LockedJoints(const models::RobotModel& robot, const models
 std::vector<ContactPoint> SolePoints(const dynamics::MultibodyModel& model, int contact) {
   const models::ContactPatch& patch = model.tree().contacts[contact];
   std::vector<ContactPoint> points;
+  points.reserve(patch.points.size());
   for (const Vector3d& p_L : patch.points) points.push_back({patch.link, p_L});
   return points;
 }
