@@ -1,7 +1,8 @@
-// Errors of a transcribed motion in its constraints between the points where they were imposed.
+// Errors of a transcribed motion between the points where its problem was imposed.
 #include "collocation/study/mesh_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -9,36 +10,141 @@ namespace possibility::collocation {
 
 namespace {
 
-/// Evaluates the equality constraints of one phase anywhere along a trajectory.
-class MeshErrorEstimate {
+using Eigen::VectorXd;
+
+/// One point of a quadrature over [0, 1].
+struct QuadraturePoint {
+  double share;
+  double weight;
+};
+
+/// Gauss and Legendre's rule of five points: exact for polynomials of degree 9.
+const std::array<QuadraturePoint, 5>& GaussPoints() {
+  static const std::array<QuadraturePoint, 5> points = [] {
+    const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3;
+    const double outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
+    const double inner_weight = (322 + 13 * std::sqrt(70.0)) / 1800;
+    const double outer_weight = (322 - 13 * std::sqrt(70.0)) / 1800;
+    return std::array<QuadraturePoint, 5>{{{(1 - outer) / 2, outer_weight},
+                                           {(1 - inner) / 2, inner_weight},
+                                           {0.5, 64.0 / 225},
+                                           {(1 + inner) / 2, inner_weight},
+                                           {(1 + outer) / 2, outer_weight}}};
+  }();
+  return points;
+}
+
+double Excess(double value, const Bounds& bounds) {
+  return std::max({0.0, bounds.lower - value, value - bounds.upper});
+}
+
+bool IsEquality(const Bounds& bounds) { return bounds.lower == bounds.upper; }
+
+/// What holds everywhere, perhaps the ends excepted.
+bool HoldsBetween(At at) { return at != At::kStart && at != At::kEnd; }
+
+/// Evaluates one phase of a problem anywhere along a trajectory.
+class PhaseBetweenKnots {
  public:
-  MeshErrorEstimate(const OptimalControlProblem& problem, const Trajectory& trajectory, int phase)
+  PhaseBetweenKnots(const OptimalControlProblem& problem, const Trajectory& trajectory, int phase)
       : phase_(problem.phase(phase)),
         motion_(trajectory.phases[phase]),
         parameters_(trajectory.parameters) {}
 
-  /// Greatest integral of |residual| / scale over one mesh interval, by the midpoint rule; infinite
-  /// if a function is undefined there.
-  double Of(int interval) const {
-    constexpr int kSamples = 10;
-    const double begin = motion_.mesh[interval];
-    const double share = motion_.mesh[interval + 1] - begin;
-    double greatest = 0;
+  int num_intervals() const { return static_cast<int>(motion_.mesh.size()) - 1; }
+
+  /// All but the cost, by the midpoint rule.
+  MeshError ErrorOf(int interval) const {
+    MeshError error;
     for (const Phase::PathConstraint& constraint : phase_.constraints()) {
-      if (constraint.at != At::kEverywhere && constraint.at != At::kAfterStart) continue;
-      Eigen::VectorXd sum = Eigen::VectorXd::Zero(constraint.function->num_outputs());
-      for (int i = 0; i < kSamples; ++i) {
-        sum += Residual(constraint, begin + share * (i + 0.5) / kSamples);
-      }
-      const double h = share * motion_.duration / kSamples;
-      if (sum.size() == 0) continue;
-      const double error = sum.allFinite() ? h * sum.maxCoeff() : kInfinity;
-      greatest = std::max(greatest, error);
+      if (!HoldsBetween(constraint.at)) continue;
+      VectorXd equalities = VectorXd::Zero(constraint.function->num_outputs());
+      VectorXd inequalities = equalities;
+      ForSamples(interval, [&](double s, double h) {
+        const VectorXd excess = h * ExcessAt(constraint, s);
+        for (Eigen::Index o = 0; o < excess.size(); ++o) {
+          (IsEquality(constraint.bounds[o]) ? equalities : inequalities)[o] += excess[o];
+        }
+      });
+      Raise(equalities, &error.dynamics);
+      Raise(inequalities, &error.inequalities);
     }
-    return greatest;
+    AddBounds(interval, &error);
+    return error;
+  }
+
+  /// The integral costs of an interval as they were minimised.
+  double TranscribedCost(int interval) const {
+    const TranscriptionScheme& scheme = motion_.scheme;
+    const VectorXd weights = scheme.weights();
+    double sum = 0;
+    for (int node = 0; node < scheme.num_nodes(); ++node) {
+      sum += weights[node] * CostAt(ShareAt(interval, scheme.nodes[node]));
+    }
+    return sum * LengthOf(interval);
+  }
+
+  /// The same along the motion.
+  double TrueCost(int interval) const {
+    double sum = 0;
+    for (const QuadraturePoint& point : GaussPoints()) {
+      sum += point.weight * CostAt(ShareAt(interval, point.share));
+    }
+    return sum * LengthOf(interval);
   }
 
  private:
+  double ShareAt(int interval, double share) const {
+    const double begin = motion_.mesh[interval];
+    return begin + share * (motion_.mesh[interval + 1] - begin);
+  }
+  double LengthOf(int interval) const {  // s
+    return (motion_.mesh[interval + 1] - motion_.mesh[interval]) * motion_.duration;
+  }
+
+  /// Calls use(share of the phase, s that the sample stands for).
+  template <typename Use>
+  void ForSamples(int interval, const Use& use) const {
+    constexpr int kSamples = 10;
+    for (int i = 0; i < kSamples; ++i) {
+      use(ShareAt(interval, (i + 0.5) / kSamples), LengthOf(interval) / kSamples);
+    }
+  }
+
+  static void Raise(const VectorXd& sums, double* error) {
+    if (sums.size() == 0) return;
+    *error = std::max(*error, sums.allFinite() ? sums.maxCoeff() : kInfinity);
+  }
+
+  void AddBounds(int interval, MeshError* error) const {
+    for (std::size_t order = 0; order < motion_.coordinates.size(); ++order) {
+      VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.coordinates().size()));
+      ForSamples(interval, [&](double s, double h) {
+        const VectorXd values = motion_.Coordinates(s, static_cast<int>(order));
+        for (Eigen::Index i = 0; i < sums.size(); ++i) {
+          sums[i] += h * ExcessOf(phase_.coordinates()[i][order], values[i]);
+        }
+      });
+      Raise(sums, &error->inequalities);
+    }
+    VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.controls().size()));
+    ForSamples(interval, [&](double s, double h) {
+      const VectorXd values = motion_.Controls(s);
+      for (Eigen::Index i = 0; i < sums.size(); ++i) {
+        sums[i] += h * ExcessOf(phase_.controls()[i], values[i]);
+      }
+    });
+    Raise(sums, &error->inequalities);
+  }
+
+  static double ExcessOf(const Phase::Quantity& quantity, double value) {
+    double excess = 0;
+    for (const auto& [at, bounds] : quantity.bounds) {
+      if (HoldsBetween(at)) excess = std::max(excess, Excess(value, bounds));
+    }
+    return excess / quantity.scale;
+  }
+
   double ValueOf(const Variable& variable, double s) const {
     switch (variable.kind) {
       case VariableKind::kCoordinate:
@@ -55,53 +161,91 @@ class MeshErrorEstimate {
     return 0;
   }
 
-  /// |residual| / scale of the rows that are equalities, 0 for the others.
-  Eigen::VectorXd Residual(const Phase::PathConstraint& constraint, double s) const {
-    Function& f = *constraint.function;
-    Eigen::VectorXd z(f.num_inputs());
-    for (int i = 0; i < f.num_inputs(); ++i) z[i] = ValueOf(constraint.arguments[i], s);
-    Eigen::VectorXd y(f.num_outputs());
+  /// Infinite where the function is not defined.
+  VectorXd Evaluate(Function* f, const std::vector<Variable>& arguments, double s) const {
+    VectorXd z(f->num_inputs());
+    for (int i = 0; i < f->num_inputs(); ++i) z[i] = ValueOf(arguments[i], s);
+    VectorXd y(f->num_outputs());
     try {
-      f.Evaluate(z, &y);
-    } catch (const std::runtime_error&) {  // not defined here
+      f->Evaluate(z, &y);
+    } catch (const std::runtime_error&) {
       y.setConstant(kInfinity);
-      return y;
-    }
-    for (int o = 0; o < f.num_outputs(); ++o) {
-      const Bounds& bounds = constraint.bounds[o];
-      y[o] =
-          bounds.lower == bounds.upper ? std::abs(y[o] - bounds.lower) / constraint.scales[o] : 0;
     }
     return y;
   }
 
+  /// By how much each row lies outside its bounds, divided by its scale.
+  VectorXd ExcessAt(const Phase::PathConstraint& constraint, double s) const {
+    VectorXd y = Evaluate(constraint.function.get(), constraint.arguments, s);
+    for (Eigen::Index o = 0; o < y.size(); ++o) {
+      if (!std::isfinite(y[o])) continue;
+      y[o] = Excess(y[o], constraint.bounds[o]) / constraint.scales[o];
+    }
+    return y;
+  }
+
+  double CostAt(double s) const {
+    double sum = 0;
+    for (const Phase::IntegralCost& cost : phase_.costs()) {
+      sum += cost.weight * Evaluate(cost.function.get(), cost.arguments, s)[0];
+    }
+    return sum;
+  }
+
   const Phase& phase_;
   const PhaseTrajectory& motion_;
-  const Eigen::VectorXd& parameters_;
+  const VectorXd& parameters_;
 };
 
 }  // namespace
 
-std::vector<std::vector<double>> MeshErrors(const OptimalControlProblem& problem,
-                                            const Trajectory& trajectory) {
-  std::vector<std::vector<double>> errors;
+double MeshError::Greatest() const { return std::max({dynamics, cost, inequalities}); }
+
+std::vector<std::vector<MeshError>> MeshErrors(const OptimalControlProblem& problem,
+                                               const Trajectory& trajectory, double objective) {
+  std::vector<std::vector<MeshError>> errors;
+  double magnitude = 0;
   for (int p = 0; p < problem.num_phases(); ++p) {
-    const MeshErrorEstimate estimate(problem, trajectory, p);
+    const PhaseBetweenKnots phase(problem, trajectory, p);
     auto& of_phase = errors.emplace_back();
-    const int intervals = static_cast<int>(trajectory.phases[p].mesh.size()) - 1;
-    for (int i = 0; i < intervals; ++i) of_phase.push_back(estimate.Of(i));
+    for (int i = 0; i < phase.num_intervals(); ++i) {
+      of_phase.push_back(phase.ErrorOf(i));
+      const double transcribed = phase.TranscribedCost(i);
+      magnitude += std::abs(transcribed);
+      const double difference = std::abs(phase.TrueCost(i) - transcribed);
+      of_phase.back().cost = std::isnan(difference) ? kInfinity : difference;
+    }
+  }
+  magnitude = std::max(magnitude, std::abs(objective));
+  for (auto& of_phase : errors) {
+    for (MeshError& error : of_phase) {
+      if (error.cost > 0) error.cost /= magnitude;
+    }
   }
   return errors;
 }
 
-Mesh Refined(const Mesh& mesh, const std::vector<double>& errors, double tolerance, int order) {
+MeshError Worst(const std::vector<std::vector<MeshError>>& errors) {
+  MeshError worst;
+  for (const auto& of_phase : errors) {
+    for (const MeshError& error : of_phase) {
+      worst.dynamics = std::max(worst.dynamics, error.dynamics);
+      worst.cost = std::max(worst.cost, error.cost);
+      worst.inequalities = std::max(worst.inequalities, error.inequalities);
+    }
+  }
+  return worst;
+}
+
+Mesh Refined(const Mesh& mesh, const std::vector<MeshError>& errors, double tolerance, int order) {
   constexpr int kMostParts = 4;
   Mesh refined = {mesh.front()};
   for (std::size_t i = 0; i + 1 < mesh.size(); ++i) {
     int parts = 1;
-    if (errors[i] > tolerance) {
+    const double error = errors[i].Greatest();
+    if (error > tolerance) {
       // The error of an interval is proportional to its length to the power order + 1.
-      const double wanted = std::ceil(std::pow(errors[i] / tolerance, 1.0 / (order + 1)));
+      const double wanted = std::ceil(std::pow(error / tolerance, 1.0 / (order + 1)));
       parts =
           std::isfinite(wanted) ? std::clamp(static_cast<int>(wanted), 2, kMostParts) : kMostParts;
     }

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "collocation/study/mesh_error.h"
-
 namespace possibility::collocation {
 
 namespace {
@@ -58,14 +56,6 @@ void AddUp(const SolverResult& solution, OptimalControlResult* result) {
       &SolverEvaluations::hessian);
 }
 
-double Greatest(const std::vector<std::vector<double>>& errors) {
-  double greatest = 0;
-  for (const auto& phase : errors) {
-    for (const double error : phase) greatest = std::max(greatest, error);
-  }
-  return greatest;
-}
-
 /// Starting point of the first solve: a motion, possibly with multipliers, or the problem's
 /// guesses.
 struct Start {
@@ -107,8 +97,9 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
     if (result.status == SolverStatus::kCancelled) throw Cancelled();
     result.multipliers = program.MultipliersOf(result.solver);
     result.violations = Violations(program, result.solver);
-    const auto errors = MeshErrors(problem, result.trajectory);
-    result.mesh_error = Greatest(errors);
+    const auto errors = MeshErrors(problem, result.trajectory, result.objective);
+    result.mesh_errors = Worst(errors);
+    result.mesh_error = result.mesh_errors.Greatest();
     const bool fine_enough =
         options.mesh_tolerance <= 0 || result.mesh_error <= options.mesh_tolerance;
     if (!result.succeeded() || fine_enough || result.refinements >= options.max_refinements) {

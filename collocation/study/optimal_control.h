@@ -8,6 +8,7 @@
 
 #include "collocation/problem/optimal_control_problem.h"
 #include "collocation/solver/solver.h"
+#include "collocation/study/mesh_error.h"
 #include "collocation/study/stored_solution.h"
 #include "collocation/transcription/transcription.h"
 #include "common/cancellation_token.h"
@@ -41,10 +42,11 @@ struct OptimalControlResult {
   bool dual_start = false;  ///< the first solve started with multipliers, not with a motion alone
   /// By constraint name without point: worst violation of each constraint.
   std::map<std::string, ConstraintViolation> violations;
-  /// For the last mesh: the greatest error between the knots (MeshErrors). For a cancelled solve,
-  /// multipliers, violations and error (NaN) are not computed. If it was cancelled while its
-  /// program was built, there is no trajectory.
+  /// For the last mesh: the greatest error between the knots. For a cancelled solve, multipliers,
+  /// violations and error (NaN) are not computed. If it was cancelled while its program was built,
+  /// there is no trajectory.
   double mesh_error = 0;
+  MeshError mesh_errors;  ///< the same by kind
   int refinements = 0;
   SolverResult solver;            ///< of the last mesh
   SolverTimes times;              ///< of all meshes together

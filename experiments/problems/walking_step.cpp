@@ -68,6 +68,7 @@ std::vector<PointComponent> Hold(const std::vector<ContactPoint>& sole) {
 
 std::vector<PointComponent> Heights(const std::vector<ContactPoint>& points) {
   std::vector<PointComponent> heights;
+  heights.reserve(points.size());
   for (const ContactPoint& point : points) heights.push_back({point, Vector3d::UnitZ()});
   return heights;
 }
