@@ -78,6 +78,7 @@ void SetIpoptOptions(const SolverOptions& options, bool warm, double largest_bou
   list.SetNumericValue("bound_relax_factor", std::min(1e-8, 0.1 * options.constraint_tolerance /
                                                                 std::max(1.0, largest_bound)));
   list.SetIntegerValue("max_iter", options.max_iterations);
+  list.SetNumericValue("obj_scaling_factor", 1 / options.objective_size);
   // Variables are of order one, so iterates this large diverge. If the objective falls linearly,
   // 1000 iterations do not reach Ipopt's own 1e20.
   list.SetNumericValue("diverging_iterates_tol", 1e12);

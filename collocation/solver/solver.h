@@ -22,6 +22,8 @@ enum class HessianMode { kExact, kLimitedMemory };
 struct SolverOptions {
   double tolerance = 1e-8;             ///< scaled optimality error
   double constraint_tolerance = 1e-8;  ///< greatest violation, unscaled
+  /// Typical size of the objective, above 0: optimality is meant as a share of it.
+  double objective_size = 1;
   int max_iterations = 1000;
   double time_limit = 0;  ///< s of wall time; 0: none. Time spent paused does not count.
   LinearSolver linear_solver = LinearSolver::kSparseLdlt;

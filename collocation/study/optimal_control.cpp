@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "collocation/study/scale_check.h"
 
 namespace possibility::collocation {
 
@@ -79,17 +82,46 @@ OptimalControlResult AsCancelled(OptimalControlResult result) {
   return result;
 }
 
+/// The greatest objective of any iterate, in magnitude.
+double ObjectiveSize(const SolverResult& solution) {
+  double size = std::abs(solution.objective);
+  for (const SolverIteration& iteration : solution.history) {
+    size = std::max(size, std::abs(iteration.objective));
+  }
+  return size;
+}
+
+/// Solves. If the objective proves small, puts its size into the options and solves again, from
+/// there: an objective of 1e-9 is optimal to a tolerance of 1e-8 everywhere.
+SolverResult SolveToSize(Transcription* program, const SolverGuess& guess,
+                         const CancellationToken& cancellation,
+                         const std::function<void(const SolverIteration&)>& log,
+                         SolverOptions* options, OptimalControlResult* result) {
+  constexpr double kSmall = 1e-2;  // of the size that was expected
+  SolverResult solution = Solve(program, guess, *options, cancellation, log);
+  AddUp(solution, result);
+  const double size = ObjectiveSize(solution);
+  if (!solution.succeeded() || !(size > 0) || size >= kSmall * options->objective_size) {
+    return solution;
+  }
+  options->objective_size = size;
+  solution = Solve(program, {solution.x, {}, {}, {}}, *options, cancellation, log);
+  AddUp(solution, result);
+  return solution;
+}
+
 void SolveFrom(Start start, const OptimalControlProblem& problem,
                const OptimalControlOptions& options, const CancellationToken& cancellation,
                const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
   OptimalControlResult& result = *out;
+  CheckScales(problem, options.solver.constraint_tolerance);
   std::vector<Mesh> meshes = FirstMeshes(problem, options);
+  SolverOptions solver = options.solver;
   for (;; ++result.refinements) {
     Transcription program(problem, options.scheme, meshes, cancellation);
     const SolverGuess guess = GuessOf(program, start);
     if (result.refinements == 0) result.dual_start = guess.constraint_multipliers.size() > 0;
-    result.solver = Solve(&program, guess, options.solver, cancellation, log);
-    AddUp(result.solver, &result);
+    result.solver = SolveToSize(&program, guess, cancellation, log, &solver, &result);
     result.status = result.solver.status;
     result.message = result.solver.message;
     result.objective = result.solver.objective;

@@ -24,6 +24,8 @@ struct OptimalControlOptions {
   /// The mesh is refined until the error between the knots is below this; 0: never.
   double mesh_tolerance = 0;
   int max_refinements = 6;
+  /// If the objective proves much smaller than solver.objective_size, the problem is solved again
+  /// with its true size: to the solver's tolerance any motion would be the best.
   SolverOptions solver;
 };
 
@@ -61,7 +63,7 @@ struct OptimalControlResult {
 /// Transcribes and solves. If requested, refines the mesh and solves again from the last solution
 /// and its multipliers.
 /// `guess`: starting point in place of the problem's own guesses.
-/// @throws std::invalid_argument as Transcription and Solve do.
+/// @throws std::invalid_argument as Transcription, CheckScales and Solve do.
 OptimalControlResult SolveOptimalControl(
     const OptimalControlProblem& problem, const OptimalControlOptions& options = {},
     const std::optional<Trajectory>& guess = std::nullopt,
