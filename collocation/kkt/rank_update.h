@@ -4,9 +4,9 @@
 
 namespace possibility::collocation {
 
-/// C -= A B' in the lower triangle of C, which is square; entries above the diagonal may be written,
-/// too. All matrices are stored column by column with `stride` numbers from column to column.
-/// `size`: rows of all three; `depth`: columns of A and B.
+/// C -= A B' in the lower triangle of C, which is square; entries above the diagonal may be
+/// written, too. All matrices are stored column by column with `stride` numbers from column to
+/// column. `size`: rows of all three; `depth`: columns of A and B.
 using LowerProduct = void (*)(int size, int depth, int stride, const double* a, const double* b,
                               double* c);
 

@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "collocation/problem/jet.h"
@@ -83,6 +85,34 @@ class DifferentiatedFunction : public Function {
 template <int Inputs, int Outputs, typename Code>
 std::shared_ptr<Function> Differentiated(Code code) {
   return std::make_shared<DifferentiatedFunction<Inputs, Outputs, Code>>(std::move(code));
+}
+
+/// Number of arguments, at most 12, with which code accepts numbers; 0: with none.
+template <typename Code, typename... Numbers>
+constexpr int Arity() {
+  if constexpr (std::is_invocable_v<Code, Numbers...>) {
+    return sizeof...(Numbers);
+  } else if constexpr (sizeof...(Numbers) < 12) {
+    return Arity<Code, Numbers..., double>();
+  } else {
+    return 0;
+  }
+}
+
+/// FunctionOf([](auto x, auto y) { return x * sin(y); }): the numbers of inputs and outputs follow
+/// from the code, which returns a number or a std::array of them and accepts any scalar type.
+template <typename Code>
+std::shared_ptr<Function> FunctionOf(Code code) {
+  constexpr int kInputs = Arity<Code, double>();
+  static_assert(kInputs > 0, "the code must take 1 to 12 numbers");
+  using Result = decltype(std::apply(code, std::array<double, kInputs>{}));
+  if constexpr (std::is_same_v<Result, double>) {
+    return Differentiated<kInputs, 1>(
+        [code](const auto& z, auto* y) { (*y)[0] = std::apply(code, z); });
+  } else {
+    return Differentiated<kInputs, static_cast<int>(std::tuple_size_v<Result>)>(
+        [code](const auto& z, auto* y) { *y = std::apply(code, z); });
+  }
 }
 
 }  // namespace possibility::collocation

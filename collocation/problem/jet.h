@@ -66,6 +66,8 @@ struct Jet {
 
   friend bool operator<(const Jet& a, const Jet& b) { return a.value < b.value; }
   friend bool operator>(const Jet& a, const Jet& b) { return a.value > b.value; }
+  friend bool operator<=(const Jet& a, const Jet& b) { return a.value <= b.value; }
+  friend bool operator>=(const Jet& a, const Jet& b) { return a.value >= b.value; }
 
   /// f of this number, given the value and the first two derivatives of f there.
   Jet Chain(double f, double first, double second) const {
@@ -80,12 +82,18 @@ struct Jet {
 };
 
 // For plain numbers; the overloads for jets follow.
+using std::abs;
+using std::acos;
+using std::asin;
 using std::atan;
+using std::atan2;
 using std::cos;
+using std::cosh;
 using std::exp;
 using std::log;
 using std::pow;
 using std::sin;
+using std::sinh;
 using std::sqrt;
 using std::tan;
 using std::tanh;
@@ -115,6 +123,46 @@ Jet<N, Order> atan(const Jet<N, Order>& x) {
 }
 
 template <int N, int Order>
+Jet<N, Order> asin(const Jet<N, Order>& x) {
+  const double d = 1 / std::sqrt(1 - x.value * x.value);
+  return x.Chain(std::asin(x.value), d, x.value * d * d * d);
+}
+
+template <int N, int Order>
+Jet<N, Order> acos(const Jet<N, Order>& x) {
+  const double d = 1 / std::sqrt(1 - x.value * x.value);
+  return x.Chain(std::acos(x.value), -d, -x.value * d * d * d);
+}
+
+/// The angle of (x, y). Not differentiable at the origin: its derivatives are NaN there.
+template <int N, int Order>
+Jet<N, Order> atan2(const Jet<N, Order>& y, const Jet<N, Order>& x) {
+  // All branches differ from one another by a constant.
+  const bool steep = std::abs(y.value) > std::abs(x.value);
+  Jet<N, Order> angle = steep ? -atan(x / y) : atan(y / x);
+  angle.value = std::atan2(y.value, x.value);
+  return angle;
+}
+
+/// Its derivatives jump at 0, where they are those of x.
+template <int N, int Order>
+Jet<N, Order> abs(const Jet<N, Order>& x) {
+  return x.value < 0 ? -x : x;
+}
+
+template <int N, int Order>
+Jet<N, Order> sinh(const Jet<N, Order>& x) {
+  const double s = std::sinh(x.value);
+  return x.Chain(s, std::cosh(x.value), s);
+}
+
+template <int N, int Order>
+Jet<N, Order> cosh(const Jet<N, Order>& x) {
+  const double c = std::cosh(x.value);
+  return x.Chain(c, std::sinh(x.value), c);
+}
+
+template <int N, int Order>
 Jet<N, Order> exp(const Jet<N, Order>& x) {
   const double e = std::exp(x.value);
   return x.Chain(e, e, e);
@@ -140,9 +188,33 @@ Jet<N, Order> tanh(const Jet<N, Order>& x) {
 
 template <int N, int Order>
 Jet<N, Order> pow(const Jet<N, Order>& x, double exponent) {
-  const double first = exponent * std::pow(x.value, exponent - 1);
-  const double second = exponent * (exponent - 1) * std::pow(x.value, exponent - 2);
-  return x.Chain(std::pow(x.value, exponent), first, second);
+  // A factor of 0 counts as such, even beside a power that is infinite.
+  const auto power = [&x](double factor, double of) {
+    return factor == 0 ? 0 : factor * std::pow(x.value, of);
+  };
+  return x.Chain(std::pow(x.value, exponent), power(exponent, exponent - 1),
+                 power(exponent * (exponent - 1), exponent - 2));
+}
+
+/// For x above 0.
+template <int N, int Order>
+Jet<N, Order> pow(const Jet<N, Order>& x, const Jet<N, Order>& exponent) {
+  return exp(exponent * log(x));
+}
+
+/// The greater of two numbers, rounded off where they are closer than about `width` > 0, and above
+/// both: (a + b + sqrt((a - b)^2 + width^2)) / 2.
+template <typename T>
+T SmoothMax(const T& a, const T& b, double width) {
+  const T difference = a - b;
+  return 0.5 * (a + b + sqrt(difference * difference + width * width));
+}
+
+/// The smaller of two numbers likewise, and below both.
+template <typename T>
+T SmoothMin(const T& a, const T& b, double width) {
+  const T difference = a - b;
+  return 0.5 * (a + b - sqrt(difference * difference + width * width));
 }
 
 /// x squared.

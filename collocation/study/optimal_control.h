@@ -58,6 +58,10 @@ struct OptimalControlResult {
   bool succeeded() const {
     return status == SolverStatus::kSolved || status == SolverStatus::kAcceptable;
   }
+  /// trajectory.Value: a variable at a time, s.
+  double Value(const Variable& variable, double time) const {
+    return trajectory.Value(variable, time);
+  }
 };
 
 /// Transcribes and solves. If requested, refines the mesh and solves again from the last solution

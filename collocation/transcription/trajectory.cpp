@@ -63,4 +63,33 @@ Eigen::VectorXd PhaseTrajectory::Controls(double s) const {
   return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeIntegrals(c, 0);
 }
 
+double Trajectory::Value(const Variable& variable, double time) const {
+  const auto check = [](bool fits) {
+    if (!fits) throw std::invalid_argument("Trajectory: a variable of another problem");
+  };
+  if (variable.kind == VariableKind::kParameter) {
+    check(variable.index >= 0 && variable.index < parameters.size());
+    return parameters[variable.index];
+  }
+  check(variable.phase >= 0 && variable.phase < static_cast<int>(phases.size()));
+  const PhaseTrajectory& phase = phases[variable.phase];
+  if (variable.kind == VariableKind::kDuration) return phase.duration;
+  // The end may be off by rounding.
+  const double rounding = 1e-9 * std::max(1.0, std::abs(phase.begin) + phase.duration);
+  if (!(time >= phase.begin - rounding && time <= phase.begin + phase.duration + rounding)) {
+    throw std::invalid_argument(fmt::format(
+        "Trajectory: {} s lies outside the phase of the variable, which lasts from {} to {} s",
+        time, phase.begin, phase.begin + phase.duration));
+  }
+  if (variable.kind == VariableKind::kTime) return time;
+  const double s = std::clamp((time - phase.begin) / phase.duration, 0.0, 1.0);
+  if (variable.kind == VariableKind::kControl) {
+    check(variable.index >= 0 && variable.index < phase.controls.rows());
+    return phase.Controls(s)[variable.index];
+  }
+  check(variable.order >= 0 && variable.order < static_cast<int>(phase.coordinates.size()) &&
+        variable.index >= 0 && variable.index < phase.coordinates[0].rows());
+  return phase.Coordinates(s, variable.order)[variable.index];
+}
+
 }  // namespace possibility::collocation

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "collocation/problem/optimal_control_problem.h"
 #include "collocation/transcription/transcription_scheme.h"
 
 namespace possibility::collocation {
@@ -31,6 +32,12 @@ struct PhaseTrajectory {
 struct Trajectory {
   std::vector<PhaseTrajectory> phases;
   Eigen::VectorXd parameters;
+
+  /// A variable of the problem at `time` (s, since the beginning of the problem); parameters and
+  /// durations have one value for all times.
+  /// @throws std::invalid_argument if the variable is none of the problem's, or its phase does not
+  /// contain the time.
+  double Value(const Variable& variable, double time) const;
 };
 
 }  // namespace possibility::collocation

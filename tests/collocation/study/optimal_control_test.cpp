@@ -188,5 +188,34 @@ TEST(OptimalControlTest, NamesTheConstraintThatCannotBeMet) {
   EXPECT_GT(worst, 0.01);
 }
 
+TEST(TrajectoryValue, IsTheVariableAtItsTime) {
+  // Two phases of free duration; x runs on at 2 m/s.
+  OptimalControlProblem problem("two phases");
+  Phase& first = problem.AddPhase("first");
+  Phase& second = problem.AddPhase("second");
+  std::vector<Variable> x;
+  for (Phase* phase : {&first, &second}) {
+    x.push_back(phase->AddCoordinate("x"));
+    phase->SetDynamics(FunctionOf([](auto at) { return 2.0 + 0.0 * at; }), {x.back()});
+    phase->SetDuration({0.5, 0.5});
+  }
+  problem.Continue({x[0], At::kEnd}, {x[1], At::kStart});
+  first.Fix(x[0], 1, At::kStart);
+  const Variable height = problem.AddParameter("height", {3, 3});
+  problem.AddCost({height, At::kStart});
+  const OptimalControlResult result = SolveOptimalControl(problem);
+  ASSERT_TRUE(result.succeeded()) << result.message;
+  EXPECT_NEAR(result.Value(x[0], 0.25), 1.5, 1e-9);
+  EXPECT_NEAR(result.Value(x[1], 0.75), 2.5, 1e-9);
+  EXPECT_NEAR(result.Value(second.Rate(x[1]), 1.0), 2, 1e-9);
+  EXPECT_EQ(result.Value(second.duration(), 0), 0.5);
+  EXPECT_EQ(result.Value(second.time(), 0.8), 0.8);
+  EXPECT_NEAR(result.Value(height, 0), 3, 1e-9);
+  EXPECT_THROW(result.Value(x[0], 0.75), std::invalid_argument);
+  EXPECT_THROW(result.Value(x[1], 0.25), std::invalid_argument);
+  EXPECT_THROW(result.Value(x[1], std::nan("")), std::invalid_argument);
+  EXPECT_THROW(result.Value({VariableKind::kCoordinate, 2, 0, 0}, 0.25), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace possibility::collocation

@@ -12,19 +12,19 @@ TEST(WorkedExampleTest, BlockMoveMeetsItsClosedForm) {
   const Variable x = move.AddCoordinate("x");
   const Variable u = move.AddControl("force", {-20, 20});
   move.SetDuration(1);
-  move.SetDynamics(Differentiated<1, 1>([](const auto& z, auto* a) { (*a)[0] = z[0]; }), {u});
+  move.SetDynamics(FunctionOf([](auto force) { return force; }), {u});
   for (const At end : {At::kStart, At::kEnd}) move.Fix(move.Rate(x), 0, end);
   move.Fix(x, 0, At::kStart);
   move.Fix(x, 1, At::kEnd);
-  move.AddIntegralCost(
-      "effort", Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0]; }), {u});
+  move.AddIntegralCost("effort", FunctionOf([](auto force) { return force * force; }), {u});
 
   const OptimalControlResult result = SolveOptimalControl(problem);
   ASSERT_TRUE(result.succeeded()) << result.message;
   EXPECT_NEAR(result.objective, 12, 1e-7);
   // x = 3 t^2 - 2 t^3
-  EXPECT_NEAR(result.trajectory.phases[0].Coordinates(0.25)[0], 0.15625, 1e-8);
-  EXPECT_NEAR(result.trajectory.phases[0].Controls(0.25)[0], 3, 1e-7);
+  EXPECT_NEAR(result.Value(x, 0.25), 0.15625, 1e-8);
+  EXPECT_NEAR(result.Value(move.Rate(x), 0.25), 1.125, 1e-8);
+  EXPECT_NEAR(result.Value(u, 0.25), 3, 1e-7);
   for (const auto& [name, violation] : result.violations) EXPECT_LT(violation.amount, 1e-8) << name;
 }
 
