@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "collocation/solver/conflict.h"
+#include "collocation/study/conflict_text.h"
 #include "collocation/study/scale_check.h"
 
 namespace possibility::collocation {
@@ -110,6 +112,26 @@ SolverResult SolveToSize(Transcription* program, const SolverGuess& guess,
   return solution;
 }
 
+bool FoundNoFeasiblePoint(const SolverResult& solution, const SolverOptions& options) {
+  const bool gave_up = solution.status == SolverStatus::kInfeasible ||
+                       solution.status == SolverStatus::kIterationLimit ||
+                       solution.status == SolverStatus::kFailed;
+  return gave_up && !(solution.worst_violation <= options.constraint_tolerance);
+}
+
+/// Names what conflicts, or solves again from a point that meets all constraints.
+void Explain(Transcription* program, const SolverOptions& options,
+             const CancellationToken& cancellation,
+             const std::function<void(const SolverIteration&)>& log, OptimalControlResult* result) {
+  const Conflict conflict = FindConflict(program, result->solver.x, options, cancellation);
+  if (!conflict.members.empty()) {
+    result->conflict = Describe(conflict, *program);
+    return;
+  }
+  result->solver = Solve(program, {conflict.x, {}, {}, {}}, options, cancellation, log);
+  AddUp(result->solver, result);
+}
+
 void SolveFrom(Start start, const OptimalControlProblem& problem,
                const OptimalControlOptions& options, const CancellationToken& cancellation,
                const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
@@ -122,6 +144,9 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
     const SolverGuess guess = GuessOf(program, start);
     if (result.refinements == 0) result.dual_start = guess.constraint_multipliers.size() > 0;
     result.solver = SolveToSize(&program, guess, cancellation, log, &solver, &result);
+    if (options.explain_infeasible && FoundNoFeasiblePoint(result.solver, solver)) {
+      Explain(&program, solver, cancellation, log, &result);
+    }
     result.status = result.solver.status;
     result.message = result.solver.message;
     result.objective = result.solver.objective;

@@ -27,6 +27,9 @@ struct OptimalControlOptions {
   /// If the objective proves much smaller than solver.objective_size, the problem is solved again
   /// with its true size: to the solver's tolerance any motion would be the best.
   SolverOptions solver;
+  /// If no motion meets the constraints, a second solve finds out which of them stand against each
+  /// other (FindConflict). If it meets them all after all, the problem is solved again from there.
+  bool explain_infeasible = false;
 };
 
 /// Distance of a named constraint from its bounds at its worst point.
@@ -44,6 +47,9 @@ struct OptimalControlResult {
   bool dual_start = false;  ///< the first solve started with multipliers, not with a motion alone
   /// By constraint name without point: worst violation of each constraint.
   std::map<std::string, ConstraintViolation> violations;
+  /// With explain_infeasible, for a problem that is infeasible: what cannot hold together, the
+  /// heaviest first: "move: force is at most 1 (21 points)". Empty otherwise.
+  std::vector<std::string> conflict;
   /// For the last mesh: the greatest error between the knots. For a cancelled solve, multipliers,
   /// violations and error (NaN) are not computed. If it was cancelled while its program was built,
   /// there is no trajectory.

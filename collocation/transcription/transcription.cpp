@@ -143,8 +143,11 @@ std::string Transcription::ConstraintName(int constraint) const {
 }
 
 std::string Transcription::ConstraintGroup(int constraint) const {
-  const PlacedName& row = functions_.row_names().at(constraint);
-  return row.phase < 0 ? row.name : layout_.problem().phase(row.phase).name() + ": " + row.name;
+  return layout_.GroupOf(functions_.row_names().at(constraint));
+}
+
+std::string Transcription::VariableGroup(int variable) const {
+  return layout_.GroupOf(layout_.names().at(variable));
 }
 
 Eigen::VectorXd Transcription::InitialGuess() const { return collocation::InitialGuess(layout_); }

@@ -50,6 +50,7 @@ class Transcription : public NonlinearProgram {
 
   /// The constraint's name without the point where it holds: "swing: knee".
   std::string ConstraintGroup(int constraint) const;
+  std::string VariableGroup(int variable) const;  ///< likewise
   double ConstraintScale(int constraint) const override {
     return functions_.row_scales().at(constraint);
   }

@@ -254,6 +254,10 @@ std::string VariableLayout::FullName(const PlacedName& name) const {
   return where + name.name + output;
 }
 
+std::string VariableLayout::GroupOf(const PlacedName& name) const {
+  return name.phase < 0 ? name.name : problem_.phase(name.phase).name() + ": " + name.name;
+}
+
 double VariableLayout::DurationOf(int phase, const Eigen::VectorXd& x) const {
   const PhaseLayout& layout = phases_[phase];
   return layout.duration < 0 ? layout.fixed_duration : x[layout.duration];

@@ -78,6 +78,8 @@ class VariableLayout {
   double DurationOf(int phase, const Eigen::VectorXd& x) const;
   /// For messages: "swing, knot 3 (t = 0.5 of the duration): knee".
   std::string FullName(const PlacedName& name) const;
+  /// The same without the point: "swing: knee".
+  std::string GroupOf(const PlacedName& name) const;
   /// By name: its phase's index plus its point's share of the phase; NaN if it is of no point.
   std::vector<double> TimesOf(const std::vector<PlacedName>& names) const;
 
