@@ -37,6 +37,7 @@ std::vector<std::string> Describe(const Conflict& conflict, const Transcription&
     }
   }
   std::vector<std::string> lines;
+  lines.reserve(counts.size());
   for (const auto& [text, count] : counts) {
     lines.push_back(count == 1 ? text : fmt::format("{} ({} points)", text, count));
   }
