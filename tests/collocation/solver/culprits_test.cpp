@@ -191,13 +191,13 @@ TEST(Culprits, ContradictoryBoundsAreRefusedByName) {
 
 TEST(Culprits, ContradictoryBoundsWherePhasesMeetAreRefusedByName) {
   OptimalControlProblem problem("relay");
+  std::vector<Variable> x;
   for (const char* name : {"first", "second"}) {
     Phase& phase = problem.AddPhase(name);
-    phase.AddCoordinate("x", problem.num_phases() == 1 ? Bounds{0, 1} : Bounds{2, 3});
+    x.push_back(phase.AddCoordinate("x", x.empty() ? Bounds{0, 1} : Bounds{2, 3}));
     phase.SetDuration(1);
   }
-  problem.Continue({{VariableKind::kCoordinate, 0, 0, 0}, At::kEnd},
-                   {{VariableKind::kCoordinate, 1, 0, 0}, At::kStart});
+  problem.Continue({x[0], At::kEnd}, {x[1], At::kStart});
   EXPECT_EQ(Refusal(problem),
             "relay: second, knot 0 (t = 0 of the duration): x: contradictory bounds [2, 1] where "
             "phases meet");
