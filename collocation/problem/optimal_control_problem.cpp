@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 
@@ -58,6 +59,28 @@ std::string Describe(const Bounds& bounds) {
   return fmt::format("[{}, {}]", bounds.lower, bounds.upper);
 }
 
+const char* Describe(VariableKind kind) {
+  switch (kind) {
+    case VariableKind::kCoordinate:
+      return "coordinate";
+    case VariableKind::kControl:
+      return "control";
+    case VariableKind::kParameter:
+      return "parameter";
+    case VariableKind::kDuration:
+      return "duration";
+    case VariableKind::kTime:
+      return "time";
+  }
+  return "variable";
+}
+
+/// An address would not do: a later problem may have it.
+std::int64_t NextNumber() {
+  static std::atomic<std::int64_t> last{0};
+  return ++last;
+}
+
 }  // namespace
 
 Phase::Phase(OptimalControlProblem* problem, int index, std::string name, int order)
@@ -80,8 +103,7 @@ Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, double sca
     orders[order].name = name + std::string(order, '\'');
   }
   coordinates_.push_back(std::move(orders));
-  const Variable variable{VariableKind::kCoordinate, index_,
-                          static_cast<int>(coordinates_.size()) - 1, 0};
+  const Variable variable = Coordinate(static_cast<int>(coordinates_.size()) - 1);
   SetScale(variable, scale);
   Bound(variable, bounds);
   return variable;
@@ -100,27 +122,41 @@ Variable Phase::Rate(Variable coordinate, int times) const {
 Variable Phase::AddControl(const std::string& name, Bounds bounds, double scale) {
   controls_.push_back({});
   controls_.back().name = name;
-  const Variable variable{VariableKind::kControl, index_, static_cast<int>(controls_.size()) - 1,
-                          0};
+  const Variable variable = Control(static_cast<int>(controls_.size()) - 1);
   SetScale(variable, scale);
   Bound(variable, bounds);
   return variable;
 }
 
-const Phase::Quantity& Phase::Find(Variable variable) const {
+Variable Phase::Own(VariableKind kind, int index, int order) const {
+  return {kind, index_, index, order, problem_->number_};
+}
+
+const Phase::Quantity* Phase::FindOrNull(Variable variable) const {
   const auto in = [](int index, std::size_t size) {
     return index >= 0 && index < static_cast<int>(size);
   };
-  if (variable.phase == index_) {
-    if (variable.kind == VariableKind::kControl && in(variable.index, controls_.size())) {
-      return controls_[variable.index];
-    }
-    if (variable.kind == VariableKind::kCoordinate && in(variable.index, coordinates_.size()) &&
-        in(variable.order, order_ + 1)) {
-      return coordinates_[variable.index][variable.order];
-    }
+  if (variable.problem != problem_->number_ || variable.phase != index_) return nullptr;
+  if (variable.kind == VariableKind::kControl && in(variable.index, controls_.size())) {
+    return &controls_[variable.index];
   }
-  Fail("a variable is no coordinate or control of this phase");
+  if (variable.kind == VariableKind::kCoordinate && in(variable.index, coordinates_.size()) &&
+      in(variable.order, order_ + 1)) {
+    return &coordinates_[variable.index][variable.order];
+  }
+  return nullptr;
+}
+
+const Phase::Quantity& Phase::Find(Variable variable) const {
+  const Quantity* quantity = FindOrNull(variable);
+  if (quantity != nullptr) return *quantity;
+  Fail(fmt::format("{} is no coordinate or control of this phase",
+                   problem_->DescriptionOf(variable)));
+}
+
+bool Phase::Knows(Variable variable) const {
+  return variable == duration() || variable == time() || FindOrNull(variable) != nullptr ||
+         (variable.kind == VariableKind::kParameter && problem_->Knows(variable));
 }
 
 Phase::Quantity& Phase::FindMutable(Variable variable) {
@@ -156,21 +192,10 @@ void Phase::CheckArguments(const std::string& name, const Function* f,
   if (static_cast<int>(arguments.size()) != f->num_inputs()) {
     Fail(fmt::format("'{}' takes {} arguments, got {}", name, f->num_inputs(), arguments.size()));
   }
-  for (const Variable& argument : arguments) {
-    switch (argument.kind) {
-      case VariableKind::kCoordinate:
-      case VariableKind::kControl:
-        Find(argument);
-        break;
-      case VariableKind::kParameter:
-        if (argument.index >= static_cast<int>(problem_->parameters_.size())) {
-          Fail(fmt::format("'{}': no such parameter", name));
-        }
-        break;
-      case VariableKind::kDuration:
-      case VariableKind::kTime:
-        if (argument.phase != index_) Fail(fmt::format("'{}': another phase's time", name));
-    }
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (Knows(arguments[i])) continue;
+    Fail(fmt::format("'{}': argument {} is {}, which is not of this phase", name, i,
+                     problem_->DescriptionOf(arguments[i])));
   }
 }
 
@@ -183,7 +208,7 @@ void Phase::SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> argum
   }
   std::vector<double> scales;
   for (int i = 0; i < n; ++i) {
-    arguments.push_back({VariableKind::kCoordinate, index_, i, order_});
+    arguments.push_back(Coordinate(i, order_));
     scales.push_back(coordinates_[i][order_].scale);
   }
   Constrain("dynamics", std::make_shared<DynamicsResidual>(std::move(f)), std::move(arguments),
@@ -246,6 +271,9 @@ void Phase::Guess(Variable variable, double value) {
   Guess(variable, [value](double) { return value; });
 }
 
+OptimalControlProblem::OptimalControlProblem(std::string name)
+    : name_(std::move(name)), number_(NextNumber()) {}
+
 void OptimalControlProblem::Fail(const std::string& what) const {
   throw std::invalid_argument(fmt::format("{}: {}", name_, what));
 }
@@ -270,7 +298,7 @@ Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bou
     Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, scale));
   }
   parameters_.push_back({name, bounds, scale, guess});
-  return {VariableKind::kParameter, -1, static_cast<int>(parameters_.size()) - 1, 0};
+  return {VariableKind::kParameter, -1, static_cast<int>(parameters_.size()) - 1, 0, number_};
 }
 
 std::vector<std::string> OptimalControlProblem::ParameterNames() const {
@@ -285,7 +313,10 @@ void OptimalControlProblem::CheckEnds(const std::string& name, const Function* f
   if (static_cast<int>(arguments.size()) != f->num_inputs()) {
     Fail(fmt::format("'{}' takes {} arguments, got {}", name, f->num_inputs(), arguments.size()));
   }
-  for (const EndVariable& argument : arguments) NameOf(argument.variable);
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (Knows(arguments[i].variable)) continue;
+    Fail(fmt::format("'{}': argument {} is {}", name, i, DescriptionOf(arguments[i].variable)));
+  }
 }
 
 void OptimalControlProblem::Continue(EndVariable from, EndVariable to) {
@@ -329,14 +360,26 @@ void OptimalControlProblem::AddCost(EndVariable quantity, double weight) {
           Differentiated<1, 1>([](const auto& z, auto* y) { (*y)[0] = z[0]; }), {quantity}, weight);
 }
 
-std::string OptimalControlProblem::NameOf(Variable variable) const {
+bool OptimalControlProblem::Knows(Variable variable) const {
+  if (variable.problem != number_) return false;
   if (variable.kind == VariableKind::kParameter) {
-    if (variable.index >= 0 && variable.index < static_cast<int>(parameters_.size())) {
-      return parameters_[variable.index].name;
-    }
-    Fail("no such parameter");
+    return variable.index >= 0 && variable.index < static_cast<int>(parameters_.size());
   }
-  if (variable.phase < 0 || variable.phase >= num_phases()) Fail("no such phase");
+  return variable.phase >= 0 && variable.phase < num_phases() &&
+         phases_[variable.phase].Knows(variable);
+}
+
+std::string OptimalControlProblem::DescriptionOf(Variable variable) const {
+  if (Knows(variable)) return fmt::format("'{}'", NameOf(variable));
+  const char* whose = variable.problem == 0         ? "no problem"
+                      : variable.problem == number_ ? "this problem, but does not exist"
+                                                    : "another problem";
+  return fmt::format("{} {} of {}", Describe(variable.kind), variable.index, whose);
+}
+
+std::string OptimalControlProblem::NameOf(Variable variable) const {
+  if (!Knows(variable)) Fail(DescriptionOf(variable));
+  if (variable.kind == VariableKind::kParameter) return parameters_[variable.index].name;
   const Phase& phase = phases_[variable.phase];
   if (variable.kind == VariableKind::kDuration) return phase.name() + ": duration";
   if (variable.kind == VariableKind::kTime) return phase.name() + ": time";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <limits>
@@ -15,13 +16,14 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime };
 
-/// Identifies one quantity of a problem. Functions take variables as arguments, and bounds apply to
-/// them.
+/// Identifies one quantity of one problem. Functions take variables as arguments, and bounds apply
+/// to them. Variables come from phases and problems, which refuse those of others.
 struct Variable {
   VariableKind kind = VariableKind::kCoordinate;
-  int phase = -1;  ///< -1: a parameter of the problem
-  int index = 0;   ///< among its kind in the phase
-  int order = 0;   ///< for a coordinate: how often it is differentiated
+  int phase = -1;            ///< -1: a parameter of the problem
+  int index = 0;             ///< among its kind in the phase
+  int order = 0;             ///< for a coordinate: how often it is differentiated
+  std::int64_t problem = 0;  ///< number of the problem within the process; 0: of none
 
   bool operator==(const Variable&) const = default;
 };
@@ -98,9 +100,9 @@ class Phase {
   /// The time derivative of a coordinate or of its derivative; it has its own bounds and scale.
   Variable Rate(Variable coordinate, int times = 1) const;
   Variable AddControl(const std::string& name, Bounds bounds = {}, double scale = 1);
-  Variable duration() const { return {VariableKind::kDuration, index_, 0, 0}; }
+  Variable duration() const { return Own(VariableKind::kDuration, 0); }
   /// Time since the beginning of the problem.
-  Variable time() const { return {VariableKind::kTime, index_, 0, 0}; }
+  Variable time() const { return Own(VariableKind::kTime, 0); }
 
   /// s; equal bounds fix it. @throws std::invalid_argument unless 0 < lower <= upper < infinity.
   void SetDuration(Bounds bounds);
@@ -144,6 +146,11 @@ class Phase {
   const std::function<double(double)>& duration_guess() const { return duration_guess_; }
   /// The coordinate, its derivative or the control.
   const Quantity& Find(Variable variable) const;
+  /// By index among `coordinates()` and `controls()`.
+  Variable Coordinate(int index, int order = 0) const {
+    return Own(VariableKind::kCoordinate, index, order);
+  }
+  Variable Control(int index) const { return Own(VariableKind::kControl, index); }
 
   /// @throws std::invalid_argument that names problem and phase.
   [[noreturn]] void Fail(const std::string& what) const;
@@ -151,6 +158,11 @@ class Phase {
  private:
   friend class OptimalControlProblem;
   Phase(OptimalControlProblem* problem, int index, std::string name, int order);
+  Variable Own(VariableKind kind, int index, int order = 0) const;
+  /// Whether a function of the phase may have the variable as its argument.
+  bool Knows(Variable variable) const;
+  /// Null if it is no coordinate, derivative or control of this phase.
+  const Quantity* FindOrNull(Variable variable) const;
   Quantity& FindMutable(Variable variable);
   void CheckArguments(const std::string& name, const Function* f,
                       const std::vector<Variable>& arguments) const;
@@ -193,7 +205,7 @@ class OptimalControlProblem {
     double weight;
   };
 
-  explicit OptimalControlProblem(std::string name) : name_(std::move(name)) {}
+  explicit OptimalControlProblem(std::string name);
   OptimalControlProblem(const OptimalControlProblem&) = delete;
   OptimalControlProblem& operator=(const OptimalControlProblem&) = delete;
 
@@ -222,6 +234,11 @@ class OptimalControlProblem {
 
   std::string NameOf(Variable variable) const;
 
+  /// @throws std::invalid_argument naming the first quantity without which the problem would be the
+  /// same: a coordinate whose highest derivative is in no constraint or cost and has no bounds (its
+  /// dynamics were forgotten), a control or a parameter in no constraint or cost.
+  void CheckEverythingIsUsed() const;
+
   // What was added, for those who read the problem.
   const std::vector<Parameter>& parameters() const { return parameters_; }
   /// Pairs that are one variable: the end of a phase, the start of a later one.
@@ -236,8 +253,12 @@ class OptimalControlProblem {
   friend class Phase;
   void CheckEnds(const std::string& name, const Function* f,
                  const std::vector<EndVariable>& arguments) const;
+  bool Knows(Variable variable) const;
+  /// Of any variable, for messages: its name, or what it is if it is not of this problem.
+  std::string DescriptionOf(Variable variable) const;
 
   std::string name_;
+  std::int64_t number_;
   std::deque<Phase> phases_;
   std::vector<Parameter> parameters_;
   std::vector<std::pair<EndVariable, EndVariable>> continued_;

@@ -64,12 +64,12 @@ Eigen::VectorXd InitialGuess(const VariableLayout& layout) {
         for (int order = 0; order <= phase.order(); ++order) {
           const int index = phase_layout.coordinates[k][c][order];
           if (index < 0) continue;
-          x[index] = GuessOf(phase, {VariableKind::kCoordinate, p, c, order}, share, duration);
+          x[index] = GuessOf(phase, phase.Coordinate(c, order), share, duration);
         }
       }
       for (int c = 0; c < static_cast<int>(phase.controls().size()); ++c) {
         x[phase_layout.controls[k][c]] =
-            GuessOf(phase, {VariableKind::kControl, p, c, 0}, share, duration);
+            GuessOf(phase, phase.Control(c), share, duration);
       }
     }
   }

@@ -39,6 +39,8 @@ void ProgramFunctions::AddBlock(ConstraintBlock block, const std::vector<Bounds>
     row_names_.push_back(name);
   }
   blocks_.push_back(std::move(block));
+  name.output = -1;
+  block_names_.push_back(std::move(name));
 }
 
 void ProgramFunctions::AddCost(CostTerm cost, PlacedName name) {
@@ -47,10 +49,35 @@ void ProgramFunctions::AddCost(CostTerm cost, PlacedName name) {
   cost_names_.push_back(std::move(name));
 }
 
+template <typename Run>
+void ProgramFunctions::Named(const char* kind, const PlacedName& name, const Run& run) const {
+  try {
+    run();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        fmt::format("{} '{}': {}", kind, layout_.FullName(name), error.what()));
+  }
+}
+
+template <typename Run>
+void ProgramFunctions::ForEachBlock(const Run& run) {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    Named("constraint", block_names_[i], [&] { run(&blocks_[i]); });
+  }
+}
+
+template <typename Run>
+void ProgramFunctions::ForEachCost(const Run& run) {
+  for (std::size_t i = 0; i < costs_.size(); ++i) {
+    Named("cost", cost_names_[i], [&] { run(&costs_[i]); });
+  }
+}
+
 double ProgramFunctions::Objective(const Eigen::VectorXd& x) {
   double sum = 0;
   for (std::size_t i = 0; i < costs_.size(); ++i) {
-    const double cost = costs_[i].Evaluate(x);
+    double cost = 0;
+    Named("cost", cost_names_[i], [&] { cost = costs_[i].Evaluate(x); });
     if (!std::isfinite(cost)) {
       throw std::runtime_error(
           fmt::format("cost '{}' is {}", layout_.FullName(cost_names_[i]), cost));
@@ -62,7 +89,7 @@ double ProgramFunctions::Objective(const Eigen::VectorXd& x) {
 
 void ProgramFunctions::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) {
   gradient->setZero(layout_.num_variables());
-  for (CostTerm& cost : costs_) cost.AddGradient(x, gradient);
+  ForEachCost([&](CostTerm* cost) { cost->AddGradient(x, gradient); });
   gradient->array() *= layout_.scale_vector().array();
   if (!gradient->allFinite()) FailForGradient(x);
 }
@@ -81,12 +108,36 @@ void ProgramFunctions::FailForGradient(const Eigen::VectorXd& x) {
   throw std::runtime_error("the derivative of the sum of all costs is not finite");
 }
 
+void ProgramFunctions::FailForHessian(const Eigen::VectorXd& x, double objective_factor,
+                                      const Eigen::VectorXd& multipliers) {
+  Eigen::VectorXd values(hessian_.pattern().size());
+  const auto check = [&] {
+    for (int i = 0; i < values.size(); ++i) {
+      if (std::isfinite(values[i])) continue;
+      const auto name = [&](int k) { return layout_.FullName(layout_.names()[k]); };
+      throw std::runtime_error(fmt::format(
+          "the second derivative with respect to '{}' and '{}' is {}",
+          name(hessian_.pattern().rows[i]), name(hessian_.pattern().columns[i]), values[i]));
+    }
+  };
+  ForEachBlock([&](ConstraintBlock* block) {
+    values.setZero();
+    block->AddHessian(x, multipliers, &values);
+    check();
+  });
+  ForEachCost([&](CostTerm* cost) {
+    values.setZero();
+    cost->AddHessian(x, objective_factor, &values);
+    check();
+  });
+}
+
 void ProgramFunctions::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g) {
   g->resize(num_rows());
   for (std::size_t row = 0; row < form_rows_.size(); ++row) {
     (*g)[static_cast<Eigen::Index>(row)] = form_rows_[row].form.Value(x) * form_rows_[row].factor;
   }
-  for (ConstraintBlock& block : blocks_) block.AddRows(x, g);
+  ForEachBlock([&](ConstraintBlock* block) { block->AddRows(x, g); });
 }
 
 void ProgramFunctions::Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) {
@@ -96,7 +147,7 @@ void ProgramFunctions::Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* value
     row.form.Gradient(
         x, [&](int, double derivative) { (*values)[*slot++] += row.factor * derivative; });
   }
-  for (ConstraintBlock& block : blocks_) block.AddJacobian(x, values);
+  ForEachBlock([&](ConstraintBlock* block) { block->AddJacobian(x, values); });
   const std::vector<int>& columns = jacobian_.pattern().columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     (*values)[static_cast<Eigen::Index>(i)] *= layout_.scale_vector()[columns[i]];
@@ -112,8 +163,10 @@ void ProgramFunctions::Hessian(const Eigen::VectorXd& x, double objective_factor
     const int* slot = row.hessian_slots.data();
     row.form.Hessian(x, [&](int, int, double second) { (*values)[*slot++] += factor * second; });
   }
-  for (ConstraintBlock& block : blocks_) block.AddHessian(x, multipliers, values);
-  for (CostTerm& cost : costs_) cost.AddHessian(x, objective_factor, values);
+  ForEachBlock([&](ConstraintBlock* block) { block->AddHessian(x, multipliers, values); });
+  ForEachCost([&](CostTerm* cost) { cost->AddHessian(x, objective_factor, values); });
+  if (!values->allFinite() && multipliers.allFinite())
+    FailForHessian(x, objective_factor, multipliers);
   const SparsityPattern& pattern = hessian_.pattern();
   for (int i = 0; i < pattern.size(); ++i) {
     (*values)[i] *=

@@ -36,13 +36,15 @@ class ProgramFunctions {
   const SparsityPattern& jacobian_pattern() const { return jacobian_.pattern(); }
   const SparsityPattern& hessian_pattern() const { return hessian_.pattern(); }
 
-  // The same as in NonlinearProgram.
+  // The same as in NonlinearProgram. A std::runtime_error of a function comes out with the names of
+  // the function and its point.
   /// @throws std::runtime_error naming the cost and the point if one is not finite.
   double Objective(const Eigen::VectorXd& x);
   /// @throws std::runtime_error as Objective does.
   void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
   void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g);
   void Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values);
+  /// @throws std::runtime_error naming the function and the point if one is not finite.
   void Hessian(const Eigen::VectorXd& x, double objective_factor,
                const Eigen::VectorXd& multipliers, Eigen::VectorXd* values);
 
@@ -53,12 +55,22 @@ class ProgramFunctions {
     std::vector<int> jacobian_slots, hessian_slots;
   };
 
+  /// Runs what evaluates a function, with the function's name in its errors.
+  template <typename Run>
+  void Named(const char* kind, const PlacedName& name, const Run& run) const;
+  template <typename Run>
+  void ForEachBlock(const Run& run);
+  template <typename Run>
+  void ForEachCost(const Run& run);
   [[noreturn]] void FailForGradient(const Eigen::VectorXd& x);
+  /// Returns if every function's part of the Hessian is finite.
+  void FailForHessian(const Eigen::VectorXd& x, double objective_factor,
+                      const Eigen::VectorXd& multipliers);
 
   const VariableLayout& layout_;
   Eigen::VectorXd ones_;  // point at which forms are visited to find their variables
   std::vector<double> row_scales_, row_lowers_, row_uppers_;
-  std::vector<PlacedName> row_names_, cost_names_;
+  std::vector<PlacedName> row_names_, block_names_, cost_names_;
   std::vector<FormRow> form_rows_;  // the first rows
   std::vector<ConstraintBlock> blocks_;
   std::vector<CostTerm> costs_;

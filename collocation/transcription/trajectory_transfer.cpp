@@ -85,7 +85,7 @@ Trajectory TrajectoryOf(const VariableLayout& layout, const Eigen::VectorXd& sca
       for (int order = 0; order <= problem_phase.order(); ++order) {
         for (int c = 0; c < n; ++c) {
           phase.coordinates[order](c, k) =
-              layout.FormOf({VariableKind::kCoordinate, p, c, order}, p, k).Value(x);
+              layout.FormOf(problem_phase.Coordinate(c, order), p, k).Value(x);
         }
       }
       for (int c = 0; c < phase.controls.rows(); ++c) {

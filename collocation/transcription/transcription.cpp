@@ -10,6 +10,7 @@ Transcription::Transcription(const OptimalControlProblem& problem,
                              const TranscriptionScheme& scheme, std::vector<Mesh> meshes,
                              const CancellationToken& cancellation)
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
+  problem.CheckEverythingIsUsed();
   for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
   for (int p = 0; p < problem.num_phases(); ++p) {
     AddPathConstraints(p, cancellation);

@@ -20,7 +20,8 @@ namespace possibility::collocation {
 /// it. Bounds between the knots of compressed schemes are rows; all other bounds are bounds of
 /// variables.
 /// @throws std::invalid_argument that names phase and quantity: no duration, no coordinates, bounds
-/// that contradict each other at some knot, a mesh that does not ascend from 0 to 1.
+/// that contradict each other at some knot, a mesh that does not ascend from 0 to 1, a quantity that
+/// nothing uses (OptimalControlProblem::CheckEverythingIsUsed).
 class Transcription : public NonlinearProgram {
  public:
   /// `cancellation` is asked from time to time. @throws Cancelled.

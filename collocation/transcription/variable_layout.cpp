@@ -96,8 +96,8 @@ void VariableLayout::LayOutPoint(int phase_index, int point) {
       const Bounds bounds = BoundsAt(quantity, phase_index, point);
       // A state that continues an earlier phase is that phase's variable.
       for (const auto& [from, to] : problem_.continued()) {
-        const Variable here{VariableKind::kCoordinate, phase_index, static_cast<int>(c), order};
-        if (point != 0 || !(to.variable == here)) continue;
+        const Variable here = phase.Coordinate(static_cast<int>(c), order);
+        if (point != 0 || to.variable != here) continue;
         const PhaseLayout& earlier = phases_[from.variable.phase];
         orders[order] = earlier.coordinates.back()[from.variable.index][from.variable.order];
       }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "collocation/study/optimal_control.h"
@@ -123,26 +124,139 @@ TEST(Culprits, NotANumberInACostNamesTheCostAndTheKnot) {
       << result.message;
 }
 
-/// A function that throws because it cannot be evaluated.
-class Refuses : public Function {
+enum class Call { kEvaluate, kJacobian, kHessian };
+
+/// y = (0, z^2). Above 1 one of its calls fails.
+class Fails : public Function {
  public:
-  Refuses() : Function(1, 1) {}
-  void Evaluate(const Eigen::VectorXd&, Eigen::VectorXd*) override {
-    throw std::runtime_error("the table ends at 3");
+  Fails(Call where, std::function<double()> how, int outputs = 1)
+      : Function(1, outputs), where_(where), how_(std::move(how)) {}
+
+  void Evaluate(const Eigen::VectorXd& z, Eigen::VectorXd* y) override {
+    y->setZero();
+    (*y)[num_outputs() - 1] = z[0] * z[0] + Failure(Call::kEvaluate, z);
   }
-  void Jacobian(const Eigen::VectorXd&, Eigen::MatrixXd* J) override { J->setZero(); }
-  void Hessian(const Eigen::VectorXd&, const Eigen::VectorXd&, Eigen::MatrixXd* H) override {
-    H->setZero();
+  void Jacobian(const Eigen::VectorXd& z, Eigen::MatrixXd* J) override {
+    J->setZero();
+    (*J)(num_outputs() - 1, 0) = 2 * z[0] + Failure(Call::kJacobian, z);
+  }
+  void Hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers,
+               Eigen::MatrixXd* H) override {
+    H->setConstant(2 * multipliers[num_outputs() - 1] + Failure(Call::kHessian, z));
+  }
+
+ private:
+  double Failure(Call call, const Eigen::VectorXd& z) const {
+    return call == where_ && z[0] > 1 ? how_() : 0;
+  }
+
+  Call where_;
+  std::function<double()> how_;
+};
+
+double TableEnds() { throw std::runtime_error("the table ends at 1"); }
+double NotANumber() { return std::nan(""); }
+
+/// Its guess rises from 0 to 2 along a line, so it is above 1 from knot 11 on.
+struct RisingMass : Mass {
+  RisingMass() {
+    phase.SetDuration(1);
+    phase.Fix(q, 2, At::kEnd);
+  }
+  OptimalControlResult Solve() const {
+    OptimalControlOptions options;
+    options.scheme = Trapezoidal();
+    const OptimalControlResult result = SolveOptimalControl(problem, options);
+    EXPECT_EQ(result.status, SolverStatus::kInvalidNumber);
+    return result;
   }
 };
 
-TEST(Culprits, AnExceptionOfAFunctionIsTheMessage) {
-  Mass mass;
-  mass.phase.SetDuration(1);
-  mass.phase.Constrain("table", std::make_shared<Refuses>(), {mass.q}, {{0, 0}});
-  const OptimalControlResult result = SolveOptimalControl(mass.problem);
-  EXPECT_EQ(result.status, SolverStatus::kInvalidNumber);
-  EXPECT_TRUE(Contains(result.message, "the table ends at 3")) << result.message;
+constexpr char kTable[] = "'lift, knot 11 (t = 0.55 of the duration): table'";
+
+TEST(Culprits, AConstraintThatThrowsIsNamedWithItsKnotAndItsOwnText) {
+  for (const Call call : {Call::kEvaluate, Call::kJacobian, Call::kHessian}) {
+    RisingMass mass;
+    mass.phase.Constrain("table", std::make_shared<Fails>(call, TableEnds, 2), {mass.q}, {{-5, 5}});
+    const OptimalControlResult result = mass.Solve();
+    EXPECT_TRUE(
+        Contains(result.message, "constraint " + std::string(kTable) + ": the table ends at 1"))
+        << result.message;
+  }
+}
+
+TEST(Culprits, ACostThatThrowsIsNamedWithItsKnotAndItsOwnText) {
+  for (const Call call : {Call::kEvaluate, Call::kJacobian, Call::kHessian}) {
+    RisingMass mass;
+    mass.phase.AddIntegralCost("table", std::make_shared<Fails>(call, TableEnds), {mass.q});
+    const OptimalControlResult result = mass.Solve();
+    EXPECT_TRUE(Contains(result.message, "cost " + std::string(kTable) + ": the table ends at 1"))
+        << result.message;
+  }
+}
+
+TEST(Culprits, DynamicsThatThrowAreNamedWithTheirKnot) {
+  OptimalControlProblem problem("table");
+  Phase& phase = problem.AddPhase("go");
+  const Variable x = phase.AddCoordinate("x");
+  phase.SetDuration(1);
+  phase.SetDynamics(std::make_shared<Fails>(Call::kEvaluate, TableEnds), {x});
+  phase.Fix(x, 2, At::kEnd);
+  phase.Guess(x, [](double s) { return 2 * s; });
+  EXPECT_EQ(SolveOptimalControl(problem).message,
+            "constraint 'go, interval 10, node 1 (t = 0.525 of the duration): dynamics': the table "
+            "ends at 1 at the starting point");
+}
+
+TEST(Culprits, LinksAndEndCostsThatThrowAreNamed) {
+  RisingMass link, cost;
+  link.problem.Link("goal", std::make_shared<Fails>(Call::kEvaluate, TableEnds),
+                    {{link.q, At::kEnd}}, {{0, 1}});
+  EXPECT_TRUE(Contains(link.Solve().message, "constraint 'goal': the table ends at 1"));
+  cost.problem.AddCost("goal", std::make_shared<Fails>(Call::kEvaluate, TableEnds),
+                       {{cost.q, At::kEnd}});
+  EXPECT_TRUE(Contains(cost.Solve().message, "cost 'goal': the table ends at 1"));
+}
+
+TEST(Culprits, NotANumberNamesTheOutput) {
+  RisingMass value, slope, curvature;
+  const auto add = [](RisingMass* mass, Call call) {
+    mass->phase.Constrain("table", std::make_shared<Fails>(call, NotANumber, 2), {mass->q},
+                          {{-5, 5}});
+    return mass->Solve().message;
+  };
+  const std::string row = "constraint 'lift, knot 11 (t = 0.55 of the duration): table";
+  const std::string q = "'lift, knot 11 (t = 0.55 of the duration): q'";
+  const std::string of_value = add(&value, Call::kEvaluate);
+  EXPECT_TRUE(Contains(of_value, row + "[1]' is nan")) << of_value;
+  const std::string of_slope = add(&slope, Call::kJacobian);
+  EXPECT_TRUE(Contains(of_slope, row + "[1]' with respect to " + q + " is nan")) << of_slope;
+  const std::string of_curvature = add(&curvature, Call::kHessian);
+  EXPECT_TRUE(Contains(of_curvature, row + "': the second derivative with respect to " + q +
+                                         " and " + q + " is nan"))
+      << of_curvature;
+}
+
+TEST(Culprits, ASecondDerivativeOfACostThatIsNotANumberIsNamed) {
+  RisingMass mass;
+  mass.phase.AddIntegralCost("table", std::make_shared<Fails>(Call::kHessian, NotANumber),
+                             {mass.q});
+  const std::string message = mass.Solve().message;
+  EXPECT_TRUE(Contains(message, "cost " + std::string(kTable) + ": the second derivative with"))
+      << message;
+}
+
+TEST(Culprits, OtherExceptionsOfFunctionsReachTheCaller) {
+  const auto bug = []() -> double { throw std::logic_error("a bug"); };
+  for (const Call call : {Call::kEvaluate, Call::kJacobian, Call::kHessian}) {
+    RisingMass constraint, cost;
+    constraint.phase.Constrain("table", std::make_shared<Fails>(call, bug), {constraint.q},
+                               {{-5, 5}});
+    cost.phase.AddIntegralCost("table", std::make_shared<Fails>(call, bug), {cost.q});
+    for (const OptimalControlProblem* problem : {&constraint.problem, &cost.problem}) {
+      EXPECT_EQ(MessageOf<std::logic_error>([&] { SolveOptimalControl(*problem); }), "a bug");
+    }
+  }
 }
 
 TEST(Culprits, AGuessThatIsNotANumberNamesItsKnot) {
@@ -191,13 +305,13 @@ TEST(Culprits, ContradictoryBoundsAreRefusedByName) {
 
 TEST(Culprits, ContradictoryBoundsWherePhasesMeetAreRefusedByName) {
   OptimalControlProblem problem("relay");
+  std::vector<Variable> x;
   for (const char* name : {"first", "second"}) {
     Phase& phase = problem.AddPhase(name);
-    phase.AddCoordinate("x", problem.num_phases() == 1 ? Bounds{0, 1} : Bounds{2, 3});
+    x.push_back(phase.AddCoordinate("x", x.empty() ? Bounds{0, 1} : Bounds{2, 3}));
     phase.SetDuration(1);
   }
-  problem.Continue({{VariableKind::kCoordinate, 0, 0, 0}, At::kEnd},
-                   {{VariableKind::kCoordinate, 1, 0, 0}, At::kStart});
+  problem.Continue({x[0], At::kEnd}, {x[1], At::kStart});
   EXPECT_EQ(Refusal(problem),
             "relay: second, knot 0 (t = 0 of the duration): x: contradictory bounds [2, 1] where "
             "phases meet");

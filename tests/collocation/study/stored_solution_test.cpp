@@ -132,8 +132,9 @@ TEST(StoredSolution, WithANewConstraintOnlyTheMotionIsTaken) {
   OptimalControlProblem constrained("block move");
   Phase& phase = constrained.AddPhase("move", 2);
   const Variable x = phase.AddCoordinate("x");
-  phase.AddControl("force");
+  const Variable u = phase.AddControl("force");
   phase.SetDuration(1);
+  phase.SetDynamics(Differentiated<1, 1>([](const auto& z, auto* a) { (*a)[0] = z[0]; }), {u});
   phase.Constrain("tube", Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0]; }), {x},
                   {{0, 1}});
   EXPECT_FALSE(SolveOptimalControl(constrained, stored).dual_start);

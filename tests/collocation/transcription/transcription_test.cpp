@@ -133,6 +133,9 @@ TEST_P(EveryScheme, APolynomialMotionIsTranscribedExactly) {
   Phase& phase = problem.AddPhase("only", 2);
   const Variable q = phase.AddCoordinate("q");
   phase.SetDuration(2);
+  phase.AddIntegralCost("shake",
+                        Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0]; }),
+                        {phase.Rate(q, 2)});
   phase.Guess(q, [](double s) { return 1 - 2 * s + 6 * s * s - 4 * s * s * s; });
   phase.Guess(phase.Rate(q), [](double s) { return (-2 + 12 * s - 12 * s * s) / 2; });
   phase.Guess(phase.Rate(q, 2), [](double s) { return (12 - 24 * s) / 4; });
