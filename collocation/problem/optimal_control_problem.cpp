@@ -298,7 +298,7 @@ Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bou
     Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, scale));
   }
   parameters_.push_back({name, bounds, scale, guess});
-  return {VariableKind::kParameter, -1, static_cast<int>(parameters_.size()) - 1, 0, number_};
+  return ParameterVariable(static_cast<int>(parameters_.size()) - 1);
 }
 
 std::vector<std::string> OptimalControlProblem::ParameterNames() const {

@@ -234,10 +234,10 @@ class OptimalControlProblem {
 
   std::string NameOf(Variable variable) const;
 
-  /// @throws std::invalid_argument naming the first quantity without which the problem would be the
-  /// same: a coordinate whose highest derivative is in no constraint or cost and has no bounds (its
-  /// dynamics were forgotten), a control or a parameter in no constraint or cost.
-  void CheckEverythingIsUsed() const;
+  /// By index among `parameters()`.
+  Variable ParameterVariable(int index) const {
+    return {VariableKind::kParameter, -1, index, 0, number_};
+  }
 
   // What was added, for those who read the problem.
   const std::vector<Parameter>& parameters() const { return parameters_; }

@@ -1,9 +1,10 @@
 // What a problem names but does not use: forgotten dynamics and the like.
+#include "collocation/problem/unused_quantities.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "collocation/problem/optimal_control_problem.h"
+#include <vector>
 
 namespace possibility::collocation {
 
@@ -70,13 +71,13 @@ void CheckPhase(const Phase& phase, const Arguments& arguments) {
 
 }  // namespace
 
-void OptimalControlProblem::CheckEverythingIsUsed() const {
-  const Arguments arguments(*this);
-  for (const Phase& phase : phases_) CheckPhase(phase, arguments);
-  for (int i = 0; i < static_cast<int>(parameters_.size()); ++i) {
-    if (arguments.Contains({VariableKind::kParameter, -1, i, 0, number_})) continue;
-    Fail(fmt::format("no dynamics, constraint or cost contains the parameter '{}'",
-                     parameters_[i].name));
+void CheckEverythingIsUsed(const OptimalControlProblem& problem) {
+  const Arguments arguments(problem);
+  for (int p = 0; p < problem.num_phases(); ++p) CheckPhase(problem.phase(p), arguments);
+  for (int i = 0; i < static_cast<int>(problem.parameters().size()); ++i) {
+    if (arguments.Contains(problem.ParameterVariable(i))) continue;
+    problem.Fail(fmt::format("no dynamics, constraint or cost contains the parameter '{}'",
+                             problem.parameters()[i].name));
   }
 }
 

@@ -68,8 +68,7 @@ Eigen::VectorXd InitialGuess(const VariableLayout& layout) {
         }
       }
       for (int c = 0; c < static_cast<int>(phase.controls().size()); ++c) {
-        x[phase_layout.controls[k][c]] =
-            GuessOf(phase, phase.Control(c), share, duration);
+        x[phase_layout.controls[k][c]] = GuessOf(phase, phase.Control(c), share, duration);
       }
     }
   }

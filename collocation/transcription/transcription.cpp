@@ -1,5 +1,6 @@
 #include "collocation/transcription/transcription.h"
 
+#include "collocation/problem/unused_quantities.h"
 #include "collocation/transcription/initial_guess.h"
 #include "collocation/transcription/multiplier_transfer.h"
 #include "collocation/transcription/trajectory_transfer.h"
@@ -10,7 +11,7 @@ Transcription::Transcription(const OptimalControlProblem& problem,
                              const TranscriptionScheme& scheme, std::vector<Mesh> meshes,
                              const CancellationToken& cancellation)
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
-  problem.CheckEverythingIsUsed();
+  CheckEverythingIsUsed(problem);
   for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
   for (int p = 0; p < problem.num_phases(); ++p) {
     AddPathConstraints(p, cancellation);

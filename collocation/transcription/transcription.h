@@ -21,7 +21,7 @@ namespace possibility::collocation {
 /// variables.
 /// @throws std::invalid_argument that names phase and quantity: no duration, no coordinates, bounds
 /// that contradict each other at some knot, a mesh that does not ascend from 0 to 1, a quantity that
-/// nothing uses (OptimalControlProblem::CheckEverythingIsUsed).
+/// nothing uses (CheckEverythingIsUsed).
 class Transcription : public NonlinearProgram {
  public:
   /// `cancellation` is asked from time to time. @throws Cancelled.

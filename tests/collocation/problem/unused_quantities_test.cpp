@@ -1,6 +1,7 @@
+#include "collocation/problem/unused_quantities.h"
+
 #include <gtest/gtest.h>
 
-#include "collocation/problem/optimal_control_problem.h"
 #include "tests/message_of.h"
 
 namespace possibility::collocation {
@@ -11,7 +12,7 @@ std::shared_ptr<Function> Square() {
 }
 
 std::string UnusedIn(const OptimalControlProblem& problem) {
-  return MessageOf([&] { problem.CheckEverythingIsUsed(); });
+  return MessageOf([&] { CheckEverythingIsUsed(problem); });
 }
 
 /// A mass whose dynamics are not yet stated.
