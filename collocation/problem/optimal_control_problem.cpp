@@ -154,6 +154,13 @@ const Phase::Quantity& Phase::Find(Variable variable) const {
                    problem_->DescriptionOf(variable)));
 }
 
+std::string Phase::NameOf(Variable variable) const {
+  if (variable == duration()) return "duration";
+  if (variable == time()) return "time";
+  return variable.kind == VariableKind::kParameter ? problem_->NameOf(variable)
+                                                   : Find(variable).name;
+}
+
 bool Phase::Knows(Variable variable) const {
   return variable == duration() || variable == time() || FindOrNull(variable) != nullptr ||
          (variable.kind == VariableKind::kParameter && problem_->Knows(variable));
@@ -381,9 +388,7 @@ std::string OptimalControlProblem::NameOf(Variable variable) const {
   if (!Knows(variable)) Fail(DescriptionOf(variable));
   if (variable.kind == VariableKind::kParameter) return parameters_[variable.index].name;
   const Phase& phase = phases_[variable.phase];
-  if (variable.kind == VariableKind::kDuration) return phase.name() + ": duration";
-  if (variable.kind == VariableKind::kTime) return phase.name() + ": time";
-  return phase.name() + ": " + phase.Find(variable).name;
+  return phase.name() + ": " + phase.NameOf(variable);
 }
 
 }  // namespace possibility::collocation

@@ -146,6 +146,8 @@ class Phase {
   const std::function<double(double)>& duration_guess() const { return duration_guess_; }
   /// The coordinate, its derivative or the control.
   const Quantity& Find(Variable variable) const;
+  /// The name of a quantity or parameter without the phase's.
+  std::string NameOf(Variable variable) const;
   /// By index among `coordinates()` and `controls()`.
   Variable Coordinate(int index, int order = 0) const {
     return Own(VariableKind::kCoordinate, index, order);

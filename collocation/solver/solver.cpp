@@ -214,6 +214,7 @@ std::string Message(const NonlinearProgram& program, const SolverOptions& option
       return "cancelled";
     case SolverStatus::kInvalidNumber:
       return result.history.empty() ? culprit + " at the starting point" : culprit;
+    case SolverStatus::kWrongDerivative:  // found before a solve
     case SolverStatus::kFailed:
       break;
   }

@@ -60,8 +60,9 @@ enum class SolverStatus {
   kIterationLimit,
   kTimeLimit,
   kCancelled,
-  kInvalidNumber,  ///< a function is not finite; `message` names it
-  kFailed          ///< anything else; see `message`
+  kInvalidNumber,    ///< a function is not finite; `message` names it
+  kWrongDerivative,  ///< not solved, since a derivative is wrong (check_derivatives); see `message`
+  kFailed            ///< anything else; see `message`
 };
 
 struct SolverEvaluations {

@@ -132,6 +132,22 @@ void Explain(Transcription* program, const SolverOptions& options,
   AddUp(result->solver, result);
 }
 
+/// Whether a derivative is wrong, in which case the result is complete.
+bool FoundWrongDerivative(const Transcription& program, const SolverGuess& guess,
+                          const CancellationToken& cancellation, OptimalControlResult* result) {
+  const std::vector<std::string> wrong = program.WrongDerivatives(guess.x, cancellation);
+  if (wrong.empty()) return false;
+  result->status = SolverStatus::kWrongDerivative;
+  result->message = wrong.front();
+  if (wrong.size() > 1) result->message += fmt::format(" (and {} more)", wrong.size() - 1);
+  result->objective = std::numeric_limits<double>::quiet_NaN();
+  result->mesh_error = std::numeric_limits<double>::quiet_NaN();
+  result->trajectory = program.TrajectoryOf(guess.x);
+  result->solver.status = result->status;
+  result->solver.message = result->message;
+  return true;
+}
+
 void SolveFrom(Start start, const OptimalControlProblem& problem,
                const OptimalControlOptions& options, const CancellationToken& cancellation,
                const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
@@ -142,7 +158,11 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
   for (;; ++result.refinements) {
     Transcription program(problem, options.scheme, meshes, cancellation);
     const SolverGuess guess = GuessOf(program, start);
-    if (result.refinements == 0) result.dual_start = guess.constraint_multipliers.size() > 0;
+    if (result.refinements == 0) {
+      result.dual_start = guess.constraint_multipliers.size() > 0;
+      const bool check = options.check_derivatives;
+      if (check && FoundWrongDerivative(program, guess, cancellation, &result)) return;
+    }
     result.solver = SolveToSize(&program, guess, cancellation, log, &solver, &result);
     if (options.explain_infeasible && FoundNoFeasiblePoint(result.solver, solver)) {
       Explain(&program, solver, cancellation, log, &result);

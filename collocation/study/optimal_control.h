@@ -24,6 +24,10 @@ struct OptimalControlOptions {
   /// The mesh is refined until the error between the knots is below this; 0: never.
   double mesh_tolerance = 0;
   int max_refinements = 6;
+  /// Compares the derivatives of all functions with differences at the starting point, at the
+  /// first, the middle and the last node of each. If one is wrong, nothing is solved, and the
+  /// message names function, phase, knot, output and argument.
+  bool check_derivatives = false;
   /// If the objective proves much smaller than solver.objective_size, the problem is solved again
   /// with its true size: to the solver's tolerance any motion would be the best.
   SolverOptions solver;

@@ -4,6 +4,7 @@
 #include "collocation/transcription/initial_guess.h"
 #include "collocation/transcription/multiplier_transfer.h"
 #include "collocation/transcription/trajectory_transfer.h"
+#include "collocation/transcription/wrong_derivatives.h"
 
 namespace possibility::collocation {
 
@@ -160,6 +161,11 @@ Eigen::VectorXd Transcription::GuessFrom(const Trajectory& trajectory) const {
 
 Trajectory Transcription::TrajectoryOf(const Eigen::VectorXd& x) const {
   return collocation::TrajectoryOf(layout_, x);
+}
+
+std::vector<std::string> Transcription::WrongDerivatives(
+    const Eigen::VectorXd& x, const CancellationToken& cancellation) const {
+  return collocation::WrongDerivatives(layout_, x, cancellation);
 }
 
 Multipliers Transcription::MultipliersOf(const SolverResult& solution) const {

@@ -20,8 +20,8 @@ namespace possibility::collocation {
 /// it. Bounds between the knots of compressed schemes are rows; all other bounds are bounds of
 /// variables.
 /// @throws std::invalid_argument that names phase and quantity: no duration, no coordinates, bounds
-/// that contradict each other at some knot, a mesh that does not ascend from 0 to 1, a quantity that
-/// nothing uses (CheckEverythingIsUsed).
+/// that contradict each other at some knot, a mesh that does not ascend from 0 to 1, a quantity
+/// that nothing uses (CheckEverythingIsUsed).
 class Transcription : public NonlinearProgram {
  public:
   /// `cancellation` is asked from time to time. @throws Cancelled.
@@ -68,6 +68,11 @@ class Transcription : public NonlinearProgram {
   /// @throws std::invalid_argument naming the phase that has another number of quantities.
   Eigen::VectorXd GuessFrom(const Trajectory& trajectory) const;
   Trajectory TrajectoryOf(const Eigen::VectorXd& x) const;
+
+  /// A sentence for each element of a function's derivatives that disagrees with differences at x
+  /// (wrong_derivatives.h). @throws Cancelled.
+  std::vector<std::string> WrongDerivatives(const Eigen::VectorXd& x,
+                                            const CancellationToken& cancellation = {}) const;
 
   Multipliers MultipliersOf(const SolverResult& solution) const;
   /// Adds to a guess the multipliers of a solution with this program's scheme, interpolated if the

@@ -158,13 +158,16 @@ Bounds VariableLayout::BoundsAt(const Phase::Quantity& quantity, int phase, int 
   return bounds;
 }
 
-std::string VariableLayout::PointName(int phase, int point) const {
+std::string VariableLayout::KnotName(int phase, int point) const {
   const LayoutPoint& p = phases_[phase].points[point];
   const int interval = p.node == scheme_.num_nodes() - 1 ? p.interval + 1 : p.interval;
-  const std::string where = p.is_knot ? fmt::format("knot {}", interval)
-                                      : fmt::format("interval {}, node {}", interval, p.node);
-  return fmt::format("{}, {} (t = {:.4g} of the duration): ", problem_.phase(phase).name(), where,
-                     p.share);
+  return p.is_knot ? fmt::format("knot {}", interval)
+                   : fmt::format("interval {}, node {}", interval, p.node);
+}
+
+std::string VariableLayout::PointName(int phase, int point) const {
+  return fmt::format("{}, {} (t = {:.4g} of the duration): ", problem_.phase(phase).name(),
+                     KnotName(phase, point), phases_[phase].points[point].share);
 }
 
 PolynomialForm VariableLayout::IntegralForm(int phase, int interval, int node, int coordinate,

@@ -76,6 +76,8 @@ class VariableLayout {
   Bounds BoundsAt(const Phase::Quantity& quantity, int phase, int point) const;
   /// s; `x` in the problem's own units.
   double DurationOf(int phase, const Eigen::VectorXd& x) const;
+  /// For messages: "knot 3", "interval 3, node 1".
+  std::string KnotName(int phase, int point) const;
   /// For messages: "swing, knot 3 (t = 0.5 of the duration): knee".
   std::string FullName(const PlacedName& name) const;
   /// The same without the point: "swing: knee".

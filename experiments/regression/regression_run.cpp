@@ -88,6 +88,8 @@ std::string StatusName(SolverStatus status) {
       return "cancelled";
     case SolverStatus::kInvalidNumber:
       return "invalid_number";
+    case SolverStatus::kWrongDerivative:
+      return "wrong_derivative";
     case SolverStatus::kFailed:
       break;
   }
