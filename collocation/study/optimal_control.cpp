@@ -81,6 +81,8 @@ OptimalControlResult AsCancelled(OptimalControlResult result) {
   result.multipliers = {};  // from an earlier mesh
   result.violations.clear();
   result.mesh_error = std::numeric_limits<double>::quiet_NaN();
+  result.mesh_errors = {};
+  result.conflict.clear();
   return result;
 }
 
