@@ -20,7 +20,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kPreparation = 1.0;   // s: a phase that turns joints to where the plan begins
+// A phase that turns joints to where the plan begins lasts for so long, or for as long as they need
+// at this share of their speed limits: a gait may turn them in its last steps as well.
+constexpr double kPreparation = 1.0;  // s
+constexpr double kPreparationSpeed = 0.9;
 constexpr double kKnotSpacing = 0.01;  // s
 constexpr double kVast = 20;           // m
 constexpr double kCorrection = 0.5;    // s, time until the motion is as planned, if there is time
@@ -170,20 +173,21 @@ bool StanceMotion::Hits(const Phase& phase) const {
          !FirstSelfHit(robot_, checker, poses).empty();
 }
 
-double StanceMotion::TurningTime(const VectorXd& offset, double duration) const {
-  double time = kCorrection;
+double StanceMotion::TurningTime(const VectorXd& offset, double speed_share) const {
+  double time = 0;
   for (Eigen::Index j = 0; j < offset.size(); ++j) {
-    const double speed = kTurningSpeed * robot_.joints[j].velocity;
+    const double speed = speed_share * robot_.joints[j].velocity;
     // The quintic's peak rate is 15/8 of its mean.
     time = std::max(time, 15.0 / 8 * std::abs(offset[j]) / speed);
   }
-  return std::min(time, duration);
+  return time;
 }
 
 Phase StanceMotion::Prepare() const {
   const int n = robot_.num_joints();
   const VectorXd from = launch_.q.tail(n);
   const VectorXd to = model_.reduction().ExpandConfiguration(model_.ready()).tail(n);
+  const double duration = std::max(kPreparation, TurningTime(to - from, kPreparationSpeed));
   WholeBodyTask task;
   task.root_yaw = Constant(0);
   task.root_pitch = Constant(launch_.gait->posture.root_pitch);
@@ -191,10 +195,10 @@ Phase StanceMotion::Prepare() const {
   task.root_position = ConstantVector<Vector2d>(launch_.q.segment<2>(4));
   task.limbs = LaunchFeet().limbs;
   MotionPhase phase;
-  phase.duration = kPreparation;
+  phase.duration = duration;
   phase.contacts = feet_;
   phase.task = [=](double t) mutable {
-    task.joints = BlendVector<VectorXd>(from, to, RestToRest(t, kPreparation));
+    task.joints = BlendVector<VectorXd>(from, to, RestToRest(t, duration));
     return task;
   };
   return MotionBuilder(robot_, settings_).Build({phase}, launch_.q).front();
@@ -263,7 +267,8 @@ Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const 
   const VectorXd rates_off = from.v.tail(n) - planned_joints.rate;
   const double duration = plan.duration;
   const double settled = std::min(kCorrection, duration);
-  const double turned = TurningTime(joints_off, duration);
+  const double turned =
+      std::min(std::max(kCorrection, TurningTime(joints_off, kTurningSpeed)), duration);
 
   MotionPhase phase;
   phase.duration = duration;

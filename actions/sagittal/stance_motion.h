@@ -71,8 +71,8 @@ class StanceMotion {
   WholeBodyState StateAt(const Knot& knot, const Support& support);
 
  private:
-  /// Time in which joints of a plan's `duration` turn by `offset`, s.
-  double TurningTime(const Eigen::VectorXd& offset, double duration) const;
+  /// Time in which joints turn by `offset` within a share of their speed limits, s.
+  double TurningTime(const Eigen::VectorXd& offset, double speed_share) const;
   /// Whether the motion on the launch's ground hits anything.
   bool Hits(const Phase& phase) const;
   Support SupportOf(const NominalStance& stance, const std::vector<int>& contacts, double x,
