@@ -22,7 +22,7 @@ constexpr double kPlaceTolerance = 1e-3;  // m, as of bearing points
 /// Walks through the intervals of a schedule as the phases go by.
 class ScheduleWalk {
  public:
-  ScheduleWalk(const ContactSchedule& schedule, const models::RobotModel& robot,
+  ScheduleWalk(const models::ContactSchedule& schedule, const models::RobotModel& robot,
                StateEvaluator* evaluator, ViolationLog* log)
       : schedule_(schedule),
         robot_(robot),
@@ -56,7 +56,7 @@ class ScheduleWalk {
 
  private:
   bool HasSameContacts(const Phase& phase, const Instant& at) {
-    const ContactInterval& interval = schedule_.intervals[interval_];
+    const models::ContactInterval& interval = schedule_.intervals[interval_];
     std::set<std::string> planned;
     for (std::size_t i = 0; i < schedule_.contacts.size(); ++i) {
       if (interval.bearing[i]) planned.insert(schedule_.contacts[i]);
@@ -103,7 +103,7 @@ class ScheduleWalk {
     return away;
   }
 
-  const ContactSchedule& schedule_;
+  const models::ContactSchedule& schedule_;
   const models::RobotModel& robot_;
   StateEvaluator* evaluator_;
   ViolationLog* log_;
@@ -117,7 +117,7 @@ void CheckSchedule(const Plan& plan, const models::RobotModel& robot, StateEvalu
                    ViolationLog* log) {
   if (!plan.schedule) return;
   try {
-    CheckContactSchedule(*plan.schedule);
+    models::CheckContactSchedule(*plan.schedule);
   } catch (const std::invalid_argument& error) {
     log->Report(ViolationKind::kSchedule, {}, error.what());
     return;

@@ -281,7 +281,7 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
   pattern.rise_time = pace.timing.start;
   pattern.end_joints = demands.end.joints;
   pattern.turning_time = demands.end.turning_time;
-  const ContactSchedule schedule =
+  const models::ContactSchedule schedule =
       ScheduleOf(*robot_, *stance_, groups_, start, steps, pace.timing);
   Eigen::VectorXd guess = stance_->q;
   guess.segment<2>(4) = start.position();

@@ -217,11 +217,11 @@ std::vector<Step> PlanSteps(const NominalStance& stance, const Groups& groups,
   return steps;
 }
 
-ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,
-                           const Groups& groups, const PlanarPose& start,
-                           const std::vector<Step>& steps, const StepTiming& timing) {
+models::ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,
+                                   const Groups& groups, const PlanarPose& start,
+                                   const std::vector<Step>& steps, const StepTiming& timing) {
   const int limbs = static_cast<int>(stance.gait->limbs.size());
-  ContactInterval standing;
+  models::ContactInterval standing;
   standing.duration = timing.start;
   const auto place = [&](int limb, const PlanarPose& at) {
     standing.bearing[limb] =
@@ -230,13 +230,13 @@ ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance&
   };
   standing.bearing.resize(limbs);
   for (int limb = 0; limb < limbs; ++limb) place(limb, start);
-  ContactSchedule schedule;
+  models::ContactSchedule schedule;
   for (const models::GaitLimb& limb : stance.gait->limbs) {
     schedule.contacts.push_back(robot.contacts[limb.contact].name);
   }
   schedule.intervals.push_back(standing);
   for (const Step& step : steps) {
-    ContactInterval swing = standing;
+    models::ContactInterval swing = standing;
     double distance = 0;
     for (const int limb : groups[step.group]) {
       const Eigen::Vector3d from = standing.bearing[limb]->translation();

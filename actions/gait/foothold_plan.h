@@ -4,7 +4,7 @@
 
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/planar_pose.h"
-#include "actions/plan/contact_schedule.h"
+#include "models/robot/contact_schedule.h"
 
 namespace possibility::actions {
 
@@ -48,8 +48,9 @@ std::vector<Step> PlanSteps(const NominalStance& stance,
                             const std::vector<PlanarPose>& way, const StepBounds& bounds);
 
 /// The schedule of the steps on ground of height 0, from rest in `start`.
-ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,
-                           const std::vector<std::vector<int>>& groups, const PlanarPose& start,
-                           const std::vector<Step>& steps, const StepTiming& timing);
+models::ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,
+                                   const std::vector<std::vector<int>>& groups,
+                                   const PlanarPose& start, const std::vector<Step>& steps,
+                                   const StepTiming& timing);
 
 }  // namespace possibility::actions

@@ -19,8 +19,8 @@ class Recorder {
     schedule_.intervals.back().duration += duration;
   }
 
-  ContactSchedule Finish() {
-    for (ContactInterval& interval : schedule_.intervals) {
+  models::ContactSchedule Finish() {
+    for (models::ContactInterval& interval : schedule_.intervals) {
       interval.bearing.resize(schedule_.contacts.size());
     }
     return std::move(schedule_);
@@ -28,7 +28,7 @@ class Recorder {
 
  private:
   void Begin(const Phase& phase) {
-    ContactInterval interval;
+    models::ContactInterval interval;
     kinematics_.SetPosition(phase.knots.front().q);
     const std::vector<BearingPatch> patches = BearingPatches(robot_, phase);
     for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -60,14 +60,14 @@ class Recorder {
 
   const models::RobotModel& robot_;
   dynamics::TreeKinematics kinematics_;
-  ContactSchedule schedule_;
+  models::ContactSchedule schedule_;
   std::vector<std::string> last_;  ///< contacts of the last phase
 };
 
 }  // namespace
 
-ContactSchedule ScheduleOfMotion(const models::RobotModel& robot,
-                                 const std::vector<Segment>& segments) {
+models::ContactSchedule ScheduleOfMotion(const models::RobotModel& robot,
+                                         const std::vector<Segment>& segments) {
   Recorder recorder(robot);
   for (const Segment& segment : segments) {
     for (const Phase& phase : segment.phases) recorder.Add(phase);

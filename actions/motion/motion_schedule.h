@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "actions/plan/contact_schedule.h"
 #include "actions/plan/plan.h"
+#include "models/robot/contact_schedule.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
@@ -12,7 +12,7 @@ namespace possibility::actions {
 /// contacts, with their poses where it begins. Contacts in the order in which they first bear.
 /// `segments`: contiguous in time, each phase with knots of the robot's sizes. @throws InputError
 /// if a contact is not the robot's.
-ContactSchedule ScheduleOfMotion(const models::RobotModel& robot,
-                                 const std::vector<Segment>& segments);
+models::ContactSchedule ScheduleOfMotion(const models::RobotModel& robot,
+                                         const std::vector<Segment>& segments);
 
 }  // namespace possibility::actions

@@ -29,8 +29,8 @@ double Heading(const Isometry3d& X) { return std::atan2(X(1, 0), X(0, 0)); }
 
 /// @throws std::invalid_argument unless the limbs can go from rest to rest by the schedule.
 void RequireSchedule(const models::RobotModel& robot, const NominalStance& stance,
-                     const ContactSchedule& schedule) {
-  CheckContactSchedule(schedule);
+                     const models::ContactSchedule& schedule) {
+  models::CheckContactSchedule(schedule);
   std::vector<std::string> limbs;
   for (const models::GaitLimb& limb : stance.gait->limbs) {
     limbs.push_back(robot.contacts[limb.contact].name);
@@ -40,7 +40,7 @@ void RequireSchedule(const models::RobotModel& robot, const NominalStance& stanc
                                             fmt::join(schedule.contacts, ", "),
                                             fmt::join(limbs, ", ")));
   }
-  const auto all_bear = [](const ContactInterval& interval) {
+  const auto all_bear = [](const models::ContactInterval& interval) {
     return std::all_of(interval.bearing.begin(), interval.bearing.end(),
                        [](const auto& bearing) { return bearing.has_value(); });
   };
@@ -65,7 +65,7 @@ struct Interval {
 class Pattern {
  public:
   Pattern(const models::RobotModel& robot, const NominalStance& stance,
-          const ContactSchedule& schedule, const PatternSettings& settings)
+          const models::ContactSchedule& schedule, const PatternSettings& settings)
       : robot_(robot), stance_(stance), schedule_(schedule), settings_(settings) {
     RequireSchedule(robot_, stance_, schedule_);
     ground_ = schedule_.intervals.front().bearing.front()->translation().z();
@@ -322,7 +322,7 @@ class Pattern {
 
   const models::RobotModel& robot_;
   NominalStance stance_;
-  ContactSchedule schedule_;
+  models::ContactSchedule schedule_;
   PatternSettings settings_;
   double ground_ = 0;  ///< m
   std::vector<Interval> intervals_;
@@ -336,7 +336,7 @@ class Pattern {
 }  // namespace
 
 std::vector<MotionPhase> PatternPhases(const models::RobotModel& robot, const NominalStance& stance,
-                                       const ContactSchedule& schedule,
+                                       const models::ContactSchedule& schedule,
                                        const PatternSettings& settings,
                                        const CancellationToken& cancellation) {
   const auto pattern = std::make_shared<Pattern>(robot, stance, schedule, settings);

@@ -4,8 +4,8 @@
 
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/nominal_stance.h"
-#include "actions/plan/contact_schedule.h"
 #include "common/cancellation_token.h"
+#include "models/robot/contact_schedule.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
@@ -30,11 +30,11 @@ struct PatternSettings {
 /// may be higher. docs/gaits.md has the formulas. `stance`: posture, and the limbs that are
 /// `schedule`'s contacts, in the same order. The result keeps copies of all it needs but `stance`'s
 /// gait.
-/// @throws std::invalid_argument if the schedule is none (CheckContactSchedule), is of other
-/// contacts, has fewer than two intervals, or a limb swings in the first or the last; MotionError
-/// if a task is out of reach; Cancelled.
+/// @throws std::invalid_argument if the schedule is none (models::CheckContactSchedule), is of
+/// other contacts, has fewer than two intervals, or a limb swings in the first or the last;
+/// MotionError if a task is out of reach; Cancelled.
 std::vector<MotionPhase> PatternPhases(const models::RobotModel& robot, const NominalStance& stance,
-                                       const ContactSchedule& schedule,
+                                       const models::ContactSchedule& schedule,
                                        const PatternSettings& settings,
                                        const CancellationToken& cancellation = {});
 

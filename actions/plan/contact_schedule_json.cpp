@@ -47,9 +47,9 @@ std::optional<Isometry3d> ReadPose(const JsonCursor& cursor) {
   return pose;
 }
 
-ContactInterval ReadInterval(const JsonCursor& cursor, std::size_t contacts) {
+models::ContactInterval ReadInterval(const JsonCursor& cursor, std::size_t contacts) {
   cursor.ExpectKeys({"duration_s", "bearing"});
-  ContactInterval interval;
+  models::ContactInterval interval;
   interval.duration = cursor["duration_s"].Number();
   const JsonCursor bearing = cursor["bearing"];
   if (bearing.ArraySize() != contacts) {
@@ -62,11 +62,11 @@ ContactInterval ReadInterval(const JsonCursor& cursor, std::size_t contacts) {
 
 }  // namespace
 
-Json ToJson(const ContactSchedule& schedule) {
+Json ToJson(const models::ContactSchedule& schedule) {
   Json json;
   json["contacts"] = schedule.contacts;
   json["intervals"] = Json::array();
-  for (const ContactInterval& interval : schedule.intervals) {
+  for (const models::ContactInterval& interval : schedule.intervals) {
     if (!std::isfinite(interval.duration)) {
       throw std::invalid_argument("a schedule holds a duration that is not finite");
     }
@@ -77,9 +77,9 @@ Json ToJson(const ContactSchedule& schedule) {
   return json;
 }
 
-ContactSchedule ReadContactSchedule(const JsonCursor& cursor) {
+models::ContactSchedule ReadContactSchedule(const JsonCursor& cursor) {
   cursor.ExpectKeys({"contacts", "intervals"});
-  ContactSchedule schedule;
+  models::ContactSchedule schedule;
   const JsonCursor contacts = cursor["contacts"];
   for (std::size_t i = 0, n = contacts.ArraySize(); i < n; ++i) {
     schedule.contacts.push_back(contacts[i].String());
@@ -94,7 +94,7 @@ ContactSchedule ReadContactSchedule(const JsonCursor& cursor) {
     schedule.intervals.push_back(ReadInterval(intervals[i], schedule.contacts.size()));
   }
   try {
-    CheckContactSchedule(schedule);
+    models::CheckContactSchedule(schedule);
   } catch (const std::invalid_argument& error) {
     cursor.Fail(error.what());
   }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/plan/contact_schedule.h"
+#include "models/robot/contact_schedule.h"
 
 namespace possibility::actions {
 
@@ -142,7 +142,8 @@ struct Plan {
   std::map<std::string, std::int64_t> statistics;
   std::vector<std::string> joints;  ///< names, in the order of q[7...], v[6...] and tau
   std::vector<Segment> segments;
-  std::optional<ContactSchedule> schedule;  ///< of all segments; absent if the plan file has none
+  std::optional<models::ContactSchedule>
+      schedule;  ///< of all segments; absent if the plan file has none
   ExploredGraph explored;
   std::optional<SearchReport> search;  ///< absent if the plan file has none
   std::optional<NoPlan> no;            ///< instead of segments

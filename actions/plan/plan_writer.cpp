@@ -269,7 +269,7 @@ Json Head(const Plan& plan, const std::filesystem::path& folder) {
 /// The part of the file after the segments.
 Json Tail(const Plan& plan) {
   Json json;
-  if (plan.schedule) json["schedule"] = ToJson(*plan.schedule);
+  if (plan.schedule) json["schedule"] = actions::ToJson(*plan.schedule);
   json["explored"] = ToJson(plan.explored);
   if (plan.search) json["search"] = ToJson(*plan.search);
   if (plan.no) json["no"] = ToJson(*plan.no);

@@ -71,6 +71,8 @@ const char* Describe(VariableKind kind) {
       return "duration";
     case VariableKind::kTime:
       return "time";
+    case VariableKind::kShare:
+      return "share";
   }
   return "variable";
 }
@@ -157,12 +159,14 @@ const Phase::Quantity& Phase::Find(Variable variable) const {
 std::string Phase::NameOf(Variable variable) const {
   if (variable == duration()) return "duration";
   if (variable == time()) return "time";
+  if (variable == share()) return "share of the duration";
   return variable.kind == VariableKind::kParameter ? problem_->NameOf(variable)
                                                    : Find(variable).name;
 }
 
 bool Phase::Knows(Variable variable) const {
-  return variable == duration() || variable == time() || FindOrNull(variable) != nullptr ||
+  return variable == duration() || variable == time() || variable == share() ||
+         FindOrNull(variable) != nullptr ||
          (variable.kind == VariableKind::kParameter && problem_->Knows(variable));
 }
 

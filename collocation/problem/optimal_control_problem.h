@@ -14,7 +14,7 @@ namespace possibility::collocation {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime };
+enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime, kShare };
 
 /// Identifies one quantity of one problem. Functions take variables as arguments, and bounds apply
 /// to them. Variables come from phases and problems, which refuse those of others.
@@ -103,6 +103,8 @@ class Phase {
   Variable duration() const { return Own(VariableKind::kDuration, 0); }
   /// Time since the beginning of the problem.
   Variable time() const { return Own(VariableKind::kTime, 0); }
+  /// Share of the phase's duration that has passed, from 0 to 1.
+  Variable share() const { return Own(VariableKind::kShare, 0); }
 
   /// s; equal bounds fix it. @throws std::invalid_argument unless 0 < lower <= upper < infinity.
   void SetDuration(Bounds bounds);

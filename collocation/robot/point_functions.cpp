@@ -69,72 +69,103 @@ class PointPositionsFunction : public PointFunction {
   Mask HessianMask() const override { return PointPairMask(); }
 };
 
-/// |p_0 - p_1|^2; independent of the base and of what moves both points as one body.
-class SquaredDistanceFunction : public RobotFunction {
+/// weight * |p_from - p_to|^2, a part of an output.
+struct WeightedSquare {
+  ContactPoint from, to;
+  double weight = 1;
+  int output = 0;
+};
+
+/// Sums of weighted squared distances; independent of the base and of what moves both points of
+/// each as one body.
+class SquaredDistancesFunction : public RobotFunction {
  public:
-  SquaredDistanceFunction(const RobotSystem& model, const ContactPoint& from,
-                          const ContactPoint& to)
-      : RobotFunction(model, ComponentsOf(*model, {from, to}), model->nv(), 1),
-        from_(from),
-        to_(to) {
-    for (int i = 0; i < n_; ++i) bends_.push_back(model->MovesApart(i, from.link, to.link));
+  SquaredDistancesFunction(const RobotSystem& model, const std::vector<WeightedSquare>& squares,
+                           const VectorXd& constants)
+      : RobotFunction(model, ComponentsOf(*model, EndsOf(squares)), model->nv(),
+                      static_cast<int>(constants.size())),
+        squares_(squares),
+        constants_(constants),
+        jacobian_mask_(Mask::Constant(num_outputs(), n_, false)),
+        hessian_mask_(Mask::Constant(n_, n_, false)) {
+    for (const WeightedSquare& square : squares_) {
+      Eigen::Array<bool, 1, Eigen::Dynamic> bends(n_);
+      for (int i = 0; i < n_; ++i)
+        bends[i] = model->MovesApart(i, square.from.link, square.to.link);
+      jacobian_mask_.row(square.output) = jacobian_mask_.row(square.output) || bends;
+      for (int i = 0; i < n_; ++i) {
+        if (bends[i]) hessian_mask_.row(i) = hessian_mask_.row(i) || bends;
+      }
+      bends_.push_back(bends.transpose());
+    }
   }
 
-  void Evaluate(const VectorXd& z, VectorXd* y) override { (*y)[0] = Difference(z).squaredNorm(); }
+  void Evaluate(const VectorXd& z, VectorXd* y) override {
+    dynamics_.SetState(z, VectorXd::Zero(n_));
+    *y = constants_;
+    for (const WeightedSquare& square : squares_) {
+      (*y)[square.output] += square.weight * Difference(square).squaredNorm();
+    }
+  }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
-    const Vector3d difference = Difference(z);
-    *J = 2 * difference.transpose() * DifferenceJacobian();
-    // Other contributions cancel but for rounding.
-    for (int i = 0; i < n_; ++i) {
-      if (!bends_[i]) (*J)(0, i) = 0;
+    dynamics_.SetState(z, VectorXd::Zero(n_));
+    J->setZero();
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+      J->row(squares_[k].output) +=
+          2 * squares_[k].weight * Difference(squares_[k]).transpose() * DifferenceJacobian(k);
     }
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
-    const Vector3d gradient = 2 * multipliers[0] * Difference(z);
-    std::vector<PointTerm> terms(2);
-    terms[0] = {.link = from_.link, .p_L = from_.p_L, .on_position = gradient};
-    terms[1] = {.link = to_.link, .p_L = to_.p_L, .on_position = -gradient};
-    const MatrixXd J = DifferenceJacobian();
-    *H = dynamics_.Hessian(VectorXd::Zero(n_), terms).qq + 2 * multipliers[0] * J.transpose() * J;
-    for (int i = 0; i < n_; ++i) {
-      if (bends_[i]) continue;
-      H->row(i).setZero();
-      H->col(i).setZero();
+    dynamics_.SetState(z, VectorXd::Zero(n_));
+    std::vector<PointTerm> terms;
+    for (const WeightedSquare& square : squares_) {
+      const Vector3d gradient = 2 * square.weight * multipliers[square.output] * Difference(square);
+      terms.push_back({.link = square.from.link, .p_L = square.from.p_L, .on_position = gradient});
+      terms.push_back({.link = square.to.link, .p_L = square.to.p_L, .on_position = -gradient});
+    }
+    // The base's part cancels but for rounding.
+    *H = hessian_mask_.select(dynamics_.Hessian(VectorXd::Zero(n_), terms).qq, 0.0);
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+      const MatrixXd J = DifferenceJacobian(k);
+      const double weight = 2 * squares_[k].weight * multipliers[squares_[k].output];
+      H->noalias() += weight * J.transpose() * J;
     }
   }
 
-  Mask JacobianMask() const override {
-    Mask mask(1, n_);
-    for (int i = 0; i < n_; ++i) mask(0, i) = bends_[i];
-    return mask;
-  }
-
-  Mask HessianMask() const override {
-    Mask mask(n_, n_);
-    for (int r = 0; r < n_; ++r) {
-      for (int c = 0; c < n_; ++c) mask(r, c) = bends_[r] && bends_[c];
-    }
-    return mask;
-  }
+  Mask JacobianMask() const override { return jacobian_mask_; }
+  Mask HessianMask() const override { return hessian_mask_; }
 
  private:
-  Vector3d Difference(const VectorXd& z) {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
-    return dynamics_.Position(from_) - dynamics_.Position(to_);
+  static std::vector<ContactPoint> EndsOf(const std::vector<WeightedSquare>& squares) {
+    std::vector<ContactPoint> ends;
+    for (const WeightedSquare& square : squares) ends.insert(ends.end(), {square.from, square.to});
+    return ends;
   }
 
-  MatrixXd DifferenceJacobian() {
+  Vector3d Difference(const WeightedSquare& square) {
+    return dynamics_.Position(square.from) - dynamics_.Position(square.to);
+  }
+
+  MatrixXd DifferenceJacobian(std::size_t k) {
     MatrixXd first(3, n_);
     MatrixXd second(3, n_);
-    dynamics_.Jacobian(from_, first);
-    dynamics_.Jacobian(to_, second);
-    return first - second;
+    dynamics_.Jacobian(squares_[k].from, first);
+    dynamics_.Jacobian(squares_[k].to, second);
+    first -= second;
+    // Other contributions cancel but for rounding.
+    for (int i = 0; i < n_; ++i) {
+      if (!bends_[k][i]) first.col(i).setZero();
+    }
+    return first;
   }
 
-  ContactPoint from_, to_;
-  std::vector<bool> bends_;
+  std::vector<WeightedSquare> squares_;
+  VectorXd constants_;
+  /// By square and velocity: whether it moves one point against the other.
+  std::vector<Eigen::Array<bool, Eigen::Dynamic, 1>> bends_;
+  Mask jacobian_mask_, hessian_mask_;
 };
 
 class PointVelocitiesFunction : public PointFunction {
@@ -223,7 +254,23 @@ std::shared_ptr<Function> PointPositions(const RobotSystem& model,
 
 std::shared_ptr<Function> SquaredDistance(const RobotSystem& model, const ContactPoint& from,
                                           const ContactPoint& to) {
-  return std::make_shared<SquaredDistanceFunction>(model, from, to);
+  return std::make_shared<SquaredDistancesFunction>(model, std::vector<WeightedSquare>{{from, to}},
+                                                    VectorXd::Zero(1));
+}
+
+std::shared_ptr<Function> HeightsOverPlanes(const RobotSystem& model,
+                                            const std::vector<PointOverPlane>& pairs) {
+  // n . (p - o) = (|p - o|^2 - |p - (o + n)|^2 + 1) / 2.
+  std::vector<WeightedSquare> squares;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const int output = static_cast<int>(i);
+    ContactPoint above = pairs[i].origin;
+    above.p_L += pairs[i].normal_L;
+    squares.push_back({pairs[i].point, pairs[i].origin, 0.5, output});
+    squares.push_back({pairs[i].point, above, -0.5, output});
+  }
+  return std::make_shared<SquaredDistancesFunction>(
+      model, squares, VectorXd::Constant(static_cast<Eigen::Index>(pairs.size()), 0.5));
 }
 
 std::shared_ptr<Function> PointVelocities(const RobotSystem& model,

@@ -16,6 +16,17 @@ std::shared_ptr<Function> SquaredDistance(const RobotSystem& model,
                                           const dynamics::ContactPoint& from,
                                           const dynamics::ContactPoint& to);
 
+/// A point, and a plane that moves with another link.
+struct PointOverPlane {
+  dynamics::ContactPoint point;
+  dynamics::ContactPoint origin;                        ///< on the plane
+  Eigen::Vector3d normal_L = Eigen::Vector3d::UnitZ();  ///< unit, frame of the plane's link
+};
+
+/// Height of each point over its plane, m. Inputs: q.
+std::shared_ptr<Function> HeightsOverPlanes(const RobotSystem& model,
+                                            const std::vector<PointOverPlane>& pairs);
+
 /// Components of velocities. Inputs: q, v.
 std::shared_ptr<Function> PointVelocities(const RobotSystem& model,
                                           const std::vector<PointComponent>& components);

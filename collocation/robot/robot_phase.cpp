@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "collocation/problem/function.h"
@@ -25,6 +26,15 @@ std::vector<std::string> BaseNames(const MultibodyModel& model) {
   return {"x", "y", "z", "yaw", "roll", "pitch"};
 }
 
+/// m or rad. In space the robot may go anywhere.
+Bounds BaseRange(const MultibodyModel& model, int velocity) {
+  constexpr double kMost = 3;
+  const bool translates =
+      std::any_of(model.translations().begin(), model.translations().end(),
+                  [velocity](const auto& translation) { return translation.index == velocity; });
+  return translates && model.base() != dynamics::Base::kPlanar ? Bounds{} : Bounds{-kMost, kMost};
+}
+
 void AddCoordinates(const MultibodyModel& model, const RobotLimits& limits, RobotPhase* robot) {
   const std::vector<std::string> base = BaseNames(model);
   const double acceleration = limits.max_acceleration;
@@ -34,7 +44,7 @@ void AddCoordinates(const MultibodyModel& model, const RobotLimits& limits, Robo
     const std::string name = is_joint ? model.tree().joints[model.joints()[joint]].name : base[i];
     const Bounds range = is_joint ? Bounds{model.lower()[joint] + limits.joint_margin,
                                            model.upper()[joint] - limits.joint_margin}
-                                  : Bounds{-3, 3};
+                                  : BaseRange(model, i);
     const double speed =
         is_joint ? limits.speed_fraction * model.velocity()[joint] : limits.max_base_speed;
     robot->q.push_back(robot->phase->AddCoordinate(name, range));

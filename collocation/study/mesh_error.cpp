@@ -157,6 +157,8 @@ class PhaseBetweenKnots {
         return motion_.duration;
       case VariableKind::kTime:
         return motion_.begin + s * motion_.duration;
+      case VariableKind::kShare:
+        return s;
     }
     return 0;
   }

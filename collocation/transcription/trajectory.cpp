@@ -83,6 +83,7 @@ double Trajectory::Value(const Variable& variable, double time) const {
   }
   if (variable.kind == VariableKind::kTime) return time;
   const double s = std::clamp((time - phase.begin) / phase.duration, 0.0, 1.0);
+  if (variable.kind == VariableKind::kShare) return s;
   if (variable.kind == VariableKind::kControl) {
     check(variable.index >= 0 && variable.index < phase.controls.rows());
     return phase.Controls(s)[variable.index];

@@ -237,6 +237,8 @@ PolynomialForm VariableLayout::FormOf(Variable variable, int phase, int point) c
       return {-1, {{-1, layout.fixed_duration, 0}}};
     case VariableKind::kTime:
       return TimeForm(phase, layout.points[point].share);
+    case VariableKind::kShare:
+      return {-1, {{-1, layout.points[point].share, 0}}};
   }
   throw std::logic_error("FormOf: a kind of variable that is none");
 }

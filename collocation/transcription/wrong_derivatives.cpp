@@ -88,6 +88,8 @@ class Check {
       case VariableKind::kDuration:
       case VariableKind::kTime:
         return problem_.phase(variable.phase).duration_bounds().upper;
+      case VariableKind::kShare:
+        return 1;
     }
     return 1;
   }

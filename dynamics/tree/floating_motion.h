@@ -18,4 +18,10 @@ FloatingMotion ToFloating(const MultibodyModel& model, const Eigen::Ref<const Ei
                           const Eigen::Ref<const Eigen::VectorXd>& v,
                           const Eigen::Ref<const Eigen::VectorXd>& a);
 
+/// The inverse, of positions alone: q of `model` (nv), with yaw and pitch in [-pi, pi] and roll in
+/// [-pi / 2, pi / 2]. `q`: 7 + joints. Locked and mimic joints are left out.
+/// @throws std::invalid_argument for a wrong size or base.
+Eigen::VectorXd FromFloating(const MultibodyModel& model,
+                             const Eigen::Ref<const Eigen::VectorXd>& q);
+
 }  // namespace possibility::dynamics

@@ -10,10 +10,13 @@
 
 #include "collocation/problem/function_algebra.h"
 #include "collocation/robot/multibody_functions.h"
+#include "collocation/robot/placed_patch.h"
 #include "collocation/robot/point_functions.h"
 #include "collocation/robot/robot_phase.h"
 #include "dynamics/sagittal/mirror_image.h"
 #include "dynamics/tree/base_joints.h"
+#include "dynamics/tree/floating_motion.h"
+#include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::experiments {
 namespace {
@@ -57,13 +60,6 @@ std::vector<ContactPoint> SolePoints(const dynamics::MultibodyModel& model, int 
   points.reserve(patch.points.size());
   for (const Vector3d& p_L : patch.points) points.push_back({patch.link, p_L});
   return points;
-}
-
-/// The six components that hold a flat rectangular sole: its place at one corner, its heading and
-/// one tilt at the second, the other tilt at the last.
-std::vector<PointComponent> Hold(const std::vector<ContactPoint>& sole) {
-  return {{sole[0], Vector3d::UnitX()}, {sole[0], Vector3d::UnitY()}, {sole[0], Vector3d::UnitZ()},
-          {sole[1], Vector3d::UnitY()}, {sole[1], Vector3d::UnitZ()}, {sole[3], Vector3d::UnitZ()}};
 }
 
 std::vector<PointComponent> Heights(const std::vector<ContactPoint>& points) {
@@ -124,14 +120,18 @@ class Step {
 
   /// The sole stays where it is in the posture.
   void HoldStance() {
-    const std::vector<PointComponent> held = Hold(stance_);
-    const auto positions = PointPositions(model_, held);
-    VectorXd place(6);
-    positions->Evaluate(nominal_, &place);
+    const int contact = gait_.limbs[0].contact;
+    const VectorXd none = VectorXd::Zero(model_->nv());
+    dynamics::TreeKinematics kinematics(robot_);
+    kinematics.SetPosition(dynamics::ToFloating(*model_, nominal_, none, none).q);
+    const models::ContactPatch& patch = robot_.contacts[contact];
+    const PlacedPatch sole = Place(*model_, contact, kinematics.X_WL()[patch.link] * patch.Frame());
+    const std::vector<PointComponent> held = HoldingComponents(sole);
     std::vector<Bounds> at_place;
-    for (const double coordinate : place) at_place.push_back({coordinate, coordinate});
+    for (const double place : HeldPlaces(sole)) at_place.push_back({place, place});
     const std::vector<Bounds> still(held.size(), Bounds{0, 0});
-    step_.phase->Constrain("place", positions, step_.Positions(), at_place, At::kStart);
+    step_.phase->Constrain("place", PointPositions(model_, held), step_.Positions(), at_place,
+                           At::kStart);
     step_.phase->ConstrainKnots("still", PointVelocities(model_, held), step_.State(), still);
     step_.phase->ConstrainKnots("held", PointAccelerations(model_, held), step_.Motion(), still,
                                 At::kEverywhere, {50});
@@ -140,14 +140,12 @@ class Step {
   /// Height above a bump that vanishes at both ends faster than any lift-off.
   void SwingOverTheGround() {
     const double height = settings_.clearance;
-    const double duration = settings_.duration;
-    const auto bump = Differentiated<1, 4>([height, duration](const auto& t, auto* y) {
-      const auto s = t[0] / duration;
-      const auto hill = 4.0 * s * (1.0 - s);
+    const auto bump = Differentiated<1, 4>([height](const auto& share, auto* y) {
+      const auto hill = 4.0 * share[0] * (1.0 - share[0]);
       for (auto& above : *y) above = -height * hill * hill * hill;
     });
     std::vector<Variable> arguments = step_.Positions();
-    arguments.push_back(step_.phase->time());
+    arguments.push_back(step_.phase->share());
     step_.phase->Constrain("clearance", SeparateSum(PointPositions(model_, Heights(swing_)), bump),
                            arguments, {{0, kInfinity}}, At::kInside);
   }

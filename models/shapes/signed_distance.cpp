@@ -200,6 +200,18 @@ void ImproveTouching(const Cores& cores, Separation* best) {
   best->Improve(cores.GapAlong(best_apart.n_A), best_apart.n_A);
 }
 
+/// The best direction; any one that proves `enough` will do.
+Separation Separated(const Cores& cores, double enough) {
+  Separation best = SeparateByFaces(cores);
+  if (best.gap >= enough) return best;
+  if (cores.AreBoxes() && best.gap > 0 && GapIsExact(cores, best.n_A)) return best;
+  SeparateByEdges(cores, &best);
+  if (best.gap >= enough) return best;
+  const bool is_exact = cores.AreBoxes() && best.gap <= 0;
+  if (!is_exact && !ImproveByBullet(cores, &best)) ImproveTouching(cores, &best);
+  return best;
+}
+
 }  // namespace
 
 double SignedDistance(const PreparedShape& A, const Isometry3d& X_WA, const PreparedShape& B,
@@ -213,14 +225,14 @@ double SignedDistance(const PreparedShape& A, const Isometry3d& X_WA, const Prep
   if (cores.AreBoxes() && A.core_is_point()) {
     return PointToBox(B.half_extents(), cores.X_AB.inverse().translation()) - radii;
   }
-  Separation best = SeparateByFaces(cores);
-  if (best.gap - radii >= enough) return best.gap - radii;
-  if (cores.AreBoxes() && best.gap > 0 && GapIsExact(cores, best.n_A)) return best.gap - radii;
-  SeparateByEdges(cores, &best);
-  if (best.gap - radii >= enough) return best.gap - radii;
-  const bool is_exact = cores.AreBoxes() && best.gap <= 0;
-  if (!is_exact && !ImproveByBullet(cores, &best)) ImproveTouching(cores, &best);
-  return best.gap - radii;
+  return Separated(cores, enough + radii).gap - radii;
+}
+
+SeparatingPlane Separate(const PreparedShape& A, const Isometry3d& X_WA, const PreparedShape& B,
+                         const Isometry3d& X_WB) {
+  const Cores cores{A, B, X_WA.inverse() * X_WB};
+  const Separation best = Separated(cores, kInfinity);
+  return {best.gap - A.radius() - B.radius(), best.n_A};
 }
 
 }  // namespace possibility::models

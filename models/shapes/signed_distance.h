@@ -16,4 +16,15 @@ namespace possibility::models {
 double SignedDistance(const PreparedShape& A, const Eigen::Isometry3d& X_WA, const PreparedShape& B,
                       const Eigen::Isometry3d& X_WB, double enough);
 
+/// A plane between two shapes, and how far apart it proves them to be.
+struct SeparatingPlane {
+  double distance = 0;  ///< as SignedDistance
+  /// Unit, from A to B, in A's frame: A ends at support(A, normal), B begins `distance` beyond.
+  Eigen::Vector3d normal_A = Eigen::Vector3d::UnitX();
+};
+
+/// The direction that proves SignedDistance.
+SeparatingPlane Separate(const PreparedShape& A, const Eigen::Isometry3d& X_WA,
+                         const PreparedShape& B, const Eigen::Isometry3d& X_WB);
+
 }  // namespace possibility::models

@@ -85,7 +85,7 @@ inline void SpeedUp(double factor, Plan* plan) {
 
 /// A change of the contact schedule that the motion follows.
 inline std::function<void(VerifierSubject*)> Scheduled(
-    const std::function<void(ContactSchedule*)>& change) {
+    const std::function<void(models::ContactSchedule*)>& change) {
   return [change](VerifierSubject* subject) {
     subject->plan.schedule = ScheduleOfMotion(subject->robot, subject->plan.segments);
     change(&*subject->plan.schedule);
@@ -93,9 +93,9 @@ inline std::function<void(VerifierSubject*)> Scheduled(
 }
 
 /// The first contact bears where it bears at first until it swings.
-inline void MoveAlong(ContactSchedule* schedule) {
+inline void MoveAlong(models::ContactSchedule* schedule) {
   const auto& first = schedule->intervals.front().bearing.front();
-  for (ContactInterval& interval : schedule->intervals) {
+  for (models::ContactInterval& interval : schedule->intervals) {
     if (!interval.bearing.front()) return;
     interval.bearing.front() = first;
   }
@@ -320,26 +320,29 @@ inline std::vector<PlanMutation> PlanMutations() {
       {"MimicPushed", Uncouple(0, 0, 1e-2), Kind::kJointCoupling},
 
       {"FootSlides", SlideContact, Kind::kContactMotion},
-      {"ScheduleOfOtherPlaces", Scheduled([](ContactSchedule* schedule) {
+      {"ScheduleOfOtherPlaces", Scheduled([](models::ContactSchedule* schedule) {
          schedule->intervals.front().bearing.front()->translation().x() += 0.002;
          MoveAlong(schedule);
        }),
        Kind::kSchedule},
-      {"ScheduleOfOtherHeadings", Scheduled([](ContactSchedule* schedule) {
+      {"ScheduleOfOtherHeadings", Scheduled([](models::ContactSchedule* schedule) {
          schedule->intervals.front().bearing.front()->rotate(
              Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitZ()));
          MoveAlong(schedule);
        }),
        Kind::kSchedule},
-      {"ScheduleOfOtherTimes",
-       Scheduled([](ContactSchedule* schedule) { schedule->intervals.front().duration += 0.01; }),
+      {"ScheduleOfOtherTimes", Scheduled([](models::ContactSchedule* schedule) {
+         schedule->intervals.front().duration += 0.01;
+       }),
        Kind::kSchedule},
-      {"ScheduleOfFewerContacts", Scheduled([](ContactSchedule* schedule) {
-         for (ContactInterval& interval : schedule->intervals) interval.bearing.front().reset();
+      {"ScheduleOfFewerContacts", Scheduled([](models::ContactSchedule* schedule) {
+         for (models::ContactInterval& interval : schedule->intervals)
+           interval.bearing.front().reset();
        }),
        Kind::kSchedule},
       {"ScheduleOfNothing",
-       Scheduled([](ContactSchedule* schedule) { schedule->intervals.clear(); }), Kind::kSchedule},
+       Scheduled([](models::ContactSchedule* schedule) { schedule->intervals.clear(); }),
+       Kind::kSchedule},
       {"GroundSunk",
        [](Subject* s) {
          MoveGround({0, 0, -0.005}, s);

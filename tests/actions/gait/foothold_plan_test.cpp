@@ -235,12 +235,12 @@ TEST_P(FootholdPlanTest, ScheduleAlternatesSwingsAndSupportOfAllLimbs) {
   const std::vector<PlanarPose> way =
       Strides({{1, 2, 0.5}, PlanarPose{1, 2, 0.5} * PlanarPose{1, 0, 0}});
   const std::vector<Step> steps = PlanSteps(stance_, groups_, way, bounds_);
-  const ContactSchedule schedule =
+  const models::ContactSchedule schedule =
       ScheduleOf(DrcHubo1(), stance_, groups_, way.front(), steps, timing);
-  CheckContactSchedule(schedule);
+  models::CheckContactSchedule(schedule);
   ASSERT_EQ(schedule.intervals.size(), 2 * steps.size() + 1);
   for (std::size_t k = 0; k < schedule.intervals.size(); ++k) {
-    const ContactInterval& interval = schedule.intervals[k];
+    const models::ContactInterval& interval = schedule.intervals[k];
     const bool swings = k % 2 == 1;
     const std::vector<int> group = swings ? groups_[steps[k / 2].group] : std::vector<int>();
     for (int limb = 0; limb < static_cast<int>(interval.bearing.size()); ++limb) {
@@ -261,8 +261,8 @@ TEST_P(FootholdPlanTest, ShorterSwingsTakeLessTimeButNotLessThanTheirShare) {
   const StepTiming timing = {0.4, 0.2, 0.07, 0.3};
   double before = 0;
   for (const double length : {0.001, 0.05, 0.12, 0.14, 0.16, 0.18, 0.2, 0.3}) {
-    const ContactSchedule schedule = ScheduleOf(DrcHubo1(), stance_, groups_, {},
-                                                {{0, {length, 0, 0}}, {1, {length, 0, 0}}}, timing);
+    const models::ContactSchedule schedule = ScheduleOf(
+        DrcHubo1(), stance_, groups_, {}, {{0, {length, 0, 0}}, {1, {length, 0, 0}}}, timing);
     for (const int k : {1, 3}) {
       EXPECT_NEAR(schedule.intervals[k].duration,
                   0.4 * std::min(1.0, std::max(0.75, length / timing.swing_length)), 1e-12);

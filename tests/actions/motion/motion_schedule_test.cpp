@@ -19,16 +19,16 @@ namespace {
 using testing::VerifierSubject;
 
 /// Entry of a schedule for the contact of a phase.
-const std::optional<Eigen::Isometry3d>& BearingOf(const ContactSchedule& schedule,
-                                                  const ContactInterval& interval,
+const std::optional<Eigen::Isometry3d>& BearingOf(const models::ContactSchedule& schedule,
+                                                  const models::ContactInterval& interval,
                                                   const std::string& contact) {
   const auto found = std::find(schedule.contacts.begin(), schedule.contacts.end(), contact);
   return interval.bearing.at(found - schedule.contacts.begin());
 }
 
 /// Checks the schedule against every knot of the motion by the world positions of points.
-void ExpectFollowed(const ContactSchedule& schedule, const VerifierSubject& subject) {
-  CheckContactSchedule(schedule);
+void ExpectFollowed(const models::ContactSchedule& schedule, const VerifierSubject& subject) {
+  models::CheckContactSchedule(schedule);
   dynamics::TreeKinematics kinematics(subject.robot);
   std::size_t k = 0;
   double end = schedule.intervals[0].duration;
@@ -36,7 +36,7 @@ void ExpectFollowed(const ContactSchedule& schedule, const VerifierSubject& subj
     for (const Phase& phase : segment.phases) {
       if (phase.knots.front().t > end - 1e-9) end += schedule.intervals.at(++k).duration;
       EXPECT_LT(phase.knots.back().t, end + 1e-9);
-      const ContactInterval& interval = schedule.intervals[k];
+      const models::ContactInterval& interval = schedule.intervals[k];
       EXPECT_EQ(std::count(interval.bearing.begin(), interval.bearing.end(), std::nullopt),
                 schedule.contacts.size() - phase.contacts.size());
       for (const Knot& knot : phase.knots) {
@@ -58,16 +58,16 @@ void ExpectFollowed(const ContactSchedule& schedule, const VerifierSubject& subj
 
 TEST(MotionScheduleTest, HoldsWhenAndWhereContactsOfGaitsAndTransitionsBear) {
   const VerifierSubject& subject = testing::WalkAndCrawl();
-  const ContactSchedule schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
+  const models::ContactSchedule schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
   EXPECT_EQ(schedule.contacts.size(), 4u);
   ExpectFollowed(schedule, subject);
 }
 
 TEST(MotionScheduleTest, HasAnIntervalWithoutContactsForAFlight) {
   const VerifierSubject subject = testing::HopPlan(DrcHubo1().file.string());
-  const ContactSchedule schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
+  const models::ContactSchedule schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
   ExpectFollowed(schedule, subject);
-  const auto flies = [](const ContactInterval& interval) {
+  const auto flies = [](const models::ContactInterval& interval) {
     return std::count(interval.bearing.begin(), interval.bearing.end(), std::nullopt) ==
            static_cast<int>(interval.bearing.size());
   };
@@ -76,9 +76,9 @@ TEST(MotionScheduleTest, HasAnIntervalWithoutContactsForAFlight) {
 
 TEST(MotionScheduleTest, SolesHaveTheirHeadingAndPointUp) {
   const VerifierSubject& subject = testing::WalkAndCrawl();
-  const ContactSchedule schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
+  const models::ContactSchedule schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
   for (const std::string sole : {"left_sole", "right_sole"}) {
-    for (const ContactInterval& interval : schedule.intervals) {
+    for (const models::ContactInterval& interval : schedule.intervals) {
       const auto& pose = BearingOf(schedule, interval, sole);
       if (!pose) continue;
       // The plan goes straight along x.

@@ -39,7 +39,7 @@ class PatternMotionTest : public ::testing::TestWithParam<WayCase> {
  protected:
   PlanarPose goal() const { return start_ * GetParam().way; }
 
-  ContactSchedule Schedule(const StepBounds& bounds = kBounds) const {
+  models::ContactSchedule Schedule(const StepBounds& bounds = kBounds) const {
     const auto groups = SwingGroups(stance_);
     return ScheduleOf(robot_, stance_, groups, start_,
                       PlanSteps(stance_, groups, {start_, goal()}, bounds), kTiming);
@@ -113,8 +113,8 @@ TEST_P(PatternMotionTest, CentreOfPressureStaysTwoCentimetresInsideTheSupport) {
 }
 
 TEST_P(PatternMotionTest, MotionFollowsTheSchedule) {
-  const ContactSchedule schedule = Schedule();
-  const ContactSchedule followed = ScheduleOfMotion(robot_, {{"walk", Motion()}});
+  const models::ContactSchedule schedule = Schedule();
+  const models::ContactSchedule followed = ScheduleOfMotion(robot_, {{"walk", Motion()}});
   EXPECT_EQ(followed.contacts, schedule.contacts);
   ASSERT_EQ(followed.intervals.size(), schedule.intervals.size());
   for (std::size_t k = 0; k < schedule.intervals.size(); ++k) {
@@ -287,7 +287,7 @@ TEST_P(PatternMotionRefusals, NoScheduleIsRefused) {
 }
 
 TEST_P(PatternMotionRefusals, ScheduleOfOtherContactsIsRefused) {
-  ContactSchedule schedule = Schedule();
+  models::ContactSchedule schedule = Schedule();
   schedule.contacts.front() = "tail";
   const std::string message = MessageOf([&] { PatternPhases(robot_, stance_, schedule, {}); });
   EXPECT_NE(message.find("contact schedule of tail, "), std::string::npos) << message;
@@ -295,8 +295,8 @@ TEST_P(PatternMotionRefusals, ScheduleOfOtherContactsIsRefused) {
 
 TEST_P(PatternMotionRefusals, SwingInTheFirstOrTheLastIntervalIsRefused) {
   for (const bool first : {true, false}) {
-    ContactSchedule schedule = Schedule();
-    ContactInterval& end = first ? schedule.intervals.front() : schedule.intervals.back();
+    models::ContactSchedule schedule = Schedule();
+    models::ContactInterval& end = first ? schedule.intervals.front() : schedule.intervals.back();
     end.bearing[1].reset();
     EXPECT_EQ(MessageOf([&] { PatternPhases(robot_, stance_, schedule, {}); }),
               "contact schedule: a limb swings in the first or the last interval");

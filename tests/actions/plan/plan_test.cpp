@@ -29,7 +29,8 @@ void ExpectNear(const Eigen::MatrixXd& read, const Eigen::MatrixXd& written, dou
   EXPECT_LE((read - written).cwiseAbs().maxCoeff(), 0.51 * digit);
 }
 
-void ExpectSameSchedule(const ContactSchedule& schedule, const ContactSchedule& expected) {
+void ExpectSameSchedule(const models::ContactSchedule& schedule,
+                        const models::ContactSchedule& expected) {
   EXPECT_EQ(schedule.contacts, expected.contacts);
   ASSERT_EQ(schedule.intervals.size(), expected.intervals.size());
   for (std::size_t k = 0; k < expected.intervals.size(); ++k) {

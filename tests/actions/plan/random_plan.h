@@ -71,11 +71,11 @@ inline Plan RandomPlan(std::mt19937* generator) {
     plan.segments.push_back(segment);
   }
   const Eigen::Isometry3d place = RandomPose(generator);
-  plan.schedule =
-      ContactSchedule{{"left_sole", "right_peg", "left_sole[0,3]"},
-                      {{0.2, {place, RandomPose(generator), std::nullopt}},
-                       {0.1, {place, std::nullopt, std::nullopt}},
-                       {0.1, {std::nullopt, RandomPose(generator), RandomPose(generator)}}}};
+  plan.schedule = models::ContactSchedule{
+      {"left_sole", "right_peg", "left_sole[0,3]"},
+      {{0.2, {place, RandomPose(generator), std::nullopt}},
+       {0.1, {place, std::nullopt, std::nullopt}},
+       {0.1, {std::nullopt, RandomPose(generator), RandomPose(generator)}}}};
   plan.explored.vertices = {{{1, 2, 0.7}, 0.1}, {{1.5, 2, 0.7}, -0.2}};
   plan.explored.edges = {{0, 1, "walk"}};
   return plan;

@@ -39,6 +39,37 @@ TEST(LinearExtension, DerivativesAgreeWithDifferences) {
   }
 }
 
+TEST(LinearMap, IsTheMatrixWithItsMask) {
+  std::mt19937 random(2);
+  const MatrixXd B = Sparse(3, 5, &random);
+  const auto f = LinearMap(B);
+  const VectorXd z = VectorXd::Random(5);
+  VectorXd y(3);
+  f->Evaluate(z, &y);
+  EXPECT_EQ(y, B * z);
+  ExpectExactDerivatives(f.get(), z, VectorXd::Random(3));
+  EXPECT_FALSE(f->HessianMask().any());
+}
+
+TEST(Composition, DerivativesAgreeWithDifferences) {
+  std::mt19937 random(3);
+  const auto outer = Differentiated<2, 3>([](const auto& y, auto* z) {
+    (*z)[0] = y[0] * y[1] * y[1];
+    (*z)[1] = sin(y[0]);
+    (*z)[2] = y[1];
+  });
+  const auto f = Composition(outer, Inner());
+  for (int trial = 0; trial < 50; ++trial) {
+    ExpectExactDerivatives(
+        f.get(), VectorXd::NullaryExpr(3, [&] { return std::normal_distribution()(random); }),
+        VectorXd::Random(3));
+  }
+}
+
+TEST(Composition, RefusesFunctionsThatDoNotFit) {
+  EXPECT_THROW(Composition(Inner(), Inner()), std::invalid_argument);
+}
+
 TEST(SeparateSum, AddsTheFunctionsWithTheirDerivatives) {
   const auto angle = Differentiated<1, 2>([](const auto& z, auto* y) {
     (*y)[0] = cos(z[0]);
@@ -53,6 +84,19 @@ TEST(SeparateSum, AddsTheFunctionsWithTheirDerivatives) {
   ExpectExactDerivatives(sum.get(), z, Eigen::Vector2d(0.8, -1.3));
   // Neither argument knows the other.
   EXPECT_FALSE(sum->HessianMask().topRightCorner(3, 1).any());
+}
+
+TEST(Stacked, HasTheOutputsOfBothWithTheirDerivatives) {
+  const auto angle = Differentiated<1, 1>([](const auto& z, auto* y) { (*y)[0] = cos(z[0]); });
+  const auto both = Stacked(Inner(), angle);
+  const Eigen::Vector4d z(0.3, -0.7, 1.1, 0.4);
+  Eigen::VectorXd y(3);
+  both->Evaluate(z, &y);
+  EXPECT_DOUBLE_EQ(y[1], -0.7 * 1.1 * 1.1);
+  EXPECT_DOUBLE_EQ(y[2], std::cos(0.4));
+  ExpectExactDerivatives(both.get(), z, Eigen::Vector3d(0.8, -1.3, 0.7));
+  EXPECT_FALSE(both->JacobianMask().topRightCorner(2, 1).any());
+  EXPECT_FALSE(both->HessianMask().topRightCorner(3, 1).any());
 }
 
 TEST(SeparateSum, RefusesFunctionsOfDifferentSizes) {

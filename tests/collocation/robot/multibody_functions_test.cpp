@@ -47,11 +47,15 @@ TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
     const std::vector<PointComponent> components = {{points[0], Eigen::Vector3d(0.6, 0, 0.8)},
                                                     {points[1], Eigen::Vector3d::UnitZ()},
                                                     {points[1], Eigen::Vector3d::UnitX()}};
+    const std::vector<PointOverPlane> planes = {
+        {points[0], points[1], Eigen::Vector3d(0.6, 0, 0.8)},
+        {points[1], {model->tree().num_links() - 1, {0.1, 0, 0}}, Eigen::Vector3d::UnitZ()}};
     for (const auto& f : {EquationOfMotion(model, points), ActuatedMotion(model, points),
                           PointPositions(model, points), PointPositions(model, components),
                           PointVelocities(model, points), PointVelocities(model, components),
                           PointAccelerations(model, points), PointAccelerations(model, components),
-                          SquaredDistance(model, points[0], points[1]), ImpactMap(model, points)}) {
+                          SquaredDistance(model, points[0], points[1]),
+                          HeightsOverPlanes(model, planes), ImpactMap(model, points)}) {
       ExpectExactDerivatives(f.get(), dynamics::RandomVector(&random, f->num_inputs(), 1.5),
                              dynamics::RandomVector(&random, f->num_outputs(), 1));
     }

@@ -55,6 +55,28 @@ TEST(FloatingMotion, VelocityAndAccelerationAreTheRatesOfTheMotion) {
   }
 }
 
+TEST(FloatingMotion, PositionsComeBack) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const RandomSystem system(&random, 1 + trial % 7);
+    const int n = system.model->nv();
+    VectorXd q = RandomVector(&random, n, 1.2);
+    q[3] *= 2.5;   // yaw: to beyond a right angle
+    q[5] *= -2.5;  // pitch
+    const VectorXd none = VectorXd::Zero(n);
+    const VectorXd back = FromFloating(*system.model, ToFloating(*system.model, q, none, none).q);
+    EXPECT_LT((back - q).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(FloatingMotion, PositionsOfAnotherSizeOrBaseAreRefused) {
+  std::mt19937 random(4);
+  const RandomSystem system(&random, 3);
+  EXPECT_THROW(FromFloating(*system.model, VectorXd::Zero(9)), std::invalid_argument);
+  EXPECT_THROW(FromFloating(*MultibodyModel::Spatial(system.tree), VectorXd::Zero(10)),
+               std::invalid_argument);
+}
+
 TEST(FloatingMotion, HasTheSameForcesAndPoints) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 30; ++trial) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace possibility::actions {
+namespace possibility::models {
 
 /// A stretch of time in which the same contacts bear.
 struct ContactInterval {
@@ -19,7 +19,8 @@ struct ContactInterval {
 /// Which contact bears where, and when. A contact that swings goes from where it bore last to where
 /// it bears next.
 struct ContactSchedule {
-  std::vector<std::string> contacts;  ///< names as in Phase::contacts, each once
+  std::vector<std::string>
+      contacts;  ///< names as in RobotModel::contacts, or parts of patches as in a plan, each once
   std::vector<ContactInterval> intervals;
 
   double duration() const;  ///< s
@@ -34,4 +35,4 @@ struct ContactSchedule {
 /// and finite, each interval has one entry per contact, and contacts stay where they bear.
 void CheckContactSchedule(const ContactSchedule& schedule);
 
-}  // namespace possibility::actions
+}  // namespace possibility::models

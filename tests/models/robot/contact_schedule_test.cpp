@@ -1,4 +1,4 @@
-#include "actions/plan/contact_schedule.h"
+#include "models/robot/contact_schedule.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/message_of.h"
 
-namespace possibility::actions {
+namespace possibility::models {
 namespace {
 
 Eigen::Isometry3d Place(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); }
@@ -99,4 +99,4 @@ TEST(ContactScheduleTest, ContactThatMovesWhileItBearsIsRefusedByNameAndInterval
 }
 
 }  // namespace
-}  // namespace possibility::actions
+}  // namespace possibility::models

@@ -1,4 +1,4 @@
-#include "actions/plan/contact_schedule.h"
+#include "models/robot/contact_schedule.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace possibility::actions {
+namespace possibility::models {
 namespace {
 
 using Bearing = std::optional<Eigen::Isometry3d>;
@@ -67,4 +67,4 @@ void CheckContactSchedule(const ContactSchedule& schedule) {
   }
 }
 
-}  // namespace possibility::actions
+}  // namespace possibility::models

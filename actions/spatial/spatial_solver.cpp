@@ -1,0 +1,164 @@
+#include "actions/spatial/spatial_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "actions/motion/self_clearance.h"
+#include "actions/spatial/separating_planes.h"
+#include "actions/spatial/spatial_motion.h"
+
+namespace possibility::actions {
+namespace {
+
+using collocation::OptimalControlResult;
+using collocation::Separation;
+using Eigen::VectorXd;
+
+/// Planes are drawn for the whole shapes of a pair; those farther apart need none, m.
+constexpr double kNear = 0.03;
+/// The motion between the knots keeps this much less, m.
+constexpr double kReserve = 0.002;
+
+/// Where two links come closest.
+struct Encounter {
+  double distance = 0;
+  VectorXd q;
+};
+
+class Rounds {
+ public:
+  Rounds(const models::RobotModel& robot, const models::Gait& limbs,
+         const models::ContactSchedule& schedule, const VectorXd& from, const VectorXd& to,
+         const SpatialSolverSettings& settings)
+      : robot_(robot),
+        limbs_(limbs),
+        schedule_(schedule),
+        from_(from),
+        to_(to),
+        settings_(settings),
+        clearance_(robot, {from, to}) {}
+
+  SpatialSolution Solve(const CancellationToken& cancellation,
+                        const std::function<void(const collocation::SolverIteration&)>& log) {
+    SpatialSolution solution;
+    SpatialSettings problem = settings_.problem;
+    problem.sequence.limits.friction = robot_.friction;
+    for (;;) {
+      ++solution.rounds;
+      const SpatialProblem stated =
+          StateSpatialProblem(robot_, limbs_, schedule_, from_, to_, problem);
+      // From the straight line each time: from the last motion, which the planes cut, a walk of 2.8
+      // m did not converge in 100 iterations, from the line it takes 40.
+      solution.result =
+          SolveOptimalControl(*stated.problem, Options(), std::nullopt, cancellation, log);
+      solution.iterations += solution.result.iterations;
+      cancellation.ThrowIfCancelled();
+      if (!solution.result.succeeded()) throw MotionError(solution.result.message);
+      solution.phases = Build(stated, solution.result, cancellation);
+      const std::vector<Separation> missing = MissingPlanes(solution.phases);
+      if (missing.empty()) return solution;
+      if (solution.rounds == settings_.max_rounds) throw MotionError(TooClose());
+      auto& separations = problem.sequence.separations;
+      separations.insert(separations.end(), missing.begin(), missing.end());
+      solution.separations = static_cast<int>(separations.size());
+    }
+  }
+
+ private:
+  collocation::OptimalControlOptions Options() const {
+    collocation::OptimalControlOptions options;
+    options.solver = settings_.solver;
+    options.intervals.clear();
+    for (const models::ContactInterval& interval : schedule_.intervals) {
+      const int intervals = static_cast<int>(std::lround(interval.duration / settings_.interval));
+      options.intervals.push_back(std::max(settings_.least_intervals, intervals));
+    }
+    return options;
+  }
+
+  std::vector<Phase> Build(const SpatialProblem& stated, const OptimalControlResult& result,
+                           const CancellationToken& cancellation) const {
+    return MotionBuilder(robot_, settings_.motion)
+        .Build(SpatialMotion(robot_, limbs_, schedule_, stated.model, result.trajectory), from_,
+               cancellation);
+  }
+
+  /// Planes for the pairs that come too close, each at the knot of the interval where it is worst.
+  std::vector<Separation> MissingPlanes(const std::vector<Phase>& phases) {
+    std::vector<Separation> missing;
+    for (std::size_t k = 0; k < phases.size(); ++k) {
+      std::map<std::pair<int, int>, Encounter> encounters;
+      for (const Knot& knot : phases[k].knots) {
+        for (const auto& fault : clearance_.Faults(knot.q, settings_.clearance)) {
+          const auto [at, is_new] = encounters.try_emplace({fault.pair.link, fault.pair.other});
+          if (!is_new && at->second.distance <= fault.pair.distance) continue;
+          at->second = {fault.pair.distance, knot.q};
+        }
+      }
+      for (const auto& [links, encounter] : encounters) {
+        worst_ = fmt::format("{} is {:.4f} m from {}", robot_.links[links.first].name,
+                             encounter.distance, robot_.links[links.second].name);
+        const std::vector<Separation> planes =
+            SeparatingPlanes(robot_, encounter.q, links.first, links.second, kNear,
+                             settings_.clearance + kReserve, static_cast<int>(k));
+        missing.insert(missing.end(), planes.begin(), planes.end());
+      }
+    }
+    return missing;
+  }
+
+  std::string TooClose() const {
+    return fmt::format("{}, expected {:.4f}, after {} rounds", worst_, settings_.clearance,
+                       settings_.max_rounds);
+  }
+
+  const models::RobotModel& robot_;
+  const models::Gait& limbs_;
+  const models::ContactSchedule& schedule_;
+  const VectorXd& from_;
+  const VectorXd& to_;
+  const SpatialSolverSettings& settings_;
+  SelfClearance clearance_;
+  std::string worst_;  ///< encounter, for the message
+};
+
+}  // namespace
+
+SpatialSettings SpatialSolverSettings::ProblemDefaults() {
+  SpatialSettings problem;
+  problem.sequence.limits.friction_fraction = 0.85;
+  problem.sequence.limits.torque_fraction = 0.9;
+  problem.sequence.limits.speed_fraction = 0.9;
+  problem.sequence.limits.joint_margin = 0.01;
+  problem.sequence.pressure_reserve = 0.02;
+  problem.sequence.quickest = 0.75;
+  return problem;
+}
+
+MotionSettings SpatialSolverSettings::MotionDefaults() {
+  MotionSettings motion;
+  motion.knot_spacing = 0.01;
+  motion.minimum_intervals = 6;
+  // A foot unloads to zero before it lifts.
+  motion.normal_reserve = 0;
+  motion.friction_margin = 0.95;
+  motion.torque_margin = 0.99;
+  motion.speed_margin = 0.99;
+  return motion;
+}
+
+SpatialSolution SolveSpatialMotion(
+    const models::RobotModel& robot, const models::Gait& limbs,
+    const models::ContactSchedule& schedule, const VectorXd& from, const VectorXd& to,
+    const SpatialSolverSettings& settings, const CancellationToken& cancellation,
+    const std::function<void(const collocation::SolverIteration&)>& log) {
+  return Rounds(robot, limbs, schedule, from, to, settings).Solve(cancellation, log);
+}
+
+}  // namespace possibility::actions
