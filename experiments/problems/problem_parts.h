@@ -1,8 +1,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
