@@ -19,7 +19,7 @@ TEST(RegressionProblems, DerivativesOfEveryProblemAgreeWithDifferences) {
     }
     ++problems;
   }
-  EXPECT_GT(problems, 20);
+  EXPECT_GT(problems, 60);
 }
 
 }  // namespace

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "experiments/problems/regression_problems.h"
+
+namespace possibility::experiments {
+
+std::vector<RegressionProblem> ChemicalProblems();
+
+}  // namespace possibility::experiments
