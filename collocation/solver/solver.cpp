@@ -214,14 +214,14 @@ SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
       status = RunIpopt(options, guess, *program, &clock, adapter, &result.times);
     }
   }
-  if (adapter->exception()) std::rethrow_exception(adapter->exception());
+  adapter->program().Rethrow();
 
   result.status = StatusOf(status);
   if (clock.stop() == SolveClock::Stop::kCancelled) result.status = SolverStatus::kCancelled;
   if (clock.stop() == SolveClock::Stop::kTimeLimit) result.status = SolverStatus::kTimeLimit;
   const Violation worst = EvaluateResult(program, &result);
   if (ObjectiveRanAway(result)) result.status = SolverStatus::kUnbounded;
-  result.message = Message(*program, options, result, worst, adapter->culprit(), status);
+  result.message = Message(*program, options, result, worst, adapter->program().culprit(), status);
   SolverTimes& times = result.times;
   times.total = clock.Seconds();
   times.rest = std::max(0.0, times.total - times.functions - times.derivatives -

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kPivotThreshold = 0.01;
+constexpr double kPivotThreshold = 1e-4;
 // Small beside the squares of Jacobian entries, which are of order one, and large beside rounding.
 constexpr double kDualShift = 1e-10;
 
