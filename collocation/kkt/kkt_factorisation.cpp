@@ -254,6 +254,7 @@ KktStatus KktFactorisation::Factorise(const double* values, double pivot_thresho
     if (is_stuck || front_.has_zero_candidate()) return KktStatus::kSingular;
     StoreFactor();
     if (!is_root) PassOn(f);
+    if (delay_limit_ && num_delayed_ > *delay_limit_) return KktStatus::kGaveUp;
   }
   return KktStatus::kFactorised;
 }

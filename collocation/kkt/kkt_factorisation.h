@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "collocation/kkt/dense_front.h"
@@ -11,8 +12,9 @@ namespace possibility::collocation {
 
 enum class KktStatus {
   kFactorised,
-  kSingular,  ///< to rounding; the inertia is unknown
-  kNotFinite  ///< an entry of the matrix is not a finite number
+  kSingular,   ///< to rounding; the inertia is unknown
+  kNotFinite,  ///< an entry of the matrix is not a finite number
+  kGaveUp      ///< more columns were delayed than LimitDelays allows; the inertia is unknown
 };
 
 /// Solves sparse symmetric indefinite systems, as they arise in interior-point methods, for many
@@ -34,6 +36,10 @@ class KktFactorisation {
   /// @throws Cancelled; the object can then be used for another Factorise.
   KktStatus Factorise(const double* values, double pivot_threshold,
                       const CancellationToken& cancellation = {});
+
+  /// Ends a factorisation with kGaveUp once more than `limit` columns were delayed, counted as
+  /// num_delayed() does: nearly singular matrices can take time without measure. None: no limit.
+  void LimitDelays(std::optional<int> limit) { delay_limit_ = limit; }
 
   /// Overwrites the right-hand side (size) with the solution, refined against the matrix. A
   /// solution that is not finite is returned as zero. Call only after kFactorised.
@@ -104,6 +110,7 @@ class KktFactorisation {
   std::vector<double> inverse_diagonal_, inverse_subdiagonal_;
   int num_negative_ = 0;
   int num_delayed_ = 0;
+  std::optional<int> delay_limit_;
   Eigen::VectorXd b_, x_, r_, correction_;
   Eigen::VectorXd gathered_;
 };

@@ -59,7 +59,7 @@ void Factorise(ipfint*, ipfint*, const ipfint*, const ipfint*, double* a, ipfint
       HslScope::Current()->Factorise(icntl, a, cntl[0], &info[kNumNegative]);
   if (!status || *status == KktStatus::kNotFinite) {
     info[kFlag] = kFatal;
-  } else if (*status == KktStatus::kSingular) {
+  } else if (*status != KktStatus::kFactorised) {
     info[kFlag] = kSingularMatrix;
   }
 }

@@ -1,10 +1,6 @@
 #include "collocation/solver/ipopt_adapter.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 namespace possibility::collocation {
 namespace {
@@ -24,24 +20,24 @@ void WritePattern(const SparsityPattern& pattern, int* rows, int* columns) {
 
 IpoptAdapter::IpoptAdapter(NonlinearProgram* program, const SolverGuess& guess, SolveClock* clock,
                            const Log& log, SolverResult* result)
-    : program_(program), guess_(guess), clock_(clock), log_(log), result_(result) {}
+    : program_(program, clock, log, result), guess_(guess), result_(result) {}
 
 bool IpoptAdapter::get_nlp_info(int& n, int& m, int& jacobian_entries, int& hessian_entries,
                                 IndexStyleEnum& index_style) {
-  n = program_->num_variables();
-  m = program_->num_constraints();
-  jacobian_entries = program_->jacobian_pattern().size();
-  hessian_entries = program_->hessian_pattern().size();
+  n = program_.inner().num_variables();
+  m = program_.inner().num_constraints();
+  jacobian_entries = program_.inner().jacobian_pattern().size();
+  hessian_entries = program_.inner().hessian_pattern().size();
   index_style = C_STYLE;
   return true;
 }
 
 bool IpoptAdapter::get_bounds_info(int, double* x_lower, double* x_upper, int, double* g_lower,
                                    double* g_upper) {
-  Write(program_->lower(), x_lower);
-  Write(program_->upper(), x_upper);
-  Write(program_->constraint_lower(), g_lower);
-  Write(program_->constraint_upper(), g_upper);
+  Write(program_.inner().lower(), x_lower);
+  Write(program_.inner().upper(), x_upper);
+  Write(program_.inner().constraint_lower(), g_lower);
+  Write(program_.inner().constraint_upper(), g_upper);
   return true;
 }
 
@@ -56,107 +52,31 @@ bool IpoptAdapter::get_starting_point(int, bool init_x, double* x, bool init_z, 
   return true;
 }
 
-bool IpoptAdapter::Evaluate(const double* x, int* count, double* seconds,
-                            const std::function<void()>& function,
-                            const std::function<std::string(int)>& what) {
-  if (exception_ || !clock_->Proceed()) return false;
-  const SolveTimer timer(*clock_, seconds);
-  ++*count;
-  x_ = Read(x, program_->num_variables());
-  const auto expected = values_.size();
-  try {
-    function();
-  } catch (const std::runtime_error& error) {
-    culprit_ = error.what();
-    return false;
-  } catch (...) {
-    exception_ = std::current_exception();
-    return false;
-  }
-  if (values_.size() != expected) {
-    exception_ = std::make_exception_ptr(std::logic_error(fmt::format(
-        "{}: the program gave {} values instead of {}", what(0), values_.size(), expected)));
-    return false;
-  }
-  if (values_.allFinite()) return true;
-  int k = 0;
-  while (std::isfinite(values_[k])) ++k;
-  culprit_ = fmt::format("{} is {}", what(k), values_[k]);
-  return false;
-}
-
 bool IpoptAdapter::eval_f(int, const double* x, bool, double& value) {
-  values_.resize(1);
-  const bool good = Evaluate(
-      x, &result_->evaluations.objective, &result_->times.functions,
-      [&] { values_[0] = program_->Objective(x_); }, [](int) { return "the objective"; });
-  if (good) value = values_[0];
-  return good;
+  return program_.Objective(x, &value);
 }
 
-bool IpoptAdapter::eval_grad_f(int n, const double* x, bool, double* gradient) {
-  values_.resize(n);
-  const bool good = Evaluate(
-      x, &result_->evaluations.gradient, &result_->times.derivatives,
-      [&] { program_->Gradient(x_, &values_); },
-      [&](int k) {
-        return fmt::format("the derivative of the objective with respect to '{}'",
-                           program_->VariableName(k));
-      });
-  if (good) Write(values_, gradient);
-  return good;
+bool IpoptAdapter::eval_grad_f(int, const double* x, bool, double* gradient) {
+  return program_.Gradient(x, gradient);
 }
 
-bool IpoptAdapter::eval_g(int, const double* x, bool, int m, double* g) {
-  values_.resize(m);
-  const bool good = Evaluate(
-      x, &result_->evaluations.constraints, &result_->times.functions,
-      [&] { program_->Constraints(x_, &values_); },
-      [&](int k) { return fmt::format("constraint '{}'", program_->ConstraintName(k)); });
-  if (good) Write(values_, g);
-  return good;
+bool IpoptAdapter::eval_g(int, const double* x, bool, int, double* g) {
+  return program_.Constraints(x, g);
 }
 
-bool IpoptAdapter::eval_jac_g(int, const double* x, bool, int, int entries, int* rows, int* columns,
+bool IpoptAdapter::eval_jac_g(int, const double* x, bool, int, int, int* rows, int* columns,
                               double* values) {
-  const SparsityPattern& pattern = program_->jacobian_pattern();
-  if (values == nullptr) {
-    WritePattern(pattern, rows, columns);
-    return true;
-  }
-  values_.resize(entries);
-  const bool good = Evaluate(
-      x, &result_->evaluations.jacobian, &result_->times.derivatives,
-      [&] { program_->Jacobian(x_, &values_); },
-      [&](int k) {
-        return fmt::format("the derivative of constraint '{}' with respect to '{}'",
-                           program_->ConstraintName(pattern.rows[k]),
-                           program_->VariableName(pattern.columns[k]));
-      });
-  if (good) Write(values_, values);
-  return good;
+  if (values != nullptr) return program_.Jacobian(x, values);
+  WritePattern(program_.inner().jacobian_pattern(), rows, columns);
+  return true;
 }
 
-bool IpoptAdapter::eval_h(int, const double* x, bool, double objective_factor, int m,
-                          const double* lambda, bool, int entries, int* rows, int* columns,
+bool IpoptAdapter::eval_h(int, const double* x, bool, double objective_factor, int,
+                          const double* lambda, bool, int, int* rows, int* columns,
                           double* values) {
-  const SparsityPattern& pattern = program_->hessian_pattern();
-  if (values == nullptr) {
-    WritePattern(pattern, rows, columns);
-    return true;
-  }
-  values_.resize(entries);
-  const VectorXd multipliers = Read(lambda, m);
-  const bool good = Evaluate(
-      x, &result_->evaluations.hessian, &result_->times.derivatives,
-      [&] { program_->Hessian(x_, objective_factor, multipliers, &values_); },
-      [&](int k) {
-        return fmt::format("the second derivative with respect to '{}' and '{}'",
-                           program_->VariableName(pattern.rows[k]),
-                           program_->VariableName(pattern.columns[k]));
-      });
-  if (good) Write(values_, values);
-  return good;
+  if (values != nullptr) return program_.Hessian(x, objective_factor, lambda, values);
+  WritePattern(program_.inner().hessian_pattern(), rows, columns);
+  return true;
 }
 
 bool IpoptAdapter::intermediate_callback(Ipopt::AlgorithmMode mode, int iteration, double objective,
@@ -164,18 +84,8 @@ bool IpoptAdapter::intermediate_callback(Ipopt::AlgorithmMode mode, int iteratio
                                          double mu, double, double regularisation, double,
                                          double alpha_primal, int, const Ipopt::IpoptData*,
                                          Ipopt::IpoptCalculatedQuantities*) {
-  if (exception_) return false;
-  const SolverIteration entry{
-      iteration, objective,    primal_infeasibility, dual_infeasibility,
-      mu,        alpha_primal, regularisation,       mode == Ipopt::RestorationPhaseMode};
-  result_->history.push_back(entry);
-  try {
-    if (log_) log_(entry);
-  } catch (...) {
-    exception_ = std::current_exception();
-    return false;
-  }
-  return clock_->Proceed();
+  return program_.Report({iteration, objective, primal_infeasibility, dual_infeasibility, mu,
+                          alpha_primal, regularisation, mode == Ipopt::RestorationPhaseMode});
 }
 
 void IpoptAdapter::finalize_solution(Ipopt::SolverReturn, int n, const double* x,

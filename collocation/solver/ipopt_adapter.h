@@ -1,17 +1,16 @@
 #pragma once
 
 #include <IpTNLP.hpp>
-#include <exception>
 #include <functional>
-#include <string>
 
 #include "collocation/solver/solve_clock.h"
 #include "collocation/solver/solver.h"
+#include "collocation/solver/watched_program.h"
 
 namespace possibility::collocation {
 
 /// Presents a NonlinearProgram to Ipopt. Evaluations that fail or are not finite are reported to
-/// Ipopt as such and remembered by name. Ipopt's last iterate is stored.
+/// Ipopt as such. Ipopt's last iterate is stored.
 class IpoptAdapter : public Ipopt::TNLP {
  public:
   using Log = std::function<void(const SolverIteration&)>;
@@ -21,10 +20,7 @@ class IpoptAdapter : public Ipopt::TNLP {
   IpoptAdapter(NonlinearProgram* program, const SolverGuess& guess, SolveClock* clock,
                const Log& log, SolverResult* result);
 
-  /// Name of the last function that was not finite, or empty.
-  const std::string& culprit() const { return culprit_; }
-  /// An exception other than std::runtime_error that a function threw; it ends the solve.
-  const std::exception_ptr& exception() const { return exception_; }
+  const WatchedProgram& program() const { return program_; }
 
   bool get_nlp_info(int& n, int& m, int& jacobian_entries, int& hessian_entries,
                     IndexStyleEnum& index_style) override;
@@ -52,20 +48,9 @@ class IpoptAdapter : public Ipopt::TNLP {
                          Ipopt::IpoptCalculatedQuantities* quantities) override;
 
  private:
-  /// Runs one function of the program. False if the solve must stop, the function throws, or one of
-  /// its `values_` is not finite. `what` names value k.
-  bool Evaluate(const double* x, int* count, double* seconds, const std::function<void()>& function,
-                const std::function<std::string(int)>& what);
-
-  NonlinearProgram* program_;
+  WatchedProgram program_;
   const SolverGuess& guess_;
-  SolveClock* clock_;
-  const Log& log_;
   SolverResult* result_;
-  Eigen::VectorXd x_;
-  Eigen::VectorXd values_;
-  std::string culprit_;
-  std::exception_ptr exception_;
 };
 
 }  // namespace possibility::collocation

@@ -14,76 +14,15 @@
 #include "collocation/solver/ipopt_adapter.h"
 #include "collocation/solver/ipopt_options.h"
 #include "collocation/solver/solve_clock.h"
+#include "collocation/solver/solver_input.h"
 #include "collocation/solver/turn_queue.h"
+#include "collocation/solver/violation.h"
 
 namespace possibility::collocation {
 namespace {
 
 using Eigen::VectorXd;
 using Ipopt::ApplicationReturnStatus;
-
-void CheckBounds(const VectorXd& lower, const VectorXd& upper, int size, const char* what,
-                 const std::function<std::string(int)>& name) {
-  if (lower.size() != size || upper.size() != size) {
-    throw std::invalid_argument(fmt::format("{} {}s but {} lower and {} upper bounds", size, what,
-                                            lower.size(), upper.size()));
-  }
-  for (int i = 0; i < size; ++i) {
-    const bool possible = lower[i] <= upper[i] && lower[i] < HUGE_VAL && upper[i] > -HUGE_VAL;
-    if (possible) continue;
-    throw std::invalid_argument(fmt::format("{} '{}': no value is at least {} and at most {}", what,
-                                            name(i), lower[i], upper[i]));
-  }
-}
-
-void CheckPattern(const SparsityPattern& pattern, int rows, int columns, const char* what) {
-  if (pattern.rows.size() != pattern.columns.size()) {
-    throw std::invalid_argument(fmt::format("the pattern of the {} has {} rows but {} columns",
-                                            what, pattern.rows.size(), pattern.columns.size()));
-  }
-  for (int k = 0; k < pattern.size(); ++k) {
-    const int row = pattern.rows[k], column = pattern.columns[k];
-    if (row >= 0 && row < rows && column >= 0 && column < columns) continue;
-    throw std::invalid_argument(fmt::format("the {} has an entry ({}, {}) but is {} x {}", what,
-                                            row, column, rows, columns));
-  }
-}
-
-void CheckGuessPart(const VectorXd& part, int size, const char* what,
-                    const std::function<std::string(int)>& name) {
-  if (part.size() != size) {
-    throw std::invalid_argument(
-        fmt::format("the guess has {} {} instead of {}", part.size(), what, size));
-  }
-  for (int i = 0; i < size; ++i) {
-    if (std::isfinite(part[i])) continue;
-    throw std::invalid_argument(
-        fmt::format("the guess of the {}: '{}' is {}", what, name(i), part[i]));
-  }
-}
-
-bool IsWarm(const SolverGuess& guess) {
-  return guess.constraint_multipliers.size() + guess.lower_multipliers.size() +
-             guess.upper_multipliers.size() >
-         0;
-}
-
-void CheckInput(const NonlinearProgram& program, const SolverGuess& guess) {
-  const int n = program.num_variables(), m = program.num_constraints();
-  if (n == 0) throw std::invalid_argument("the program has no variables");
-  const auto variable = [&](int i) { return program.VariableName(i); };
-  const auto constraint = [&](int i) { return program.ConstraintName(i); };
-  CheckBounds(program.lower(), program.upper(), n, "variable", variable);
-  CheckBounds(program.constraint_lower(), program.constraint_upper(), m, "constraint", constraint);
-  CheckPattern(program.jacobian_pattern(), m, n, "Jacobian");
-  CheckPattern(program.hessian_pattern(), n, n, "Hessian");
-  CheckGuessPart(guess.x, n, "variables", variable);
-  if (IsWarm(guess)) {
-    CheckGuessPart(guess.constraint_multipliers, m, "constraint multipliers", constraint);
-    CheckGuessPart(guess.lower_multipliers, n, "lower multipliers", variable);
-    CheckGuessPart(guess.upper_multipliers, n, "upper multipliers", variable);
-  }
-}
 
 double LargestBound(const NonlinearProgram& program) {
   double largest = 0;
@@ -100,34 +39,6 @@ double LargestBound(const NonlinearProgram& program) {
 TurnQueue& MumpsTurns() {
   static TurnQueue turns;
   return turns;
-}
-
-/// A violated bound or constraint.
-struct Violation {
-  double size = 0;      // scaled
-  double own_size = 0;  // in its own unit
-  std::string name;
-};
-
-Violation WorstViolation(const NonlinearProgram& program, const VectorXd& x, const VectorXd& g) {
-  Violation worst;
-  auto look = [&](const VectorXd& value, const VectorXd& lower, const VectorXd& upper,
-                  const std::function<std::string(int)>& name,
-                  const std::function<double(int)>& scale) {
-    for (int i = 0; i < value.size(); ++i) {
-      const double size = std::max(lower[i] - value[i], value[i] - upper[i]);
-      if (size > worst.size) worst = {size, size * scale(i), name(i)};
-    }
-  };
-  look(
-      x, program.lower(), program.upper(),
-      [&](int i) { return fmt::format("variable '{}'", program.VariableName(i)); },
-      [&](int i) { return program.VariableScale(i); });
-  look(
-      g, program.constraint_lower(), program.constraint_upper(),
-      [&](int i) { return fmt::format("constraint '{}'", program.ConstraintName(i)); },
-      [&](int i) { return program.ConstraintScale(i); });
-  return worst;
 }
 
 SolverStatus StatusOf(ApplicationReturnStatus status) {
@@ -222,20 +133,6 @@ std::string Message(const NonlinearProgram& program, const SolverOptions& option
          (culprit.empty() ? "" : fmt::format("; last evaluation that failed: {}", culprit));
 }
 
-/// Objective, constraints and violation at the iterate that Ipopt ended with.
-Violation EvaluateResult(NonlinearProgram* program, SolverResult* result) {
-  result->constraints = VectorXd::Constant(program->num_constraints(), std::nan(""));
-  result->objective = std::nan("");
-  try {
-    result->objective = program->Objective(result->x);
-    program->Constraints(result->x, &result->constraints);
-  } catch (const std::runtime_error&) {  // a function is undefined at this iterate
-  }
-  Violation worst = WorstViolation(*program, result->x, result->constraints);
-  result->worst_violation = worst.size;
-  return worst;
-}
-
 /// Linear algebra times from Ipopt's own stopwatches. They do not time the factorisation of MUMPS,
 /// only everything that the augmented systems take.
 void ReadIpoptTimes(Ipopt::IpoptApplication* application, SolverTimes* times) {
@@ -296,7 +193,7 @@ ApplicationReturnStatus RunIpopt(const SolverOptions& options, const SolverGuess
 SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
                    const SolverOptions& options, const CancellationToken& cancellation,
                    const std::function<void(const SolverIteration&)>& log) {
-  CheckInput(*program, guess);
+  CheckSolverInput(*program, guess);
   SolveClock clock(options.time_limit, cancellation);
   SolverResult result;
   result.x = guess.x;
@@ -317,14 +214,14 @@ SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
       status = RunIpopt(options, guess, *program, &clock, adapter, &result.times);
     }
   }
-  if (adapter->exception()) std::rethrow_exception(adapter->exception());
+  adapter->program().Rethrow();
 
   result.status = StatusOf(status);
   if (clock.stop() == SolveClock::Stop::kCancelled) result.status = SolverStatus::kCancelled;
   if (clock.stop() == SolveClock::Stop::kTimeLimit) result.status = SolverStatus::kTimeLimit;
   const Violation worst = EvaluateResult(program, &result);
   if (ObjectiveRanAway(result)) result.status = SolverStatus::kUnbounded;
-  result.message = Message(*program, options, result, worst, adapter->culprit(), status);
+  result.message = Message(*program, options, result, worst, adapter->program().culprit(), status);
   SolverTimes& times = result.times;
   times.total = clock.Seconds();
   times.rest = std::max(0.0, times.total - times.functions - times.derivatives -

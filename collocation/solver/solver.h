@@ -80,6 +80,7 @@ struct SolverTimes {
   double derivatives = 0;    ///< gradient, Jacobian, Hessian
   double factorisation = 0;  ///< of the KKT systems; with MUMPS also their assembly
   double back_solves = 0;    ///< including the refinement of our own solver
+  double second_order = 0;   ///< the second-order check after the last solve, if it was asked for
   double rest = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "collocation/solver/conflict.h"
 #include "collocation/study/conflict_text.h"
 #include "collocation/study/scale_check.h"
+#include "common/stopwatch.h"
 
 namespace possibility::collocation {
 
@@ -55,7 +56,7 @@ void AddUp(const SolverResult& solution, OptimalControlResult* result) {
   };
   add(&result->times, solution.times, &SolverTimes::total, &SolverTimes::functions,
       &SolverTimes::derivatives, &SolverTimes::factorisation, &SolverTimes::back_solves,
-      &SolverTimes::rest);
+      &SolverTimes::second_order, &SolverTimes::rest);
   add(&result->evaluations, solution.evaluations, &SolverEvaluations::objective,
       &SolverEvaluations::gradient, &SolverEvaluations::constraints, &SolverEvaluations::jacobian,
       &SolverEvaluations::hessian);
@@ -83,6 +84,7 @@ OptimalControlResult AsCancelled(OptimalControlResult result) {
   result.mesh_error = std::numeric_limits<double>::quiet_NaN();
   result.mesh_errors = {};
   result.conflict.clear();
+  result.stationary_point = StationaryPoint::kUnknown;
   return result;
 }
 
@@ -95,21 +97,31 @@ double ObjectiveSize(const SolverResult& solution) {
   return size;
 }
 
+/// How the programs of one problem are solved.
+struct Method {
+  const NonlinearSolver& solver;
+  SolverOptions options;
+  const CancellationToken& cancellation;
+  const std::function<void(const SolverIteration&)>& log;
+
+  SolverResult Solve(Transcription* program, const SolverGuess& guess) const {
+    return solver.Solve(program, guess, options, cancellation, log);
+  }
+};
+
 /// Solves. If the objective proves small, puts its size into the options and solves again, from
 /// there: an objective of 1e-9 is optimal to a tolerance of 1e-8 everywhere.
-SolverResult SolveToSize(Transcription* program, const SolverGuess& guess,
-                         const CancellationToken& cancellation,
-                         const std::function<void(const SolverIteration&)>& log,
-                         SolverOptions* options, OptimalControlResult* result) {
+SolverResult SolveToSize(Transcription* program, const SolverGuess& guess, Method* method,
+                         OptimalControlResult* result) {
   constexpr double kSmall = 1e-2;  // of the size that was expected
-  SolverResult solution = Solve(program, guess, *options, cancellation, log);
+  SolverResult solution = method->Solve(program, guess);
   AddUp(solution, result);
   const double size = ObjectiveSize(solution);
-  if (!solution.succeeded() || !(size > 0) || size >= kSmall * options->objective_size) {
+  if (!solution.succeeded() || !(size > 0) || size >= kSmall * method->options.objective_size) {
     return solution;
   }
-  options->objective_size = size;
-  solution = Solve(program, {solution.x, {}, {}, {}}, *options, cancellation, log);
+  method->options.objective_size = size;
+  solution = method->Solve(program, {solution.x, {}, {}, {}});
   AddUp(solution, result);
   return solution;
 }
@@ -122,16 +134,28 @@ bool FoundNoFeasiblePoint(const SolverResult& solution, const SolverOptions& opt
 }
 
 /// Names what conflicts, or solves again from a point that meets all constraints.
-void Explain(Transcription* program, const SolverOptions& options,
-             const CancellationToken& cancellation,
-             const std::function<void(const SolverIteration&)>& log, OptimalControlResult* result) {
-  const Conflict conflict = FindConflict(program, result->solver.x, options, cancellation);
+void Explain(Transcription* program, const Method& method, OptimalControlResult* result) {
+  const Conflict conflict =
+      FindConflict(program, result->solver.x, method.options, method.cancellation);
   if (!conflict.members.empty()) {
     result->conflict = Describe(conflict, *program);
     return;
   }
-  result->solver = Solve(program, {conflict.x, {}, {}, {}}, options, cancellation, log);
+  result->solver = method.Solve(program, {conflict.x, {}, {}, {}});
   AddUp(result->solver, result);
+}
+
+/// Minimum or saddle?
+void CheckSecondOrder(Transcription* program, const Method& method, OptimalControlResult* result) {
+  if (!method.solver.has_multipliers()) return;
+  const Stopwatch stopwatch;
+  result->stationary_point =
+      ClassifyStationaryPoint(program, result->solver, method.options, method.cancellation);
+  result->times.second_order = stopwatch.Seconds();
+  result->times.total += result->times.second_order;
+  if (result->stationary_point == StationaryPoint::kSaddle) {
+    result->message += ", but not a minimum: motions beside it cost less (to second order)";
+  }
 }
 
 /// Whether a derivative is wrong, in which case the result is complete.
@@ -156,7 +180,9 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
   OptimalControlResult& result = *out;
   CheckScales(problem, options.solver.constraint_tolerance);
   std::vector<Mesh> meshes = FirstMeshes(problem, options);
-  SolverOptions solver = options.solver;
+  const NonlinearSolver& solver =
+      options.nonlinear_solver ? *options.nonlinear_solver : IpoptSolver();
+  Method method{solver, options.solver, cancellation, log};
   for (;; ++result.refinements) {
     Transcription program(problem, options.scheme, meshes, cancellation);
     const SolverGuess guess = GuessOf(program, start);
@@ -165,16 +191,16 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
       const bool check = options.check_derivatives;
       if (check && FoundWrongDerivative(program, guess, cancellation, &result)) return;
     }
-    result.solver = SolveToSize(&program, guess, cancellation, log, &solver, &result);
-    if (options.explain_infeasible && FoundNoFeasiblePoint(result.solver, solver)) {
-      Explain(&program, solver, cancellation, log, &result);
+    result.solver = SolveToSize(&program, guess, &method, &result);
+    if (options.explain_infeasible && FoundNoFeasiblePoint(result.solver, method.options)) {
+      Explain(&program, method, &result);
     }
     result.status = result.solver.status;
     result.message = result.solver.message;
     result.objective = result.solver.objective;
     result.trajectory = program.TrajectoryOf(result.solver.x);
     if (result.status == SolverStatus::kCancelled) throw Cancelled();
-    result.multipliers = program.MultipliersOf(result.solver);
+    if (solver.has_multipliers()) result.multipliers = program.MultipliersOf(result.solver);
     result.violations = Violations(program, result.solver);
     const auto errors = MeshErrors(problem, result.trajectory, result.objective);
     result.mesh_errors = Worst(errors);
@@ -182,13 +208,14 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
     const bool fine_enough =
         options.mesh_tolerance <= 0 || result.mesh_error <= options.mesh_tolerance;
     if (!result.succeeded() || fine_enough || result.refinements >= options.max_refinements) {
+      if (options.second_order_check) CheckSecondOrder(&program, method, &result);
       return;
     }
     const int order = 2 * options.scheme.num_nodes() - 2;
     for (std::size_t p = 0; p < meshes.size(); ++p) {
       meshes[p] = Refined(meshes[p], errors[p], options.mesh_tolerance, order);
     }
-    start = {&result.trajectory, &result.multipliers};
+    start = {&result.trajectory, solver.has_multipliers() ? &result.multipliers : nullptr};
   }
 }
 

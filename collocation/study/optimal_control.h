@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "collocation/problem/optimal_control_problem.h"
+#include "collocation/solver/nonlinear_solver.h"
 #include "collocation/solver/solver.h"
+#include "collocation/solver/stationary_point.h"
 #include "collocation/study/mesh_error.h"
 #include "collocation/study/stored_solution.h"
 #include "collocation/transcription/transcription.h"
@@ -31,6 +33,11 @@ struct OptimalControlOptions {
   /// If the objective proves much smaller than solver.objective_size, the problem is solved again
   /// with its true size: to the solver's tolerance any motion would be the best.
   SolverOptions solver;
+  /// What solves the nonlinear programs; null: Ipopt. Must outlive the call.
+  const NonlinearSolver* nonlinear_solver = nullptr;
+  /// After a successful solve, finds out whether the motion is a minimum or a saddle
+  /// (ClassifyStationaryPoint): `stationary_point` and, for a saddle, `message`.
+  bool second_order_check = false;
   /// If no motion meets the constraints, a second solve finds out which of them stand against each
   /// other (FindConflict). If it meets them all after all, the problem is solved again from there.
   bool explain_infeasible = false;
@@ -54,6 +61,8 @@ struct OptimalControlResult {
   /// With explain_infeasible, for a problem that is infeasible: what cannot hold together, the
   /// heaviest first: "move: force is at most 1 (21 points)". Empty otherwise.
   std::vector<std::string> conflict;
+  /// With second_order_check, for a problem that was solved; otherwise kUnknown.
+  StationaryPoint stationary_point = StationaryPoint::kUnknown;
   /// For the last mesh: the greatest error between the knots. For a cancelled solve, multipliers,
   /// violations and error (NaN) are not computed. If it was cancelled while its program was built,
   /// there is no trajectory.

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "common/stopwatch.h"
+#ifdef POSSIBILITY_WITH_NLOPT
+#include "experiments/peers/slsqp_solver.h"
+#endif
 #include "experiments/regression/regression_comparison.h"
 #include "experiments/regression/regression_pages.h"
 #include "experiments/regression/regression_run.h"
@@ -27,6 +30,8 @@ namespace possibility::experiments {
 namespace {
 
 constexpr int kMaxIntervals = 10000;
+constexpr double kSlsqpSeconds =
+    60;  // a mesh; its time grows with the third power of the variables
 
 struct RegressOptions {
   std::string out;
@@ -36,6 +41,7 @@ struct RegressOptions {
   std::string robot = "models/drchubo1/drchubo1.yaml";
   std::string scheme;
   std::string intervals;
+  std::string solver = "ipopt";
   std::string linear_solver = "ldlt";
   std::string hessian = "exact";
   bool json = false;
@@ -59,6 +65,21 @@ Value Choose(const std::string& option, const std::string& text,
                                fmt::join(names, ", "), models::DidYouMean(text, names)));
 }
 
+const collocation::NonlinearSolver* Slsqp() {
+#ifdef POSSIBILITY_WITH_NLOPT
+  return &SlsqpSolver();
+#else
+  throw InputError(
+      "--solver: 'slsqp' needs NLopt (libnlopt-dev), which was missing when this was built");
+#endif
+}
+
+const collocation::NonlinearSolver* SolverOf(const std::string& name) {
+  using Solver = const collocation::NonlinearSolver* (*)();
+  const Solver ipopt = [] { return &collocation::IpoptSolver(); };
+  return Choose<Solver>("--solver", name, {{"ipopt", ipopt}, {"slsqp", &Slsqp}})();
+}
+
 RegressionOptions RunOptions(const RegressOptions& options) {
   using namespace collocation;
   RegressionOptions run;
@@ -73,6 +94,9 @@ RegressionOptions RunOptions(const RegressOptions& options) {
     run.intervals =
         static_cast<int>(ParseInteger("--intervals", options.intervals, 1, kMaxIntervals));
   }
+  run.solver = SolverOf(options.solver);
+  if (run.solver != &IpoptSolver()) run.time_limit = kSlsqpSeconds;
+  run.second_order_check = true;
   run.linear_solver =
       Choose<LinearSolver>("--linear-solver", options.linear_solver,
                            {{"ldlt", LinearSolver::kSparseLdlt}, {"mumps", LinearSolver::kMumps}});
@@ -218,6 +242,7 @@ Command AddRegressCommand(CLI::App& program) {
       "trapezoidal, hermite_simpson or hermite_simpson_compressed (default: each problem's own)");
   command.AddOptional("--intervals", &options->intervals,
                       "Per phase to begin with, 1 to 10000 (default: each problem's own)");
+  command.AddOptional("--solver", &options->solver, "ipopt, or slsqp: dense, for small problems");
   command.AddOptional("--linear-solver", &options->linear_solver, "ldlt or mumps");
   command.AddOptional("--hessian", &options->hessian, "exact or limited_memory");
   command.AddFlag("--json", &options->json, "Print one JSON object");

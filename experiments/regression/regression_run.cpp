@@ -47,6 +47,7 @@ void CopyResult(const OptimalControlResult& result, RegressionRecord* record) {
   }
   record->refinements = result.refinements;
   record->mesh_error = result.mesh_error;
+  record->stationary_point = result.stationary_point;
   record->seconds = result.times;
   record->variables = static_cast<int>(result.solver.x.size());
   record->constraints = static_cast<int>(result.solver.constraints.size());
@@ -58,14 +59,20 @@ int Sum(const std::vector<int>& numbers) {
   return sum;
 }
 
+/// ", saddle", or nothing if it is not known.
+std::string PointText(const RegressionRecord& record) {
+  if (record.stationary_point == collocation::StationaryPoint::kUnknown) return "";
+  return fmt::format(", {}", StationaryPointName(record.stationary_point));
+}
+
 std::string Line(const RegressionRecord& record) {
   const std::string verdict = record.within_tolerance ? record.nearest.name
                               : record.status == "solved" || record.status == "acceptable"
                                   ? fmt::format("MISSES {}", record.nearest.name)
                                   : "FAILS: " + record.message;
-  return fmt::format("{:<26}{:<11}{:>17.10g}{:>10.1e}{:>6}{:>6}{:>9.4f} s  {}\n", record.name,
+  return fmt::format("{:<26}{:<11}{:>17.10g}{:>10.1e}{:>6}{:>6}{:>9.4f} s  {}{}\n", record.name,
                      record.status, record.objective, record.relative_error, record.iterations,
-                     Sum(record.intervals), record.seconds.total, verdict);
+                     Sum(record.intervals), record.seconds.total, verdict, PointText(record));
 }
 
 }  // namespace
@@ -101,6 +108,7 @@ ordered_json RegressionOptions::Json() const {
   const bool exact = hessian == collocation::HessianMode::kExact;
   return {{"scheme", scheme ? ordered_json(scheme->name) : ordered_json(nullptr)},
           {"intervals", intervals ? ordered_json(*intervals) : ordered_json(nullptr)},
+          {"solver", solver ? solver->name() : collocation::IpoptSolver().name()},
           {"linear_solver", ldlt ? "ldlt" : "mumps"},
           {"hessian", exact ? "exact" : "limited_memory"}};
 }
@@ -112,6 +120,9 @@ collocation::OptimalControlOptions RegressionOptions::For(const RegressionProble
   options.mesh_tolerance = problem.mesh_tolerance;
   options.solver.linear_solver = linear_solver;
   options.solver.hessian = hessian;
+  options.solver.time_limit = time_limit;
+  options.nonlinear_solver = solver;
+  options.second_order_check = second_order_check;
   return options;
 }
 
@@ -161,6 +172,7 @@ ordered_json RegressionRecord::Json() const {
             {"tolerance", nearest.tolerance}}},
           {"relative_error", relative_error},
           {"within_tolerance", within_tolerance},
+          {"stationary_point", StationaryPointName(stationary_point)},
           {"iterations", iterations},
           {"evaluations",
            {{"objective", evaluations.objective},
@@ -179,6 +191,7 @@ ordered_json RegressionRecord::Json() const {
             {"derivatives", seconds.derivatives},
             {"factorisation", seconds.factorisation},
             {"back_solves", seconds.back_solves},
+            {"second_order", seconds.second_order},
             {"rest", seconds.rest}}},
           {"variables", variables},
           {"constraints", constraints}};
@@ -205,14 +218,19 @@ std::string RegressionReport::Text() const {
   std::string text = fmt::format("{:<26}{:<11}{:>17}{:>10}{:>6}{:>6}{:>11}  {}\n", "problem",
                                  "status", "objective", "error", "iter", "mesh", "time", "optimum");
   double seconds = 0, linear_algebra = 0;
+  int minima = 0;
   for (const RegressionRecord& record : problems) {
     text += Line(record);
+    minima += record.stationary_point == collocation::StationaryPoint::kMinimum;
     seconds += record.seconds.total;
     linear_algebra += record.seconds.factorisation + record.seconds.back_solves;
   }
   const std::size_t failures = Failures().size();
-  return text + fmt::format("{} of {} within tolerance; {:.2f} s, {:.2f} s of it linear algebra\n",
-                            problems.size() - failures, problems.size(), seconds, linear_algebra);
+  const std::string proved =
+      options.second_order_check ? fmt::format(", {} proved minima", minima) : "";
+  return text +
+         fmt::format("{} of {} within tolerance{}; {:.2f} s, {:.2f} s of it linear algebra\n",
+                     problems.size() - failures, problems.size(), proved, seconds, linear_algebra);
 }
 
 }  // namespace possibility::experiments

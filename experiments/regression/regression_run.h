@@ -17,6 +17,9 @@ struct RegressionOptions {
   std::optional<int> intervals;  ///< initial, per phase; none: as each problem says
   collocation::LinearSolver linear_solver = collocation::LinearSolver::kSparseLdlt;
   collocation::HessianMode hessian = collocation::HessianMode::kExact;
+  const collocation::NonlinearSolver* solver = nullptr;  ///< null: Ipopt
+  double time_limit = 0;                                 ///< s for each mesh; 0: none
+  bool second_order_check = false;
 
   nlohmann::ordered_json Json() const;
   /// Options for one problem.
@@ -34,6 +37,7 @@ struct RegressionRecord {
   KnownOptimum nearest;       ///< among the known optima
   double relative_error = 0;  ///< to `nearest`; absolute if its value is 0
   bool within_tolerance = false;
+  collocation::StationaryPoint stationary_point = collocation::StationaryPoint::kUnknown;
   int iterations = 0;
   collocation::SolverEvaluations evaluations;
   std::vector<int> intervals;  ///< of each phase, final

@@ -244,6 +244,28 @@ TEST(KktFactorisation, DependentConstraintsAndEmptyRowsAreSingular) {
   }
 }
 
+TEST(KktFactorisation, GivesUpBeyondItsLimitOfDelays) {
+  std::mt19937 random(3);
+  int delayed = 0;
+  for (int k = 0; k < 30; ++k) {
+    const Sample sample =
+        MakeSample({.num_primal = 60, .num_dual = 40, .hessian = 1e-4, .decades = 1}, &random);
+    KktFactorisation kkt(sample.size, sample.num_dual, sample.rows, sample.columns);
+    if (kkt.Factorise(sample.values.data(), 0.5) != KktStatus::kFactorised) continue;
+    const int needed = kkt.num_delayed(), negative = kkt.num_negative();
+    if (needed == 0) continue;
+    delayed += needed;
+    kkt.LimitDelays(needed);
+    EXPECT_EQ(kkt.Factorise(sample.values.data(), 0.5), KktStatus::kFactorised);
+    kkt.LimitDelays(needed - 1);
+    EXPECT_EQ(kkt.Factorise(sample.values.data(), 0.5), KktStatus::kGaveUp);
+    kkt.LimitDelays(std::nullopt);
+    EXPECT_EQ(kkt.Factorise(sample.values.data(), 0.5), KktStatus::kFactorised);
+    EXPECT_EQ(kkt.num_negative(), negative);
+  }
+  EXPECT_GT(delayed, 30);
+}
+
 TEST(KktFactorisation, FewPivotsOfZeroColumnsAreDelayed) {
   // A coordinate that the dynamics hold at its bound: x_k+1 = x_k + h v_k, v_k+1 = v_k. The barrier
   // term on every x is so large that the rows of x carry no other information than those of v.

@@ -141,6 +141,7 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "regress --scheme euler",
       "regress --intervals 0",
       "regress --intervals 10001",
+      "regress --solver snopt",
       "regress --linear-solver ma99",
       "regress --hessian none",
       "regress --against no_such_file.json",
@@ -158,8 +159,8 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
 /// For every option with a value and every argument of every command that --help lists.
 TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
   int options = 0;
-  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "bench", "regress",
-                                    "library", "table", "sweep", "merge"}) {
+  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "bench",
+                                    "regress", "library", "table", "sweep", "merge"}) {
     std::istringstream help(Run(command + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find_first_not_of(' ');
@@ -365,6 +366,23 @@ TEST_F(Program, RegressComparesARunWithTheOneBefore) {
   EXPECT_EQ(same.code, 0) << same.err;
   EXPECT_NE(same.out.find("2 of 2 within tolerance"), std::string::npos) << same.out;
   EXPECT_NE(same.out.find("nothing got worse"), std::string::npos) << same.out;
+}
+
+TEST_F(Program, RegressWithSlsqpMeetsTheOptimaOfIpopt) {
+  const Outcome slsqp = Run("regress --problem block_move,pendulum_1s --solver slsqp --json");
+#ifdef POSSIBILITY_WITH_NLOPT
+  EXPECT_EQ(slsqp.code, 0) << slsqp.err;
+  const auto printed = nlohmann::json::parse(slsqp.out);
+  EXPECT_EQ(printed["options"]["solver"], "slsqp");
+  for (const auto& problem : printed["problems"]) {
+    EXPECT_EQ(problem["optimum"], "global");
+    EXPECT_EQ(problem["stationary_point"], "minimum");
+    EXPECT_EQ(problem["evaluations"]["hessian"], 0);
+  }
+#else
+  EXPECT_EQ(slsqp.code, 1);
+  EXPECT_NE(slsqp.err.find("libnlopt-dev"), std::string::npos) << slsqp.err;
+#endif
 }
 
 TEST_F(Program, RegressFailsIfAProblemIsWorseOrMissesItsOptimum) {

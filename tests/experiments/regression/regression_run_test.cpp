@@ -1,5 +1,6 @@
 #include "experiments/regression/regression_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,6 +81,32 @@ TEST(RegressionRun, AProblemThatThrowsDoesNotEndTheRun) {
   EXPECT_FALSE(CompareRegressions(json, json).failed());
 }
 
+TEST(RegressionRun, SwingUpsAreProvedMinima) {
+  RegressionOptions options;
+  options.second_order_check = true;
+  std::vector<RegressionProblem> problems = RegressionProblems();
+  std::erase_if(problems, [](const RegressionProblem& problem) {
+    return problem.name.find("pendulum") == std::string::npos && problem.name != "cart_pole";
+  });
+  ASSERT_GE(problems.size(), 2u);
+  const RegressionReport report = RunRegression(problems, options, [](int, const std::string&) {});
+  for (const RegressionRecord& record : report.problems) {
+    EXPECT_EQ(record.stationary_point, collocation::StationaryPoint::kMinimum) << record.name;
+    EXPECT_EQ(record.Json()["stationary_point"], "minimum");
+    EXPECT_GT(record.seconds.second_order, 0);
+  }
+  const std::string text = report.Text();
+  EXPECT_NE(text.find("global, minimum\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(fmt::format(", {} proved minima;", problems.size())), std::string::npos);
+}
+
+TEST(RegressionRun, WithoutTheCheckNoPointIsKnown) {
+  const RegressionReport report =
+      RunRegression({BlockMove({{"global", 12, 1e-6}})}, {}, [](int, const std::string&) {});
+  EXPECT_EQ(report.problems[0].Json()["stationary_point"], "unknown");
+  EXPECT_NE(report.Text().find("1 of 1 within tolerance;"), std::string::npos);
+}
+
 TEST(RegressionRun, OptionsReachTheSolver) {
   RegressionOptions options;
   options.scheme = collocation::Trapezoidal();
@@ -93,6 +120,7 @@ TEST(RegressionRun, OptionsReachTheSolver) {
   EXPECT_GT(record.relative_error, 1e-4);  // second order on a coarse mesh
   EXPECT_LT(record.relative_error, 0.1);
   const auto json = options.Json();
+  EXPECT_EQ(json["solver"], "ipopt");
   EXPECT_EQ(json["linear_solver"], "mumps");
   EXPECT_EQ(json["hessian"], "limited_memory");
   EXPECT_EQ(json["intervals"], 7);
