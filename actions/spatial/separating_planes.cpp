@@ -33,8 +33,10 @@ struct Body {
     }
     // A cylinder's bounding box contains it.
     const Eigen::AlignedBox3d box = shape.Bounds(Isometry3d::Identity());
+    constexpr int kCorners = 8;
     std::vector<Vector3d> corners;
-    for (int i = 0; i < 8; ++i) {
+    corners.reserve(kCorners);
+    for (int i = 0; i < kCorners; ++i) {
       corners.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
     }
     return corners;
