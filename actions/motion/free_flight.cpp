@@ -48,28 +48,35 @@ void FreeFlight::TakeOff(const VectorXd& q, const VectorXd& v) {
 }
 
 std::vector<Knot> FreeFlight::Fly(const JointMotion& joints, double duration, int intervals) {
-  const double step = duration / intervals;
-  Quaterniond R = orientation_;
-  std::vector<Knot> knots = {KnotAt(R, 0, joints)};
-  for (int i = 0; i < intervals; ++i) {
-    R = Advance(R, i * step, step, joints);
-    knots.push_back(KnotAt(R, i + 1 < intervals ? (i + 1) * step : duration, joints));
-  }
+  std::vector<Knot> knots;
+  Integrate(joints, duration, intervals,
+            [&](const Quaterniond& R, double t) { knots.push_back(KnotAt(R, t, joints)); });
   return knots;
 }
 
 Knot FreeFlight::Land(const JointMotion& joints, double duration, int intervals) {
-  const double step = duration / intervals;
-  Quaterniond R = orientation_;
-  for (int i = 0; i < intervals; ++i) R = Advance(R, i * step, step, joints);
-  return KnotAt(R, duration, joints);
+  Quaterniond last = orientation_;
+  Integrate(joints, duration, intervals, [&](const Quaterniond& R, double) { last = R; });
+  return KnotAt(last, duration, joints);
 }
 
-Quaterniond FreeFlight::Advance(const Quaterniond& R, double t, double step,
-                                const JointMotion& joints) {
-  const Signal<VectorXd> begin = joints(t);
-  const Signal<VectorXd> middle = joints(t + step / 2);
-  const Signal<VectorXd> end = joints(t + step);
+void FreeFlight::Integrate(const JointMotion& joints, double duration, int intervals,
+                           const std::function<void(const Quaterniond& R, double t)>& visit) {
+  const double step = duration / intervals;
+  Quaterniond R = orientation_;
+  JointsShare begin = ShareOf(joints(0));
+  visit(R, 0);
+  for (int i = 0; i < intervals; ++i) {
+    const JointsShare middle = ShareOf(joints(i * step + step / 2));
+    const JointsShare end = ShareOf(joints(i * step + step));
+    R = Advance(R, step, begin, middle, end);
+    begin = end;
+    visit(R, i + 1 < intervals ? (i + 1) * step : duration);
+  }
+}
+
+Quaterniond FreeFlight::Advance(const Quaterniond& R, double step, const JointsShare& begin,
+                                const JointsShare& middle, const JointsShare& end) const {
   const Quaterniond k1 = Rate(AngularVelocity(R, begin), R);
   const Quaterniond R2 = Moved(R, step / 2, k1);
   const Quaterniond k2 = Rate(AngularVelocity(R2, middle), R2);
@@ -84,15 +91,20 @@ Quaterniond FreeFlight::Advance(const Quaterniond& R, double t, double step,
 
 /// From the root's rows of the mass matrix. With the centre of mass at c from the root, the angular
 /// momentum about it is L - c x p, and m [c]x is the block that links rotation and translation.
-Vector3d FreeFlight::AngularVelocity(const Quaterniond& R, const Signal<VectorXd>& joints) {
+FreeFlight::JointsShare FreeFlight::ShareOf(const Signal<VectorXd>& joints) {
   const Eigen::Index n = joints.rate.size();
-  dynamics_.SetState(Configuration(R, Vector3d::Zero(), joints.value), VectorXd::Zero(6 + n));
+  dynamics_.SetState(Configuration(Quaterniond::Identity(), Vector3d::Zero(), joints.value),
+                     VectorXd::Zero(6 + n));
   const Eigen::MatrixXd& M = dynamics_.MassMatrix();
   const Eigen::Matrix<double, 6, 1> momentum = M.topRightCorner(6, n) * joints.rate;
   const Matrix3d crossed = M.block<3, 3>(0, 3) / mass_;
-  const Matrix3d inertia = M.topLeftCorner<3, 3>() - mass_ * crossed * crossed.transpose();
-  const Vector3d about_centre = momentum.head<3>() - crossed * momentum.tail<3>();
-  return inertia.inverse() * (momentum_ - about_centre);
+  return {M.topLeftCorner<3, 3>() - mass_ * crossed * crossed.transpose(),
+          momentum.head<3>() - crossed * momentum.tail<3>()};
+}
+
+Vector3d FreeFlight::AngularVelocity(const Quaterniond& R, const JointsShare& share) const {
+  const Vector3d momentum = R.conjugate() * momentum_ - share.momentum;
+  return R * (share.inertia.inverse() * momentum);
 }
 
 Knot FreeFlight::KnotAt(const Quaterniond& R, double t, const JointMotion& joints) {
@@ -102,7 +114,7 @@ Knot FreeFlight::KnotAt(const Quaterniond& R, double t, const JointMotion& joint
   knot.t = t;
   knot.v.setZero(6 + n);
   knot.v.tail(n) = motion.rate;
-  knot.v.head<3>() = AngularVelocity(R, motion);
+  knot.v.head<3>() = AngularVelocity(R, ShareOf(motion));
   knot.q = Configuration(R, Vector3d::Zero(), motion.value);
   dynamics_.SetState(knot.q, knot.v);
   const dynamics::CentroidalQuantities& centroidal = dynamics_.Centroidal();

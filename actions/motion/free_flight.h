@@ -32,10 +32,20 @@ class FreeFlight {
   Knot Land(const JointMotion& joints, double duration, int intervals);
 
  private:
-  Eigen::Quaterniond Advance(const Eigen::Quaterniond& R, double t, double step,
-                             const JointMotion& joints);
-  Eigen::Vector3d AngularVelocity(const Eigen::Quaterniond& R,
-                                  const Signal<Eigen::VectorXd>& joints);
+  /// What the joints alone decide about the rotation: inertia and, with the root at rest, angular
+  /// momentum, both about the centre of mass, root axes.
+  struct JointsShare {
+    Eigen::Matrix3d inertia;
+    Eigen::Vector3d momentum;
+  };
+
+  /// Calls `visit` at the ends of all steps, the take-off first.
+  void Integrate(const JointMotion& joints, double duration, int intervals,
+                 const std::function<void(const Eigen::Quaterniond& R, double t)>& visit);
+  Eigen::Quaterniond Advance(const Eigen::Quaterniond& R, double step, const JointsShare& begin,
+                             const JointsShare& middle, const JointsShare& end) const;
+  JointsShare ShareOf(const Signal<Eigen::VectorXd>& joints);
+  Eigen::Vector3d AngularVelocity(const Eigen::Quaterniond& R, const JointsShare& share) const;
   Knot KnotAt(const Eigen::Quaterniond& R, double t, const JointMotion& joints);
 
   dynamics::MultibodyDynamics dynamics_;

@@ -124,8 +124,10 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
   const int intervals =
       std::max(settings_.minimum_intervals,
                static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
+  const double spacing = phase.duration / intervals;
   for (int i = 0; i <= intervals; ++i) {
     Knot knot = MakeKnot(phase, bearing, phase.duration * i / intervals, guess);
+    if (i < intervals) *guess = GuessAfter({knot.q, knot.v, knot.a}, spacing);
     knot.t += start;
     result.knots.push_back(std::move(knot));
   }

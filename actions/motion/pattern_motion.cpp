@@ -282,7 +282,7 @@ class Pattern {
       const double t = std::min(i * h_, schedule_.duration());
       const int k = IntervalAt(t);
       const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
-      q = state.q;
+      q = GuessAfter(state, h_);
       dynamics.SetState(state.q, state.v, state.a);
       error_.col(i) =
           RequiredZeroMomentPoint(&dynamics, ground_) - Vector2d(x_->Zmp(i), y_->Zmp(i));

@@ -1,6 +1,5 @@
 #include "actions/motion/whole_body_task.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "models/robot/rotation_vector.h"
@@ -16,6 +15,9 @@ using Eigen::VectorXd;
 constexpr int kMaximumIterations = 30;
 constexpr double kTolerance = 1e-12;
 constexpr double kLargestStep = 0.3;
+/// While a step leaves less than this share of the residual, the next one uses the same Jacobian
+/// (Shamanskii 1967).
+constexpr double kGoodStep = 1e-3;
 
 Matrix3d TurnedBy(double yaw, const Matrix3d& R) {
   return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() * R;
@@ -41,6 +43,13 @@ RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch) {
   return turn;
 }
 
+VectorXd GuessAfter(const WholeBodyState& state, double time) {
+  VectorXd q = state.q;
+  const Eigen::Index n = state.v.size() - 3;
+  q.tail(n) += time * state.v.tail(n) + time * time / 2 * state.a.tail(n);
+  return q;
+}
+
 WholeBodySolver::WholeBodySolver(const models::RobotModel& robot) : kinematics_(robot) {}
 
 WholeBodyState WholeBodySolver::Solve(const WholeBodyTask& task, const VectorXd& guess) {
@@ -48,15 +57,19 @@ WholeBodyState WholeBodySolver::Solve(const WholeBodyTask& task, const VectorXd&
   state.q = guess;
   SelectUnknowns(task);
   SetKnownCoordinates(task, &state.q);
+  double error_before = 0;
   for (int iteration = 0;; ++iteration) {
     kinematics_.SetPosition(state.q);
     Residual(task);
-    if (residual_.size() == 0 || residual_.lpNorm<Eigen::Infinity>() < kTolerance) break;
+    if (residual_.size() == 0) break;
+    const double error = residual_.lpNorm<Eigen::Infinity>();
+    if (error < kTolerance) break;
     if (iteration == kMaximumIterations || !residual_.allFinite()) {
       throw MotionError("whole-body inverse kinematics does not converge (out of reach?)");
     }
-    Jacobian(task);
-    VectorXd step = reduced_.partialPivLu().solve(residual_);
+    if (iteration == 0 || error > kGoodStep * error_before) Jacobian(task);
+    error_before = error;
+    VectorXd step = factor_.solve(residual_);
     const double largest = step.lpNorm<Eigen::Infinity>();
     if (largest > kLargestStep) step *= kLargestStep / largest;
     for (size_t i = 0; i < unknowns_.size(); ++i) {
@@ -135,6 +148,7 @@ void WholeBodySolver::Jacobian(const WholeBodyTask& task) {
   for (size_t i = 0; i < unknowns_.size(); ++i) {
     reduced_.col(static_cast<int>(i)) = jacobian_.col(unknowns_[i]);
   }
+  if (!unknowns_.empty()) factor_.compute(reduced_);
 }
 
 RootTurn WholeBodySolver::Turn(const WholeBodyTask& task) {
@@ -166,11 +180,9 @@ void WholeBodySolver::SolveRates(const WholeBodyTask& task, WholeBodyState* stat
   KnownRates(task, state);
   const models::RobotModel& robot = kinematics_.model();
   const int rows = static_cast<int>(residual_.size());
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor =
-      rows > 0 ? reduced_.partialPivLu() : Eigen::PartialPivLU<Eigen::MatrixXd>();
   const auto add_unknowns = [&](const VectorXd& right, VectorXd* known) {
     if (rows == 0) return;
-    const VectorXd solution = factor.solve(right - jacobian_ * *known);
+    const VectorXd solution = factor_.solve(right - jacobian_ * *known);
     for (size_t i = 0; i < unknowns_.size(); ++i) {
       (*known)[unknowns_[i]] = solution[static_cast<int>(i)];
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -64,6 +65,9 @@ struct WholeBodyState {
   Eigen::VectorXd a;
 };
 
+/// A guess of q `time` (s) later, of second order. The root's orientation stays: tasks give it.
+Eigen::VectorXd GuessAfter(const WholeBodyState& state, double time);
+
 /// Solves tasks by Newton's method and differentiates the solution exactly in time. One instance
 /// per thread.
 class WholeBodySolver {
@@ -88,9 +92,10 @@ class WholeBodySolver {
   dynamics::TreeKinematics kinematics_;
   std::vector<int> unknowns_;  ///< indices into v
   Eigen::VectorXd residual_;
-  Eigen::MatrixXd jacobian_;  ///< rows x nv
-  Eigen::MatrixXd reduced_;   ///< rows x unknowns
-  Eigen::MatrixXd frame_;     ///< scratch, 6 x nv
+  Eigen::MatrixXd jacobian_;                     ///< rows x nv
+  Eigen::MatrixXd reduced_;                      ///< rows x unknowns
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor_;  ///< of reduced_
+  Eigen::MatrixXd frame_;                        ///< scratch, 6 x nv
 };
 
 }  // namespace possibility::actions

@@ -38,8 +38,7 @@ std::span<const LatticeSettings> FirstRouteLadder() {
 std::span<const LatticeSettings> ImprovementLadder() {
   static constexpr LatticeSettings kLadder[] = {
       {.step = 0.8, .headings = 8, .greed = 1, .most_stances = 20000},
-      {.step = 0.4, .headings = 8, .greed = 1, .most_stances = 40000},
-      {.step = 0.4, .headings = 16, .greed = 1, .most_stances = 80000}};
+      {.step = 0.4, .headings = 8, .greed = 1, .most_stances = 40000}};
   return kLadder;
 }
 

@@ -28,6 +28,9 @@ constexpr double kGrowth = 0.6 * GroundMap::kAbutting;
 /// faces coincide, rounding must not make each cover the other.
 constexpr double kCoverDepth = 1e-9;
 
+/// Up to so many faces or sides, a tree of bounds takes longer than testing them all.
+constexpr std::size_t kFew = 16;
+
 /// Largest tilt of an upright box, rad.
 constexpr double kMaxTilt = 1e-8;
 
@@ -158,12 +161,9 @@ class Level {
   /// Faces are convex, so a line is closest to their sides at one of its ends.
   bool OneFaceHolds(const Vector2d& from, const Vector2d& to, double radius) const {
     const double needed = radius + kGrowth;
-    bool holds = false;
-    face_tree_.VisitNear(FlatBounds(from), 0, [&](int face) {
-      holds = faces_[face].Depth(from) >= needed && faces_[face].Depth(to) >= needed;
-      return holds ? -1.0 : 0.0;
+    return SomeFaceAt(from, [&](const Face& face) {
+      return face.Depth(from) >= needed && face.Depth(to) >= needed;
     });
-    return holds;
   }
 
   double Clearance(const Vector2d& p) const {
@@ -199,18 +199,29 @@ class Level {
     }
   }
 
-  bool IsInside(const Vector2d& p) const {
-    bool inside = false;
+  /// Whether `test` holds for some face. A face that does not hold p fails the test.
+  template <typename Test>
+  bool SomeFaceAt(const Vector2d& p, const Test& test) const {
+    if (faces_.size() <= kFew) return std::any_of(faces_.begin(), faces_.end(), test);
+    bool found = false;
     face_tree_.VisitNear(FlatBounds(p), 0, [&](int face) {
-      inside = faces_[face].Contains(p);
-      return inside ? -1.0 : 0.0;
+      found = test(faces_[face]);
+      return found ? -1.0 : 0.0;
     });
-    return inside;
+    return found;
+  }
+
+  bool IsInside(const Vector2d& p) const {
+    return SomeFaceAt(p, [&](const Face& face) { return face.Contains(p); });
   }
 
   /// Distance to the boundary, at most `at_most`.
   double DistanceToBoundary(const Vector2d& p, double at_most) const {
     double nearest = at_most;
+    if (boundary_.size() <= kFew) {
+      for (const Segment& segment : boundary_) nearest = std::min(nearest, segment.Distance(p));
+      return nearest;
+    }
     boundary_tree_.VisitNear(FlatBounds(p), nearest, [&](int segment) {
       nearest = std::min(nearest, boundary_[segment].Distance(p));
       return nearest;

@@ -216,6 +216,23 @@ TEST_P(PatternMotionTest, VelocityAndAccelerationAreTheDerivativesOfPosition) {
   }
 }
 
+TEST_P(PatternMotionTest, AGuessErrsByTheThirdOrderOfTime) {
+  constexpr double kTime = 0.01;  // s
+  WholeBodySolver solver(robot_);
+  VectorXd q = Guess();
+  for (const MotionPhase& phase : Phases()) {
+    const double t = 0.4 * phase.duration;
+    const WholeBodyState now = solver.Solve(phase.task(t), q);
+    q = now.q;
+    const auto error = [&](double time) {
+      const WholeBodyState later = solver.Solve(phase.task(t + time), q);
+      return (GuessAfter(now, time) - later.q).tail(robot_.num_joints() + 3).norm();
+    };
+    EXPECT_LT(error(kTime / 2), error(kTime) / 6 + 1e-9);
+    EXPECT_LT(error(kTime), 1e-3);
+  }
+}
+
 TEST_P(PatternMotionTest, BearingPatchesDoNotMove) {
   std::vector<Vector3d> stood;
   for (const Phase& phase : Motion()) {

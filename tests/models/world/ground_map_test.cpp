@@ -93,7 +93,7 @@ TEST(GroundMap, UnionsOfYawedBoxesAgreeWithPointSampling) {
   int inside = 0, outside = 0, unseen = 0;
   for (int scene = 0; scene < 60; ++scene) {
     std::vector<Obstacle> obstacles;
-    for (int i = 1 + random.Index(15); i > 0; --i) {
+    for (int i = 1 + random.Index(30); i > 0; --i) {
       obstacles.push_back(Ground(random.Uniform(-2, 2), random.Uniform(-2, 2), 0,
                                  random.Uniform(0.2, 2), random.Uniform(0.2, 2),
                                  random.Index(3) == 0 ? 0 : random.Uniform(-4, 4)));
