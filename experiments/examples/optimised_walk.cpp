@@ -1,11 +1,38 @@
 #include "experiments/examples/optimised_walk.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "actions/gait/foothold_plan.h"
 #include "actions/motion/motion_schedule.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/motion/planar_pose.h"
 #include "actions/spatial/spatial_solver.h"
+#include "models/input/input_error.h"
 
 namespace possibility::actions {
+
+double DistanceAhead(const models::Scenario& scenario) {
+  const models::Stance& start = scenario.start;
+  const models::Stance& goal = scenario.goals.front();
+  const double dx = goal.x - start.x;
+  const double dy = goal.y - start.y;
+  const double ahead = std::cos(start.yaw) * dx + std::sin(start.yaw) * dy;
+  const double aside = std::cos(start.yaw) * dy - std::sin(start.yaw) * dx;
+  const double up = goal.z - start.z;
+  const double turn = WrapAngle(goal.yaw - start.yaw);
+  const bool stands = start.action == "walk" && goal.action == "walk";
+  if (!stands || ahead < 0.01 || std::abs(aside) > 0.01 || std::abs(up) > 0.01 ||
+      std::abs(turn) > 0.01) {
+    throw InputError(fmt::format(
+        "{}: the goal ({}) is {:.3g} m ahead of the start ({}), {:.3g} m to its left, {:.3g} m "
+        "above "
+        "it and turned by {:.3g} rad; this example walks straight ahead by 0.01 m or more",
+        scenario.file.string(), goal.action, ahead, start.action, aside, up, turn));
+  }
+  return ahead;
+}
 
 Plan OptimisedWalk(const models::RobotModel& robot, const models::Scenario& scenario,
                    double distance) {

@@ -1,7 +1,6 @@
 // plan_optimised_walk [SCENARIO.yaml [FOLDER]]: from the scenario's start straight ahead to its
 // goal, by optimal control (docs/collocation.md, "A walk").
 
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -20,9 +19,7 @@ int main(int argc, char** argv) {
   try {
     const models::Scenario scenario = models::LoadScenario(file);
     const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
-    const models::Stance& start = scenario.start;
-    const models::Stance& goal = scenario.goals.front();
-    const double distance = std::hypot(goal.x - start.x, goal.y - start.y);
+    const double distance = actions::DistanceAhead(scenario);
     const actions::Plan plan = actions::OptimisedWalk(robot, scenario, distance);
     std::filesystem::create_directories(folder);
     actions::WritePlan(plan, folder / "plan.json");

@@ -7,6 +7,7 @@
 
 #include "actions/verify/verification_report.h"
 #include "actions/verify/verifier.h"
+#include "models/input/input_error.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/experiments/read_text.h"
 
@@ -21,6 +22,31 @@ TEST(OptimisedWalkTest, AStepFromAnyStanceIsVerified) {
   const Plan plan = OptimisedWalk(DrcHubo1(), scenario, 0.25);
   const VerificationReport report = Verify(plan, DrcHubo1(), scenario);
   EXPECT_TRUE(report.accepted()) << FormatText(report);
+}
+
+/// A scenario that starts at (1, 0.2), turned by 0.5 rad, and a goal beside its start.
+models::Scenario WithGoal(double ahead, double aside, double turn) {
+  models::Scenario scenario;
+  scenario.start = {"walk", 1, 0.2, 0, 0.5};
+  const double c = std::cos(0.5);
+  const double s = std::sin(0.5);
+  scenario.goals = {
+      {"walk", 1 + c * ahead - s * aside, 0.2 + s * ahead + c * aside, 0, 0.5 + turn}};
+  return scenario;
+}
+
+TEST(OptimisedWalkTest, TheDistanceToAGoalAheadIsMeasuredAlongTheHeading) {
+  EXPECT_NEAR(DistanceAhead(WithGoal(2.8, 0, 0)), 2.8, 1e-12);
+}
+
+TEST(OptimisedWalkTest, AGoalThatIsNotStraightAheadIsRefused) {
+  EXPECT_THROW(DistanceAhead(WithGoal(0, 0, 0)), InputError);
+  EXPECT_THROW(DistanceAhead(WithGoal(-1, 0, 0)), InputError);
+  EXPECT_THROW(DistanceAhead(WithGoal(1, 0.02, 0)), InputError);
+  EXPECT_THROW(DistanceAhead(WithGoal(1, 0, 0.02)), InputError);
+  models::Scenario crawls = WithGoal(1, 0, 0);
+  crawls.goals.front().action = "crawl";
+  EXPECT_THROW(DistanceAhead(crawls), InputError);
 }
 
 /// The code in the docs must be in the source, word for word.
