@@ -33,6 +33,7 @@ struct Entry {
   double error = 0;      // NaN: none
   double iterations = 0;
   double seconds = 0;
+  std::string stationary_point;  // empty: the file is older than the second-order check
 };
 
 [[noreturn]] void Reject(const std::string& where, const std::string& key,
@@ -80,6 +81,9 @@ Entry ReadEntry(const json& object, const std::string& place) {
   entry.iterations = AmountMember(object, where, "iterations");
   const json& seconds = Member(object, where, "seconds", &json::is_object, "an object");
   entry.seconds = AmountMember(seconds, where + ", seconds", "total");
+  if (object.contains("stationary_point")) {
+    entry.stationary_point = TextMember(object, where, "stationary_point");
+  }
   return entry;
 }
 
@@ -130,6 +134,7 @@ class EntryComparison {
     Status();
     Optimum();
     Error();
+    StationaryPoint();
     if (StatusRank(after_.status) < StatusRank(before_.status)) return;  // may cost more
     Iterations();
     Seconds();
@@ -172,6 +177,16 @@ class EntryComparison {
     Add(Kind::kWorse, "error",
         fmt::format("relative error {:.2e}, now {:.2e} ({})", before_.error, after_.error,
                     Growth(before_.error, after_.error)));
+  }
+
+  /// A minimum that is no longer proved may still be one; a saddle is proved not to be.
+  void StationaryPoint() {
+    if (before_.stationary_point != "minimum") return;
+    if (after_.stationary_point.empty() || after_.stationary_point == "minimum") return;
+    if (StatusRank(after_.status) > StatusRank(before_.status)) return;  // said already
+    Add(after_.stationary_point == "saddle" ? Kind::kWorse : Kind::kNote, "stationary point",
+        fmt::format("stationary point {}, now {}", before_.stationary_point,
+                    after_.stationary_point));
   }
 
   void Iterations() {

@@ -106,6 +106,24 @@ TEST(RegressionComparison, ARepairedProblemMayTakeLonger) {
   EXPECT_EQ(Kinds(CompareRegressions(RunOf({before}), RunOf({Problem("hop")}))), Strings{});
 }
 
+TEST(RegressionComparison, AMinimumThatBecomesASaddleIsWorse) {
+  json minimum = Problem("hop"), other = Problem("hop");
+  minimum["stationary_point"] = "minimum";
+  other["stationary_point"] = "saddle";
+  const auto kinds = [](const json& before, const json& after) {
+    return Kinds(CompareRegressions(RunOf({before}), RunOf({after})));
+  };
+  EXPECT_EQ(kinds(minimum, other), Strings{"worse stationary point"});
+  EXPECT_EQ(kinds(other, minimum), Strings{});
+  other["stationary_point"] = "unknown";
+  EXPECT_EQ(kinds(minimum, other), Strings{"note stationary point"});
+  // Files from before the second-order check say nothing.
+  EXPECT_EQ(kinds(minimum, Problem("hop")), Strings{});
+  EXPECT_EQ(kinds(Problem("hop"), minimum), Strings{});
+  other["stationary_point"] = 1;
+  EXPECT_THROW(kinds(minimum, other), InputError);
+}
+
 TEST(RegressionComparison, AnotherOptimumIsWorseIfItsObjectiveIsHigher) {
   const RegressionComparison higher =
       After({{"optimum", "second basin"}, {"objective", 2.1}, {"relative_error", 1e-5}});
