@@ -13,6 +13,7 @@
 #include "tests/collocation/solver/newton_in_c.h"
 #include "tests/collocation/solver/pendulum_chain.h"
 #include "tests/collocation/solver/small_program.h"
+#include "tests/collocation/study/neighbouring_problems.h"
 #include "tests/message_of.h"
 
 namespace possibility::collocation {
@@ -101,25 +102,15 @@ TEST(NonlinearProgramC, AStartingPointOfAnotherSizeIsRefused) {
             "a starting point of 2 numbers for 1 variables");
 }
 
-/// The block move of docs/collocation.md.
 TEST(NonlinearProgramC, ASolverInCSolvesATranscribedProblem) {
-  OptimalControlProblem problem("block move");
-  Phase& move = problem.AddPhase("move", 2);
-  const Variable x = move.AddCoordinate("x");
-  const Variable u = move.AddControl("force", {-20, 20});
-  move.SetDuration(1);
-  move.SetDynamics(FunctionOf([](auto force) { return force; }), {u});
-  for (const At end : {At::kStart, At::kEnd}) move.Fix(move.Rate(x), 0, end);
-  move.Fix(x, 0, At::kStart);
-  move.Fix(x, 1, At::kEnd);
-  move.AddIntegralCost("effort", FunctionOf([](auto force) { return force * force; }), {u});
-
-  Transcription program(problem, HermiteSimpson(), {UniformMesh(8)});
+  const auto problem = BlockMove(1);
+  Transcription program(*problem, HermiteSimpson(), {UniformMesh(8)});
   possibility_program handle(&program, program.InitialGuess());
   VectorXd solution(program.num_variables());
   ASSERT_EQ(newton_in_c(&handle, solution.data()), 0) << possibility_error(&handle);
   EXPECT_NEAR(program.Objective(solution), 12, 1e-9);
-  EXPECT_NEAR(program.TrajectoryOf(solution).Value(x, 0.25), 0.15625, 1e-10);
+  EXPECT_NEAR(program.TrajectoryOf(solution).Value(problem->phase(0).Coordinate(0), 0.25), 0.15625,
+              1e-10);
 }
 
 }  // namespace

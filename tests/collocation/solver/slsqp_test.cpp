@@ -10,6 +10,7 @@
 #include "tests/collocation/solver/pendulum_chain.h"
 #include "tests/collocation/solver/quadratic_program.h"
 #include "tests/collocation/solver/small_program.h"
+#include "tests/collocation/study/neighbouring_problems.h"
 #include "tests/message_of.h"
 
 namespace possibility::collocation {
@@ -82,24 +83,16 @@ TEST(Slsqp, AgreesWithIpoptOnRandomConvexPrograms) {
 }
 
 TEST(Slsqp, SolvesATranscribedProblemAndItsFinerMeshes) {
-  OptimalControlProblem problem("block move");
-  Phase& move = problem.AddPhase("move", 2);
-  const Variable x = move.AddCoordinate("x");
-  const Variable u = move.AddControl("force", {-5.5, 5.5});
-  move.SetDuration(1);
-  move.SetDynamics(FunctionOf([](auto force) { return force; }), {u});
-  for (const At end : {At::kStart, At::kEnd}) move.Fix(move.Rate(x), 0, end);
-  move.Fix(x, 0, At::kStart);
-  move.Fix(x, 1, At::kEnd);
-  move.AddIntegralCost("effort", FunctionOf([](auto force) { return force * force; }), {u});
+  const auto problem = BlockMove(1, 5.5);
+  const Variable x = problem->phase(0).Coordinate(0);
   OptimalControlOptions options;
   options.scheme = Trapezoidal();
   options.intervals = {8};
   options.mesh_tolerance = 1e-3;
   options.second_order_check = true;
-  const OptimalControlResult ipopt = SolveOptimalControl(problem, options);
+  const OptimalControlResult ipopt = SolveOptimalControl(*problem, options);
   options.nonlinear_solver = &SlsqpSolver();
-  const OptimalControlResult ours = SolveOptimalControl(problem, options);
+  const OptimalControlResult ours = SolveOptimalControl(*problem, options);
   ASSERT_TRUE(ours.succeeded()) << ours.message;
   EXPECT_GT(ours.refinements, 0);
   EXPECT_EQ(ours.refinements, ipopt.refinements);
