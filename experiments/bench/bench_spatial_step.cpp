@@ -5,7 +5,7 @@
 
 #include "collocation/study/optimal_control.h"
 #include "dynamics/tree/base_joints.h"
-#include "experiments/problems/walking_step.h"
+#include "experiments/legged/walking_step.h"
 #include "experiments/support/statistics.h"
 
 namespace possibility::experiments {

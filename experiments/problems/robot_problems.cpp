@@ -10,7 +10,7 @@
 #include "collocation/robot/point_functions.h"
 #include "collocation/robot/robot_phase.h"
 #include "dynamics/sagittal/sagittal_reduction.h"
-#include "experiments/problems/walking_step.h"
+#include "experiments/legged/walking_step.h"
 
 namespace possibility::experiments {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/problems/biped_step.h"
-#include "experiments/problems/hop_problem.h"
+#include "experiments/legged/biped_step.h"
+#include "experiments/legged/hop_problem.h"
 
 namespace possibility::experiments {
 

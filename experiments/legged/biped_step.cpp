@@ -1,4 +1,4 @@
-#include "experiments/problems/biped_step.h"
+#include "experiments/legged/biped_step.h"
 
 #include <cmath>
 #include <string>
@@ -8,8 +8,8 @@
 #include "collocation/robot/balance_functions.h"
 #include "collocation/robot/multibody_functions.h"
 #include "collocation/robot/point_functions.h"
-#include "experiments/problems/legged_models.h"
-#include "experiments/problems/legged_problem.h"
+#include "experiments/legged/legged_models.h"
+#include "experiments/legged/legged_problem.h"
 
 namespace possibility::experiments {
 

@@ -1,4 +1,4 @@
-#include "experiments/problems/legged_problem.h"
+#include "experiments/legged/legged_problem.h"
 
 #include <memory>
 

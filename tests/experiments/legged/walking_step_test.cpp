@@ -1,4 +1,4 @@
-#include "experiments/problems/walking_step.h"
+#include "experiments/legged/walking_step.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/problems/legged_models.h"
+#include "experiments/legged/legged_models.h"
 
 #include <limits>
 #include <string>

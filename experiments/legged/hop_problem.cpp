@@ -1,4 +1,4 @@
-#include "experiments/problems/hop_problem.h"
+#include "experiments/legged/hop_problem.h"
 
 #include <string>
 #include <vector>
@@ -6,8 +6,8 @@
 #include "collocation/problem/function_algebra.h"
 #include "collocation/robot/balance_functions.h"
 #include "collocation/robot/multibody_functions.h"
-#include "experiments/problems/legged_models.h"
-#include "experiments/problems/legged_problem.h"
+#include "experiments/legged/legged_models.h"
+#include "experiments/legged/legged_problem.h"
 
 namespace possibility::experiments {
 
