@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace possibility::dynamics {
 
@@ -24,13 +25,14 @@ GuardSearch::GuardSearch(const OdeProblem& problem, const OdeSettings& settings)
     : problem_(problem),
       settings_(settings),
       searched_(problem.start_time),
-      values_(problem.guards.size()) {
+      values_(problem.guards.size()),
+      scratch_(problem.guards.size()) {
   if (problem.guards.empty()) return;
   Evaluate(problem.start_time, problem.start, &values_);
   for (int i = 0; i < static_cast<int>(values_.size()); ++i) {
     const double side = Sign(values_[i]);
     const bool is_beyond = problem.guards[i].beyond_is_zero && !Watched(i, side);
-    sides_.push_back(std::abs(values_[i]) <= settings.guard_zero || is_beyond ? 0 : side);
+    sides_.push_back(std::abs(values_[i]) <= Zero(i) || is_beyond ? 0 : side);
   }
 }
 
@@ -40,10 +42,14 @@ void GuardSearch::Evaluate(double time, const Eigen::VectorXd& state, Eigen::Vec
   for (int i = 0; i < static_cast<int>(values->size()); ++i) RequireFinite((*values)[i], i, time);
 }
 
+double GuardSearch::Zero(int guard) const {
+  return std::max(problem_.guards[guard].zero, settings_.guard_zero);
+}
+
 double GuardSearch::ValueAt(const OdeTrajectory& trajectory, double time, int guard) {
   if (!problem_.guard_value) {
-    Evaluate(time, trajectory.State(time), &values_);
-    return values_[guard];
+    Evaluate(time, trajectory.State(time), &scratch_);
+    return scratch_[guard];
   }
   ++evaluations_;
   const double value = problem_.guard_value(time, trajectory.State(time), guard);
@@ -66,80 +72,88 @@ bool GuardSearch::Watched(int guard, double from_side) const {
 /// Handles a guard that counted as zero at the start and is not zero at `end`. The side to which it
 /// left first tells whether it has crossed since or moved off in the watched direction.
 std::optional<GuardSearch::Bracket> GuardSearch::LeaveZero(const OdeTrajectory& trajectory,
-                                                           double begin, double end, int guard) {
-  const double side = Sign(ValueAt(trajectory, end, guard));
+                                                           RootPoint begin, RootPoint end,
+                                                           int guard) {
+  const double side = Sign(end.value);
   for (double fraction = 1e-8; fraction < 1; fraction *= 10) {
-    const double time = begin + fraction * (end - begin);
+    const double time = begin.at + fraction * (end.at - begin.at);
     const double value = ValueAt(trajectory, time, guard);
-    if (std::abs(value) <= settings_.guard_zero) continue;
+    if (std::abs(value) <= Zero(guard)) continue;
     if (Sign(value) != side && Watched(guard, Sign(value))) {
-      return Bracket{guard, Sign(value), time, end};
+      return Bracket{guard, {time, value}, end, 0};
     }
     break;
   }
   const OdeGuard& spec = problem_.guards[guard];
   sides_[guard] = side;
   if (spec.fires_from_zero && spec.direction != GuardDirection::kBoth && Watched(guard, -side)) {
-    return Bracket{guard, -side, begin, begin};
+    if (const double level = side * spec.zero; spec.zero > settings_.guard_zero) {
+      return Bracket{guard, {begin.at, begin.value - level}, {end.at, end.value - level}, level};
+    }
+    return Bracket{guard, {begin.at, -side}, {begin.at, side}, 0};
   }
   return std::nullopt;
 }
 
 std::vector<GuardSearch::Bracket> GuardSearch::Brackets(const OdeTrajectory& trajectory,
-                                                        double begin, double end) {
+                                                        double end) {
+  const double begin = std::exchange(searched_, end);
+  const Eigen::VectorXd before = values_;
   Evaluate(end, trajectory.State(end), &values_);
-  const Eigen::VectorXd values = values_;
   std::vector<Bracket> brackets;
   for (int i = 0; i < static_cast<int>(sides_.size()); ++i) {
+    const RootPoint after{end, values_[i]};
     if (sides_[i] == 0) {
-      if (std::abs(values[i]) <= settings_.guard_zero) continue;
-      if (const auto bracket = LeaveZero(trajectory, begin, end, i)) brackets.push_back(*bracket);
-    } else if (sides_[i] * values[i] <= 0) {
-      if (Watched(i, sides_[i])) brackets.push_back({i, sides_[i], begin, end});
-      if (values[i] != 0) sides_[i] = Sign(values[i]);
+      if (std::abs(after.value) <= Zero(i)) continue;
+      if (const auto bracket = LeaveZero(trajectory, {begin, before[i]}, after, i)) {
+        brackets.push_back(*bracket);
+      }
+    } else if (sides_[i] * after.value <= 0) {
+      if (Watched(i, sides_[i])) brackets.push_back({i, {begin, before[i]}, after, 0});
+      if (after.value != 0) sides_[i] = Sign(after.value);
     }
   }
   return brackets;
 }
 
-/// Illinois' false position (Dowell & Jarratt 1971); every third step bisects.
-double GuardSearch::Root(const OdeTrajectory& trajectory, Bracket bracket) {
-  double low = bracket.before, high = bracket.after;
-  if (low == high) return high;
-  double at_low = bracket.side * ValueAt(trajectory, low, bracket.guard);
-  double at_high = bracket.side * ValueAt(trajectory, high, bracket.guard);
-  // Neighbouring pieces agree only to the local error, so this one may begin beyond zero.
-  if (at_low <= 0) return low;
-  const double resolution =
-      std::max(settings_.guard_resolution, 4 * std::numeric_limits<double>::epsilon() *
-                                               std::max(std::abs(low), std::abs(high)));
-  bool moved_low = false, moved_high = false;
-  for (int iteration = 1; high - low > resolution && at_high != 0; ++iteration) {
-    const double share = iteration % 3 == 0 ? 0.5 : at_low / (at_low - at_high);
-    const double time =
-        std::clamp(low + (high - low) * share, low + resolution / 4, high - resolution / 4);
-    if (time <= low || time >= high) break;
-    const double value = bracket.side * ValueAt(trajectory, time, bracket.guard);
-    if (value > 0) {
-      low = time;
-      at_low = value;
-      if (moved_low) at_high /= 2;
-    } else {
-      high = time;
-      at_high = value;
-      if (moved_high) at_low /= 2;
+double GuardSearch::Above(const OdeTrajectory& trajectory, double time, const Bracket& bracket) {
+  return ValueAt(trajectory, time, bracket.guard) - bracket.level;
+}
+
+double GuardSearch::Root(const OdeTrajectory& trajectory, const Bracket& bracket) {
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(bracket.before.at), std::abs(bracket.after.at));
+  return BracketedRoot(bracket.before, bracket.after,
+                       std::max(settings_.guard_resolution, rounding),
+                       [&](double time) { return Above(trajectory, time, bracket); });
+}
+
+GuardCrossing GuardSearch::FirstCrossing(const OdeTrajectory& trajectory,
+                                         const std::vector<Bracket>& brackets) {
+  std::vector<std::pair<double, int>> roots;  // with the guard
+  GuardCrossing crossing{std::numeric_limits<double>::infinity(), {}};
+  for (Bracket bracket : brackets) {
+    const double latest = crossing.time + settings_.simultaneous;
+    if (latest < bracket.after.at) {
+      // Most guards cross later than another one; their roots are not needed.
+      if (latest <= bracket.before.at) continue;
+      bracket.after = {latest, Above(trajectory, latest, bracket)};
+      if (bracket.after.value * bracket.before.value > 0) continue;
     }
-    moved_low = value > 0;
-    moved_high = !moved_low;
+    roots.emplace_back(Root(trajectory, bracket), bracket.guard);
+    crossing.time = std::min(crossing.time, roots.back().first);
   }
-  return high;
+  for (const auto& [time, guard] : roots) {
+    if (time <= crossing.time + settings_.simultaneous) crossing.guards.push_back(guard);
+  }
+  return crossing;
 }
 
 double GuardSearch::Spacing() const { return settings_.max_step / settings_.guard_samples; }
 
 bool GuardSearch::IsDue(double time) const {
   // This part of the time since the start.
-  constexpr double kShare = 0.125;
+  constexpr double kShare = 0.25;
   const double soon = kShare * (time - problem_.start_time);
   const double spacing = std::isfinite(settings_.max_step) ? std::min(Spacing(), soon) : 0;
   return time - searched_ >= spacing;
@@ -153,21 +167,10 @@ std::optional<GuardCrossing> GuardSearch::Search(const OdeTrajectory& trajectory
                           ? std::max(1, static_cast<int>(std::ceil(length / Spacing())))
                           : settings_.guard_samples;
   for (int sample = 1; sample <= samples; ++sample) {
-    const double from = searched_;
-    searched_ = sample == samples ? trajectory.end_time() : begin + length * sample / samples;
-    const std::vector<Bracket> brackets = Brackets(trajectory, from, searched_);
-    if (brackets.empty()) continue;
-    std::vector<double> roots;
-    roots.reserve(brackets.size());
-    for (const Bracket& bracket : brackets) roots.push_back(Root(trajectory, bracket));
-    GuardCrossing crossing;
-    crossing.time = *std::min_element(roots.begin(), roots.end());
-    for (size_t i = 0; i < roots.size(); ++i) {
-      if (roots[i] <= crossing.time + settings_.simultaneous) {
-        crossing.guards.push_back(brackets[i].guard);
-      }
-    }
-    return crossing;
+    const double end =
+        sample == samples ? trajectory.end_time() : begin + length * sample / samples;
+    const std::vector<Bracket> brackets = Brackets(trajectory, end);
+    if (!brackets.empty()) return FirstCrossing(trajectory, brackets);
   }
   return std::nullopt;
 }

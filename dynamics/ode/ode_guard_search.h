@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/ode/bracketed_root.h"
 #include "dynamics/ode/ode_integrator.h"
 
 namespace possibility::dynamics {
@@ -36,23 +37,27 @@ class GuardSearch {
   double Spacing() const;
   struct Bracket {
     int guard = 0;
-    double side = 0;
-    double before = 0;
-    double after = 0;
+    RootPoint before, after;  ///< with the guard's height above `level`
+    double level = 0;         ///< fires there; 0 unless the guard leaves a zero of its own
   };
 
   void Evaluate(double time, const Eigen::VectorXd& state, Eigen::VectorXd* values);
+  double Zero(int guard) const;
   double ValueAt(const OdeTrajectory& trajectory, double time, int guard);
   bool Watched(int guard, double from_side) const;
-  std::optional<Bracket> LeaveZero(const OdeTrajectory& trajectory, double begin, double end,
+  std::optional<Bracket> LeaveZero(const OdeTrajectory& trajectory, RootPoint begin, RootPoint end,
                                    int guard);
-  std::vector<Bracket> Brackets(const OdeTrajectory& trajectory, double begin, double end);
-  double Root(const OdeTrajectory& trajectory, Bracket bracket);
+  std::vector<Bracket> Brackets(const OdeTrajectory& trajectory, double end);
+  GuardCrossing FirstCrossing(const OdeTrajectory& trajectory,
+                              const std::vector<Bracket>& brackets);
+  double Above(const OdeTrajectory& trajectory, double time, const Bracket& bracket);
+  double Root(const OdeTrajectory& trajectory, const Bracket& bracket);
 
   const OdeProblem& problem_;
   const OdeSettings& settings_;
-  double searched_;  ///< s: the end of the last search
-  Eigen::VectorXd values_;
+  double searched_;         ///< s: the end of the last search
+  Eigen::VectorXd values_;  ///< at `searched_`
+  Eigen::VectorXd scratch_;
   std::vector<double> sides_;  ///< -1 or 1; 0: counts as zero since the start
   long evaluations_ = 0;
 };

@@ -57,6 +57,9 @@ void CheckProblem(const OdeProblem& problem) {
            " s; expected finite ones that do not decrease");
   }
   if (!problem.guards.empty() && !problem.guard_values) Reject("guards without guard_values");
+  for (const OdeGuard& guard : problem.guards) {
+    if (!(guard.zero >= 0)) Reject("a guard's zero must not be negative");
+  }
   if (problem.positions < 0 || problem.positions > problem.start.size()) {
     Reject("positions is " + std::to_string(problem.positions) + ", expected 0 to " +
            std::to_string(problem.start.size()));

@@ -39,6 +39,10 @@ struct OdeGuard {
   /// Whether a guard that starts beyond zero counts as one that starts at zero. Otherwise it fires
   /// only after it has come back.
   bool beyond_is_zero = false;
+  /// A guard that starts at most this far from zero counts as zero until it is farther off: it
+  /// fires there if it is then beyond zero, else at zero as any other. OdeSettings::guard_zero if
+  /// that is more.
+  double zero = 0;
 };
 
 enum class OdeMethod {
@@ -72,7 +76,7 @@ struct OdeSettings {
   /// start; without a max_step this many times a step. Two crossings closer than that may be
   /// missed.
   int guard_samples = 2;
-  /// |guard| up to this counts as zero at the start.
+  /// |guard| up to this counts as zero until it is more, for the first time since the start.
   double guard_zero = 1e-11;
   /// s: the time of a crossing is found to within this, or rounding if that is more.
   double guard_resolution = 0;

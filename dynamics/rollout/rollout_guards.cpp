@@ -19,7 +19,6 @@ std::vector<RolloutGuard> GuardsOf(const RolloutStance& stance,
   std::vector<RolloutGuard> guards;
   for (const int contact : stance.free) {
     guards.push_back({Kind::kTouchdown, contact, -1, -1});
-    if (stance.slack[contact] > 0) guards.push_back({Kind::kClearing, contact, -1, -1});
   }
   for (int patch = 0; patch < static_cast<int>(stance.patches.size()); ++patch) {
     const int edges = static_cast<int>(stance.patches[patch].edges.size());
@@ -51,12 +50,13 @@ OdeGuard RolloutGuards::Watched(int index) const {
   const RolloutGuard& guard = guards_[index];
   const bool passes =
       guard.kind == Kind::kTouchdown && robot_->contact(guard.contact).lands != nullptr;
-  const bool rises = guard.kind == Kind::kUnjamming || guard.kind == Kind::kClearing ||
-                     (guard.kind == Kind::kCalm && stance_->calm_since);
+  const bool rises =
+      guard.kind == Kind::kUnjamming || (guard.kind == Kind::kCalm && stance_->calm_since);
   OdeGuard watched{rises ? GuardDirection::kRising : GuardDirection::kFalling, !passes};
   // A patch that carries almost nothing may be selected although it pulls by a rounding error. It
   // would stick to the ground.
   watched.beyond_is_zero = guard.kind == Kind::kTipping && !IsJammed(guard.patch);
+  if (guard.kind == Kind::kTouchdown) watched.zero = stance_->slack[guard.contact];
   return watched;
 }
 
@@ -72,8 +72,6 @@ std::string RolloutGuards::NameOf(int index) const {
   switch (guard.kind) {
     case Kind::kTouchdown:
       return fmt::format("touchdown of '{}'", robot_->contact(guard.contact).name);
-    case Kind::kClearing:
-      return fmt::format("'{}' clear of the ground", robot_->contact(guard.contact).name);
     case Kind::kTipping:
       return fmt::format("tipping of the patch of '{}'", PatchContact(guard).name);
     case Kind::kUnjamming:
@@ -114,8 +112,7 @@ double RolloutGuards::EvaluateOne(double t, const Eigen::Ref<const VectorXd>& st
   const RolloutGuard& guard = guards_[index];
   Matrix3Xd forces;
   // Where a point is takes no dynamics.
-  const bool is_place = guard.kind == Kind::kTouchdown || guard.kind == Kind::kClearing;
-  if (is_place || stance_->points.empty()) {
+  if (guard.kind == Kind::kTouchdown || stance_->points.empty()) {
     robot_->SetState(state);
   } else {
     robot_->Accelerate(t, state, *stance_, &forces);
@@ -127,9 +124,7 @@ double RolloutGuards::Value(double t, const Eigen::Ref<const VectorXd>& state,
                             const Matrix3Xd& forces, const RolloutGuard& guard) const {
   switch (guard.kind) {
     case Kind::kTouchdown:
-      return robot_->Gap(guard.contact) + stance_->slack[guard.contact];
-    case Kind::kClearing:
-      return robot_->Gap(guard.contact) - kContactSlack;
+      return robot_->Gap(guard.contact);
     case Kind::kTipping: {
       const ContactPatchBalance& patch = stance_->patches[guard.patch];
       return patch.Moment(patch.edges[guard.edge], forces);

@@ -14,9 +14,9 @@ namespace possibility::dynamics {
 
 /// An event that may end a stance.
 struct RolloutGuard {
-  enum class Kind { kTouchdown, kClearing, kTipping, kUnjamming, kSlip, kCalm, kRest };
+  enum class Kind { kTouchdown, kTipping, kUnjamming, kSlip, kCalm, kRest };
   Kind kind = Kind::kTouchdown;
-  int contact = -1;  ///< for kTouchdown, kClearing, kUnjamming
+  int contact = -1;  ///< for kTouchdown, kUnjamming
   int patch = -1;    ///< for kTipping, kSlip
   int edge = -1;     ///< for kTipping
 };

@@ -99,9 +99,6 @@ RolloutModes::Changes RolloutModes::ChangesBy(const HybridEvent& event,
       case Kind::kTouchdown:
         if (robot_->Lands(guard.contact, event.before)) changes.touched.push_back(guard.contact);
         break;
-      case Kind::kClearing:
-        same_contacts().slack[guard.contact] = 0;
-        break;
       case Kind::kTipping:
         for (const int contact : guards.Tipping(guard)) changes.leaving.push_back(contact);
         break;

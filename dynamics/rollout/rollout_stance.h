@@ -22,8 +22,8 @@ struct RolloutStance {
   std::vector<int> free;                     ///< the other contacts
   bool has_landed = false;                   ///< some contact has been held so far
   /// By contact, m: usually 0. For a free contact so near to its plane that rounding decides its
-  /// side, the depth below the plane at which it comes down; back to 0 once the contact has been
-  /// above the plane by kContactSlack.
+  /// side, the depth below the plane at which it comes down unless it has been above the plane by
+  /// as much.
   std::vector<double> slack;
   std::optional<double> calm_since;  ///< s: time since which the kinetic energy is below the bound
 };

@@ -292,6 +292,22 @@ TEST(OdeIntegrator, AGuardThatLeavesZeroInItsDirectionFiresAtOnceIfSet) {
   EXPECT_NEAR(Integrate(problem, Accurate()).time, 2 * std::numbers::pi, 1e-10);
 }
 
+TEST(OdeIntegrator, AGuardWithinAZeroOfItsOwnFiresWhereItLeavesThat) {
+  constexpr double kZero = 0.01;
+  // From 0.004 inside, sin t falls through -kZero.
+  const auto falls = [](double, State x, Output out) { out[0] = x[1] + 0.004; };
+  OdeProblem problem = Watching(Oscillator(10), {{GuardDirection::kFalling}}, falls);
+  problem.guards[0].zero = kZero;
+  EXPECT_NEAR(Integrate(problem, Accurate()).time, std::asin(kZero + 0.004), 1e-10);
+  // Once it has risen above kZero, it fires at zero.
+  const auto rises = [](double, State x, Output out) { out[0] = -x[1] - 0.004; };
+  problem.guard_values = rises;
+  EXPECT_NEAR(Integrate(problem, Accurate()).time, std::numbers::pi - std::asin(0.004), 1e-10);
+  problem.guards[0].fires_from_zero = false;
+  problem.guard_values = falls;
+  EXPECT_NEAR(Integrate(problem, Accurate()).time, 2 * std::numbers::pi + std::asin(0.004), 1e-10);
+}
+
 TEST(OdeIntegrator, ACrossingWithinTheFirstStepIsFound) {
   // A throw of 0.2 milliseconds, which is over before the first step at these tolerances ends.
   OdeProblem problem;
@@ -554,6 +570,10 @@ TEST(OdeIntegrator, InvalidArgumentsAreRefused) {
   rejected([&](OdeProblem&, OdeSettings& s) { s.absolute_tolerance = nan; });
   rejected([](OdeProblem&, OdeSettings& s) { s.absolute_tolerances = VectorXd::Ones(3); });
   rejected([](OdeProblem&, OdeSettings& s) { s.absolute_tolerances = VectorXd::Zero(2); });
+  rejected([](OdeProblem& p, OdeSettings&) {
+    p = Watching(p, {{}}, [](double, State x, Output out) { out[0] = x[0]; });
+    p.guards[0].zero = -1;
+  });
   rejected([](OdeProblem&, OdeSettings& s) { s.max_step = 0; });
   rejected([](OdeProblem&, OdeSettings& s) { s.max_steps = 0; });
   rejected([](OdeProblem&, OdeSettings& s) { s.guard_samples = 0; });
