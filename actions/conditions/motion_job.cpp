@@ -22,11 +22,9 @@ graph::JobVerdict MotionJob::Run(graph::JobControl* control) {
     return Decide(error.what());
   }
   const models::RobotModel& robot = *manoeuvre_.model().robot;
-  const MotionPoses poses(robot, motion);
-  std::string hit = FirstSelfHit(robot, *checker_, poses, cancellation);
+  std::string hit = FirstSelfHit(robot, *checker_, motion, cancellation);
   if (hit.empty()) {
-    hit = FirstHit(robot, *manoeuvre_.world().environment, *checker_, poses,
-                   Eigen::Isometry3d::Identity(), cancellation);
+    hit = FirstHit(robot, *manoeuvre_.world().environment, *checker_, motion, cancellation);
   }
   return cancellation.Proceed() ? Decide(hit) : graph::JobVerdict::kUndecided;
 }

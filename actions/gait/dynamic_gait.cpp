@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "actions/motion/phase_sequence.h"
+#include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
 namespace {
@@ -295,9 +296,11 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
 
 void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion,
                                        const Demands& demands) const {
+  dynamics::TreeKinematics kinematics(*robot_);
   for (const Phase& phase : motion) {
     for (const Knot& knot : phase.knots) {
-      const auto faults = demands.self_clearance.Faults(knot.q, demands.clearance);
+      kinematics.SetPosition(knot.q);
+      const auto faults = demands.self_clearance.Faults(kinematics.X_WL(), demands.clearance);
       if (faults.empty()) continue;
       const auto& [pair, required] = faults.front();
       throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",

@@ -155,9 +155,8 @@ class StepPlanner {
                const std::vector<int>& others, const PlanarPose& standing) const {
     for (const int limb : limbs) {
       for (const int other : others) {
-        const double nominal = Gap(stance_, limb, {}, other, {});
-        const double needed = std::min(kGapShare * nominal, kGap) - 1e-9;
-        if (Gap(stance_, limb, target, other, standing) < needed) return false;
+        const double gap = Gap(stance_, limb, target, other, standing) + 1e-9;
+        if (gap < kGap && gap < kGapShare * Gap(stance_, limb, {}, other, {})) return false;
       }
     }
     return true;

@@ -11,12 +11,10 @@
 
 namespace possibility::actions {
 
-/// Sampled link poses of a motion, in the motion's frame.
+/// Sampled link poses of a motion, in the motion's frame. Stored for motions that are executed from
+/// many places.
 class MotionPoses {
  public:
-  /// Largest time between samples, s.
-  static constexpr double kInterval = 0.005;
-
   MotionPoses(const models::RobotModel& robot, const std::vector<Phase>& motion);
 
   struct Sample {
@@ -37,8 +35,14 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
                      const models::CollisionChecker& checker, const MotionPoses& poses,
                      const Eigen::Isometry3d& X_WS, const CancellationToken& cancellation = {});
 
+/// The same for a motion in the world.
+std::string FirstHit(const models::RobotModel& robot, const models::Environment& environment,
+                     const models::CollisionChecker& checker, const std::vector<Phase>& motion,
+                     const CancellationToken& cancellation = {});
+
 /// The first self-collision: "hits Body_LSP with Body_RSP at 1.30 s"; empty if none.
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
-                         const MotionPoses& poses, const CancellationToken& cancellation = {});
+                         const std::vector<Phase>& motion,
+                         const CancellationToken& cancellation = {});
 
 }  // namespace possibility::actions

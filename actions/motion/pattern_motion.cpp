@@ -73,9 +73,9 @@ class Pattern {
       settings_.end_joints = stance_.q.tail(robot_.num_joints());
     LayOutIntervals();
     LayOutZmp();
-    const auto steps = static_cast<int>(std::ceil(schedule_.duration() / settings_.grid));
-    steps_ = std::max(steps, 2);
-    h_ = schedule_.duration() / steps_;
+    duration_ = schedule_.duration();
+    steps_ = std::max(static_cast<int>(std::ceil(duration_ / settings_.grid)), 2);
+    h_ = duration_ / steps_;
     error_.setZero(2, steps_ + 1);
   }
 
@@ -249,8 +249,8 @@ class Pattern {
 
   ScalarSignal RootHeight(double t) const {
     const double stand = stance_.gait->posture.root_height + ground_;
-    const double time = std::min(settings_.rise_time, schedule_.duration() / 2);
-    const double left = schedule_.duration() - t;
+    const double time = std::min(settings_.rise_time, duration_ / 2);
+    const double left = duration_ - t;
     if (t < time) return Blend(stand, stand + settings_.rise, RestToRest(t, time));
     if (left >= time) return Constant(stand + settings_.rise);
     return Blend(stand + settings_.rise, stand, RestToRest(time - left, time));
@@ -259,8 +259,8 @@ class Pattern {
   /// The joints of limbs do not matter: their tasks determine them.
   Signal<VectorXd> Joints(double t) const {
     const VectorXd nominal = stance_.q.tail(robot_.num_joints());
-    const double time = std::min(settings_.turning_time, schedule_.duration());
-    const double turning = std::min(time, t - (schedule_.duration() - time));
+    const double time = std::min(settings_.turning_time, duration_);
+    const double turning = std::min(time, t - (duration_ - time));
     if (turning <= 0) return ConstantVector<VectorXd>(nominal);
     return BlendVector<VectorXd>(nominal, settings_.end_joints, RestToRest(turning, time));
   }
@@ -279,7 +279,7 @@ class Pattern {
     q.segment<2>(4) = intervals_.front().zmp_from;
     for (int i = 0; i <= steps_; ++i) {
       cancellation.ThrowIfCancelled();
-      const double t = std::min(i * h_, schedule_.duration());
+      const double t = std::min(i * h_, duration_);
       const int k = IntervalAt(t);
       const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
       q = GuessAfter(state, h_);
@@ -326,6 +326,7 @@ class Pattern {
   PatternSettings settings_;
   double ground_ = 0;  ///< m
   std::vector<Interval> intervals_;
+  double duration_ = 0;  ///< s
   int steps_ = 0;
   double h_ = 0;          ///< s
   double stiffness_ = 0;  ///< 1/s^2

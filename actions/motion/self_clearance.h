@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "models/robot/robot_model.h"
@@ -26,9 +26,11 @@ class SelfClearance {
   /// Pairs of links that at q are closer than `clearance` (m, up to twice kSelfClearance) and than
   /// what the postures of rest allow.
   std::vector<Fault> Faults(const Eigen::VectorXd& q, double clearance) const;
+  /// The same at poses of the links.
+  std::vector<Fault> Faults(const std::vector<Eigen::Isometry3d>& X_WL, double clearance) const;
 
  private:
-  std::vector<models::Proximity> Proximities(const Eigen::VectorXd& q, double threshold) const;
+  std::vector<Eigen::Isometry3d> Poses(const Eigen::VectorXd& q) const;
 
   const models::RobotModel* robot_;
   models::CollisionChecker checker_;

@@ -137,8 +137,7 @@ void RequireFreeRun(const RunContext& context, int first, const FlowEnd& end,
   const models::RobotModel& robot = *context.model.robot;
   const models::CollisionChecker checker(robot, context.environment);
   for (const std::vector<Phase>& leg : legs) {
-    const std::string hit = FirstHit(robot, context.environment, checker, MotionPoses(robot, leg),
-                                     Eigen::Isometry3d::Identity(), cancellation);
+    const std::string hit = FirstHit(robot, context.environment, checker, leg, cancellation);
     if (!cancellation.Proceed()) throw Cancelled();
     if (!hit.empty()) throw MotionError(hit);
   }

@@ -168,9 +168,8 @@ bool StanceMotion::Hits(const Phase& phase) const {
   ground.X_WO.translation().z() = -0.5;
   ground.is_ground = true;
   const models::CollisionChecker checker(robot_, environment);
-  const MotionPoses poses(robot_, {phase});
-  return !FirstHit(robot_, environment, checker, poses, Eigen::Isometry3d::Identity()).empty() ||
-         !FirstSelfHit(robot_, checker, poses).empty();
+  return !FirstHit(robot_, environment, checker, {phase}).empty() ||
+         !FirstSelfHit(robot_, checker, {phase}).empty();
 }
 
 double StanceMotion::TurningTime(const VectorXd& offset, double speed_share) const {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "dynamics/tree/spatial.h"
 #include "models/robot/cross_matrix.h"
 
 namespace possibility::dynamics {
@@ -72,7 +73,7 @@ void TreeKinematics::SetPosition(const Eigen::Ref<const Eigen::VectorXd>& q) {
   for (int i = 1; i < n; ++i) PlaceLink(i, q[6 + i]);
   for (int i = 0; i < n; ++i) {
     LinkState& link = states_[i];
-    link.to_com.noalias() = X_WL_[i].linear() * constants_[i].p_LC;
+    link.to_com = Times(X_WL_[i].linear(), constants_[i].p_LC);
     link.subtree_moment = constants_[i].mass * (X_WL_[i].translation() + link.to_com);
   }
   for (int i = n - 1; i > 0; --i) {
@@ -83,18 +84,20 @@ void TreeKinematics::SetPosition(const Eigen::Ref<const Eigen::VectorXd>& q) {
 void TreeKinematics::PlaceLink(int index, double joint_position) {
   const LinkConstants& constants = constants_[index];
   const Eigen::Isometry3d& X_WP = X_WL_[constants.parent];
+  const Matrix3d R_WP = X_WP.linear();
   LinkState& link = states_[index];
-  link.axis.noalias() = X_WP.linear() * constants.axis_P;
-  link.from_parent.noalias() = X_WP.linear() * constants.p_PJ;
+  link.axis = Times(R_WP, constants.axis_P);
+  link.from_parent = Times(R_WP, constants.p_PJ);
+  Matrix3d R_PL = constants.fixed;
   if (constants.prismatic) {
     link.from_parent += joint_position * link.axis;
-    X_WL_[index].linear().noalias() = X_WP.linear() * constants.fixed;
   } else {
-    const Matrix3d R_PL = constants.fixed + std::sin(joint_position) * constants.sine +
-                          (1 - std::cos(joint_position)) * constants.versine;
-    X_WL_[index].linear().noalias() = X_WP.linear() * R_PL;
+    R_PL += std::sin(joint_position) * constants.sine +
+            (1 - std::cos(joint_position)) * constants.versine;
   }
-  X_WL_[index].translation() = X_WP.translation() + link.from_parent;
+  Eigen::Isometry3d& X_WL = X_WL_[index];
+  for (int axis = 0; axis < 3; ++axis) X_WL.linear().col(axis) = Times(R_WP, R_PL.col(axis));
+  X_WL.translation() = X_WP.translation() + link.from_parent;
 }
 
 void TreeKinematics::SetVelocity(const Eigen::Ref<const Eigen::VectorXd>& v) {

@@ -15,6 +15,7 @@ namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
+using Eigen::Vector3d;
 
 /// Rounding of poses and projections stays below this for scenes of up to kilometres, m.
 constexpr double kRounding = 1e-8;
@@ -24,15 +25,35 @@ struct PosedBody {
   Isometry3d X_PC;  ///< pose of the core in the link or in the world
 };
 
-std::vector<PosedBody> PrepareLink(const Link& link) {
+/// The bodies of a link, and a ball around them.
+struct PreparedLink {
   std::vector<PosedBody> bodies;
-  for (const PosedShape& posed : link.shapes) {
-    PreparedShape shape(posed.shape);
-    const Isometry3d X_LC = shape.CorePose(posed.X_PS);
-    bodies.push_back({std::move(shape), X_LC});
+  Vector3d centre = Vector3d::Zero();  ///< in L
+  double radius = 0;                   ///< m
+
+  explicit PreparedLink(const Link& link) {
+    AlignedBox3d around;
+    for (const PosedShape& posed : link.shapes) {
+      PreparedShape shape(posed.shape);
+      const Isometry3d X_LC = shape.CorePose(posed.X_PS);
+      around.extend(shape.OuterBounds(X_LC));
+      bodies.push_back({std::move(shape), X_LC});
+    }
+    if (bodies.empty()) return;
+    centre = around.center();
+    radius = around.sizes().norm() / 2 + kRounding;
   }
-  return bodies;
-}
+
+  /// Contains the bodies: empty without any, all of space if the pose is not finite.
+  AlignedBox3d OuterBounds(const Isometry3d& X_WL) const {
+    if (bodies.empty()) return {};
+    Vector3d reach = Vector3d::Constant(radius);
+    if (!X_WL.matrix().allFinite()) reach.setConstant(std::numeric_limits<double>::infinity());
+    const Vector3d p_W = X_WL * centre;
+    const Vector3d centre_W = p_W.allFinite() ? p_W : Vector3d::Zero();
+    return {centre_W - reach, centre_W + reach};
+  }
+};
 
 std::vector<std::pair<int, int>> SelfPairs(const RobotModel& robot) {
   std::set<std::pair<int, int>> excluded;
@@ -72,7 +93,7 @@ std::optional<AlignedBox3d> BoundsOf(const std::vector<Prism>& prisms) {
 }  // namespace
 
 struct CollisionChecker::Impl {
-  std::vector<std::vector<PosedBody>> links;
+  std::vector<PreparedLink> links;
   std::vector<std::pair<int, int>> self_pairs;
   std::vector<PosedBody> obstacles;
   std::vector<AlignedBox3d> bounds;  ///< of the obstacles
@@ -130,25 +151,29 @@ struct CollisionChecker::Impl {
     return false;
   }
 
-  /// Distances below `threshold` of one link's bodies to obstacles, by obstacle.
-  std::vector<std::pair<int, double>> LinkDistances(const std::vector<PosedBody>& bodies,
-                                                    const Isometry3d& X_WL,
-                                                    double threshold) const {
-    std::vector<std::pair<int, double>> found;
-    for (const PosedBody& body : bodies) {
+  std::vector<int> ObstaclesNear(const AlignedBox3d& around, double reach) const {
+    std::vector<int> near;
+    tree.VisitNear(around, reach, [&](int obstacle) {
+      near.push_back(obstacle);
+      return reach;
+    });
+    std::sort(near.begin(), near.end());
+    return near;
+  }
+
+  /// Distance of a link to an obstacle, at most `at_most`.
+  double LinkDistance(const PreparedLink& link, const Isometry3d& X_WL, int obstacle,
+                      double at_most) const {
+    const PosedBody& other = obstacles[obstacle];
+    const double reach = Reach(at_most);
+    double nearest = at_most;
+    for (const PosedBody& body : link.bodies) {
       const Isometry3d X_WC = X_WL * body.X_PC;
-      tree.VisitNear(body.shape.OuterBounds(X_WC), Reach(threshold), [&](int obstacle) {
-        const PosedBody& other = obstacles[obstacle];
-        const double distance =
-            SignedDistance(body.shape, X_WC, other.shape, other.X_PC, threshold);
-        if (distance < threshold) found.emplace_back(obstacle, distance);
-        return Reach(threshold);
-      });
+      if (FartherThan(body.shape.OuterBounds(X_WC), bounds[obstacle], reach)) continue;
+      nearest =
+          std::min(nearest, SignedDistance(body.shape, X_WC, other.shape, other.X_PC, at_most));
     }
-    std::sort(found.begin(), found.end());
-    const auto same_obstacle = [](const auto& a, const auto& b) { return a.first == b.first; };
-    found.erase(std::unique(found.begin(), found.end(), same_obstacle), found.end());
-    return found;
+    return nearest;
   }
 };
 
@@ -163,12 +188,11 @@ struct WorldBodies {
   std::vector<std::vector<Body>> links;
   std::vector<AlignedBox3d> link_bounds;
 
-  WorldBodies(const std::vector<std::vector<PosedBody>>& bodies,
-              const std::vector<Isometry3d>& X_WL)
-      : links(bodies.size()), link_bounds(bodies.size()) {
-    for (size_t link = 0; link < bodies.size(); ++link) {
-      links[link].reserve(bodies[link].size());
-      for (const PosedBody& body : bodies[link]) {
+  WorldBodies(const std::vector<PreparedLink>& prepared, const std::vector<Isometry3d>& X_WL)
+      : links(prepared.size()), link_bounds(prepared.size()) {
+    for (size_t link = 0; link < prepared.size(); ++link) {
+      links[link].reserve(prepared[link].bodies.size());
+      for (const PosedBody& body : prepared[link].bodies) {
         const Isometry3d X_WC = X_WL[link] * body.X_PC;
         links[link].push_back({X_WC, body.shape.OuterBounds(X_WC)});
         link_bounds[link].extend(links[link].back().bounds);
@@ -181,7 +205,7 @@ struct WorldBodies {
 
 CollisionChecker::CollisionChecker(const RobotModel& robot, const Environment& environment)
     : CollisionChecker(environment) {
-  for (const Link& link : robot.links) impl_->links.push_back(PrepareLink(link));
+  for (const Link& link : robot.links) impl_->links.emplace_back(link);
   impl_->self_pairs = SelfPairs(robot);
 }
 
@@ -195,11 +219,23 @@ CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = def
 std::vector<Proximity> CollisionChecker::EnvironmentProximities(const std::vector<Isometry3d>& X_WL,
                                                                 double threshold) const {
   impl_->CheckPoses(X_WL);
+  const double reach = Reach(threshold);
+  std::vector<AlignedBox3d> link_bounds;
+  AlignedBox3d robot_bounds;
+  for (size_t link = 0; link < X_WL.size(); ++link) {
+    link_bounds.push_back(impl_->links[link].OuterBounds(X_WL[link]));
+    robot_bounds.extend(link_bounds.back());
+  }
+  if (robot_bounds.isEmpty()) return {};
+  const std::vector<int> near = impl_->ObstaclesNear(robot_bounds, reach);
   std::vector<Proximity> proximities;
   for (size_t link = 0; link < X_WL.size(); ++link) {
-    for (const auto& [obstacle, distance] :
-         impl_->LinkDistances(impl_->links[link], X_WL[link], threshold)) {
-      proximities.push_back({static_cast<int>(link), obstacle, distance});
+    if (link_bounds[link].isEmpty()) continue;
+    for (const int obstacle : near) {
+      if (FartherThan(link_bounds[link], impl_->bounds[obstacle], reach)) continue;
+      const double distance =
+          impl_->LinkDistance(impl_->links[link], X_WL[link], obstacle, threshold);
+      if (distance < threshold) proximities.push_back({static_cast<int>(link), obstacle, distance});
     }
   }
   return proximities;
@@ -219,8 +255,9 @@ std::vector<Proximity> CollisionChecker::SelfProximities(const std::vector<Isome
         const WorldBodies::Body& body_a = world.links[a][i];
         const WorldBodies::Body& body_b = world.links[b][j];
         if (FartherThan(body_a.bounds, body_b.bounds, reach)) continue;
-        nearest = std::min(nearest, SignedDistance(impl_->links[a][i].shape, body_a.X_WC,
-                                                   impl_->links[b][j].shape, body_b.X_WC, nearest));
+        nearest = std::min(nearest,
+                           SignedDistance(impl_->links[a].bodies[i].shape, body_a.X_WC,
+                                          impl_->links[b].bodies[j].shape, body_b.X_WC, nearest));
       }
     }
     if (nearest < threshold) proximities.push_back({a, b, nearest});
