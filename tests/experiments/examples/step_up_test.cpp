@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include "actions/conditions/exploration_pose.h"
@@ -70,114 +71,68 @@ TEST(StepUpTest, WithoutTheActionThePlinthIsExhausted) {
 }
 
 TEST(StepUpTest, APlinthTooHighIsRefused) {
-  for (const double height : {StepUp::kHighest + 0.01, 0.4}) {
+  for (const double height : {0.16, 0.4}) {
     const PlanResult result = PlanWithSteps(Plinth(height));
     EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
     EXPECT_TRUE(result.plan.segments.empty());
   }
 }
 
-/// Heights over the whole range that the action offers, in both directions, at several headings.
-TEST(StepUpTest, MotionExistsForAllHeightsOffered) {
-  const LocomotionModel& model = DrcHubo1Locomotion();
-  const StepUpMotion motion(DrcHubo1(), *model.gaits[0]);
-  for (const double rise : {StepUp::kLowest, 0.03, 0.06, 0.09, 0.12, StepUp::kHighest}) {
-    for (const double yaw : {0.0, 1.0, -2.5}) {
-      EXPECT_NO_THROW(motion.Generate({0.3, -0.2, yaw}, 0.4, rise, {})) << rise << " " << yaw;
-    }
-  }
-}
-
-class StepUpScene : public ::testing::Test {
- protected:
-  StepUpScene() {
-    context_.model = &DrcHubo1Locomotion();
-    context_.world = {&scenario_.environment, &ground_};
-    context_.space =
-        std::make_shared<PelvisPoseSpace>(scenario_.environment.bounds, ground_.levels(), 0.137);
-    context_.gaits = {std::make_shared<QuasiStaticAction>(*context_.model, 0, context_.world,
-                                                          context_.space, 0.25)};
-    step_up_ = std::make_unique<StepUp>(context_);
-  }
-  static graph::Point At(double x, double y, double yaw, double z) {
-    return ToPoint(DrcHubo1Locomotion().gaits[0]->stance.RootPose({x, y, yaw}, z));
+/// The example's step beside a plinth, without a planner.
+struct StepUpScene {
+  explicit StepUpScene(double height) : scenario(Plinth(height)), ground(scenario.environment) {
+    context.model = &DrcHubo1Locomotion();
+    context.world = {&scenario.environment, &ground};
+    context.space =
+        std::make_shared<PelvisPoseSpace>(scenario.environment.bounds, ground.levels(), 0.137);
+    context.gaits = {
+        std::make_shared<QuasiStaticAction>(*context.model, 0, context.world, context.space, 0.25)};
+    step_up = StepUpFactory().make(context);
   }
 
-  models::Scenario scenario_ = Plinth(0.1);
-  models::GroundMap ground_{scenario_.environment};
-  PlanningContext context_;
-  std::unique_ptr<StepUp> step_up_;
+  models::Scenario scenario;
+  models::GroundMap ground;
+  PlanningContext context;
+  std::shared_ptr<Manoeuvre> step_up;
 };
 
-TEST_F(StepUpScene, EachUnmetNecessaryConditionRefusesTheStep) {
-  const graph::Point low = At(-0.02, 0, 0, 0);
-  const graph::Point high = At(0.48, 0, 0, 0.1);
-  EXPECT_TRUE(step_up_->CN(graph::Edge{low, high}));
-  EXPECT_TRUE(step_up_->CN(graph::Edge{high, low})) << "down again";
-  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.47, 0, 0, 0.1)})) << "too near";
-  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.48, 0.01, 0, 0.1)})) << "to the side";
-  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.48, 0, 0.01, 0.1)})) << "turning";
-  EXPECT_FALSE(step_up_->CN(graph::Edge{low, At(0.48, 0, 0, 0)})) << "into the plinth";
-  EXPECT_FALSE(step_up_->CN(graph::Edge{At(-0.1, 0, 0, 0), At(0.4, 0, 0, 0.1)}))
-      << "heels over the edge";
-  EXPECT_FALSE(step_up_->CN(graph::Edge{At(0.3, 0, 0, 0), At(0.8, 0, 0, 0.1)}))
-      << "too close to stand there";
+graph::Point StandingAt(double x, double y, double z) {
+  return ToPoint(DrcHubo1Locomotion().gaits[0]->stance.RootPose({x, y, 0}, z));
 }
 
-TEST_F(StepUpScene, TheExpectedDurationIsThatOfTheMotion) {
-  for (const double y : {0.0, 0.3, -0.123}) {
-    const graph::Point low = At(-0.02, y, 0, 0);
-    const graph::Point high = At(0.48, y, 0, 0.1);
+TEST(StepUpTest, MotionOfTheExpectedDurationExistsForAllHeightsOffered) {
+  for (const double rise : {0.01, 0.03, 0.06, 0.09, 0.12, 0.15}) {
+    const StepUpScene scene(rise);
+    const graph::Point low = StandingAt(-0.02, 0.2, 0);
+    const graph::Point high = StandingAt(0.48, 0.2, rise);
     for (const graph::Edge& edge : {graph::Edge{low, high}, graph::Edge{high, low}}) {
-      const double duration = step_up_->Motion(edge, {}).back().knots.back().t;
-      EXPECT_NEAR(step_up_->ExpectedDuration(edge), duration, 1e-9) << y;
+      ASSERT_TRUE(scene.step_up->CN(edge)) << rise;
+      const std::vector<Phase> motion = scene.step_up->Motion(edge, {});
+      EXPECT_NEAR(scene.step_up->ExpectedDuration(edge), motion.back().knots.back().t, 1e-9);
     }
   }
-  const StepUpMotion motion(DrcHubo1(), *DrcHubo1Locomotion().gaits[0]);
-  for (const double rise : {StepUp::kLowest, 0.06, StepUp::kHighest}) {
-    const PlanarPose from{0.3, -0.2, rise};
-    const double duration = motion.Generate(from, 0.4, rise, {}).back().knots.back().t;
-    EXPECT_NEAR(motion.ExpectedDuration(from), duration, 1e-9) << rise;
-  }
 }
 
-TEST_F(StepUpScene, LaunchesAndLandingsAtAnEdgeAreFoundFromBothSides) {
-  const graph::Point target = At(1.5, 0.3, 0, 0.1);
-  const auto launch = step_up_->FindLaunchPoint(At(-1, 0.2, 2, 0), target);
-  ASSERT_TRUE(launch.has_value());
-  const graph::Point landing = step_up_->ExtendTowards(*launch, target);
-  EXPECT_TRUE(step_up_->CN(graph::Edge{*launch, landing}));
-  EXPECT_EQ(*step_up_->FindLaunchPoint(*launch, target), *launch) << "there already";
-
-  const graph::Point floor = At(-1, 0.3, 0, 0);
-  const auto descent = step_up_->FindLaunchPoint(At(1.5, 0.2, 1, 0.1), floor);
-  ASSERT_TRUE(descent.has_value());
-  EXPECT_TRUE(step_up_->CN(graph::Edge{*descent, step_up_->ExtendTowards(*descent, floor)}));
-
-  const auto arrival = step_up_->FindLandingPoint(At(1.5, 0.2, 1, 0.1), floor);
-  ASSERT_TRUE(arrival.has_value());
-  EXPECT_TRUE(step_up_->CN(graph::Edge{step_up_->ReverseExtend(*arrival, floor), *arrival}));
-}
-
-TEST_F(StepUpScene, TheJobConfirmsRefutesWithAReasonOrIsCancelled) {
-  const graph::Edge edge = {At(-0.02, 0, 0, 0), At(0.48, 0, 0, 0.1)};
+TEST(StepUpTest, TheJobConfirmsRefutesWithAReasonOrIsCancelled) {
+  StepUpScene scene(0.1);
+  const graph::Edge edge = {StandingAt(-0.02, 0, 0), StandingAt(0.48, 0, 0.1)};
   graph::JobControl control;
-  EXPECT_EQ(step_up_->SpawnConfirmationJob(edge)->Run(&control), graph::JobVerdict::kConfirmed);
+  EXPECT_EQ(scene.step_up->SpawnConfirmationJob(edge)->Run(&control),
+            graph::JobVerdict::kConfirmed);
 
   // The beam is above the stances, but in the way of a robot that stretches.
   models::Obstacle beam;
   beam.name = "beam";
   beam.shape = models::Shape::Box({0.06, 3, 0.04});
   beam.X_WO.translation() << 0.22, 0, 1.31;
-  scenario_.environment.obstacles.push_back(beam);
-  const StepUp under_a_beam(context_);
-  const auto job = under_a_beam.SpawnConfirmationJob(edge);
+  scene.scenario.environment.obstacles.push_back(beam);
+  const auto under_a_beam = StepUpFactory().make(scene.context);
+  const auto job = under_a_beam->SpawnConfirmationJob(edge);
   EXPECT_EQ(job->Run(&control), graph::JobVerdict::kRefuted);
   EXPECT_NE(job->reason().find("'beam'"), std::string::npos);
 
   control.Cancel();
-  const graph::Edge other = {At(-0.02, 0.1, 0, 0), At(0.48, 0.1, 0, 0.1)};
-  EXPECT_EQ(step_up_->SpawnConfirmationJob(other)->Run(&control), graph::JobVerdict::kUndecided);
+  EXPECT_EQ(under_a_beam->SpawnConfirmationJob(edge)->Run(&control), graph::JobVerdict::kUndecided);
 }
 
 std::string TextOf(const std::string& file) {
@@ -190,9 +145,10 @@ std::string TextOf(const std::string& file) {
 /// The C++ code in the tutorial must be in the source, word for word.
 TEST(StepUpTutorialTest, QuotesTheSourceWordForWord) {
   std::string sources;
-  for (const std::string file : {"step_up.h", "step_up.cpp", "step_up_motion.h",
-                                 "step_up_motion.cpp", "step_up_main.cpp", "plinth.yaml"}) {
-    sources += TextOf(kSource + "/experiments/examples/" + file);
+  for (const std::string file :
+       {"experiments/examples/step_up.cpp", "experiments/examples/step_up_main.cpp",
+        "actions/conditions/fixed_manoeuvre.cpp"}) {
+    sources += TextOf(kSource + "/" + file);
   }
   const std::string page = TextOf(kSource + "/docs/tutorial_new_action.md");
   int quotes = 0;

@@ -1,0 +1,227 @@
+#include "actions/conditions/fixed_manoeuvre.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "actions/conditions/exploration_pose.h"
+#include "actions/motion/phase_sequence.h"
+
+namespace possibility::actions {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kSamePlace = 1e-6;  // m and rad
+constexpr double kSameRise = 1e-9;   // m
+constexpr double kSpacing = 0.01;    // m, between stances tried on the way to an edge
+constexpr double kFarthest = 3;      // m, of that way
+
+std::int64_t KeyOf(double rise) { return std::llround(rise / kSameRise); }
+
+/// Headings square to the sides of the ground, each once.
+std::vector<double> SquareHeadings(const models::Environment& environment) {
+  std::vector<double> headings;
+  for (const models::Obstacle& obstacle : environment.obstacles) {
+    if (!obstacle.is_ground) continue;
+    for (int side = 0; side < 4; ++side) {
+      const double heading = Heading(obstacle.X_WO.linear()) + side * std::numbers::pi / 2;
+      const bool is_known = std::any_of(headings.begin(), headings.end(), [&](double known) {
+        return std::abs(WrapAngle(known - heading)) < kSamePlace;
+      });
+      if (!is_known) headings.push_back(heading);
+    }
+  }
+  return headings;
+}
+
+bool Rises(const FixedManoeuvreShape& shape, double height) {
+  return height >= shape.lowest - kSamePlace && height <= shape.highest + kSamePlace;
+}
+
+}  // namespace
+
+FixedManoeuvre::FixedManoeuvre(const PlanningContext& context, FixedManoeuvreShape shape,
+                               MotionAtOrigin motion)
+    : Manoeuvre(context, shape.name, shape.from, shape.to),
+      shape_(std::move(shape)),
+      motion_(std::move(motion)),
+      headings_(SquareHeadings(*context.world.environment)) {
+  if (shape_.is_reversible && shape_.from != shape_.to) {
+    throw std::invalid_argument("manoeuvre '" + shape_.name +
+                                "' is reversible but ends in another gait than it starts from");
+  }
+}
+
+std::optional<FixedManoeuvre::Execution> FixedManoeuvre::Forwards(
+    const GroundedStance& launch, const GroundedStance& landing) const {
+  const PlanarPose moved = launch.pose.Inverse() * landing.pose;
+  const double off = (moved.position() - shape_.displacement.position()).lpNorm<Eigen::Infinity>();
+  const double turned = std::abs(WrapAngle(moved.yaw - shape_.displacement.yaw));
+  const double rise = landing.z - launch.z;
+  if (off > kSamePlace || turned > kSamePlace || !Rises(shape_, rise)) return std::nullopt;
+  return Execution{launch, rise, false};
+}
+
+std::optional<FixedManoeuvre::Execution> FixedManoeuvre::AsExecution(
+    const graph::Edge& edge) const {
+  const std::optional<GroundedStance> from = LaunchStance(edge.from);
+  const std::optional<GroundedStance> to = LandingStance(edge.to);
+  if (!from || !to) return std::nullopt;
+  std::optional<Execution> execution = Forwards(*from, *to);
+  if (!execution && shape_.is_reversible) {
+    execution = Forwards(*to, *from);
+    if (execution) execution->is_reversed = true;
+  }
+  return execution;
+}
+
+bool FixedManoeuvre::CN(const graph::Edge& edge) const {
+  const std::optional<Execution> execution = AsExecution(edge);
+  if (!execution || !launch_gait().CS(edge.from) || !landing_gait().CS(edge.to)) return false;
+  const std::lock_guard lock(mutex_);
+  return !refuted_.contains(KeyOf(execution->rise));
+}
+
+bool FixedManoeuvre::Holds(const GroundedStance& stance) const {
+  const QuasiStaticAction& gait = stance.gait == shape_.from ? launch_gait() : landing_gait();
+  return gait.Examine(stance) == StanceFault::kNone;
+}
+
+std::vector<bool> FixedManoeuvre::Directions(End end) const {
+  const bool forwards = end == End::kLaunch;
+  if (shape_.is_reversible) return {forwards, !forwards};
+  return {forwards};
+}
+
+std::optional<GroundedStance> FixedManoeuvre::StanceAt(End end, const graph::Point& v) const {
+  return end == End::kLaunch ? LaunchStance(v) : LandingStance(v);
+}
+
+std::optional<GroundedStance> FixedManoeuvre::Displaced(const GroundedStance& stance,
+                                                        bool forwards) const {
+  GroundedStance other;
+  other.gait = forwards ? shape_.to : shape_.from;
+  other.pose = stance.pose * (forwards ? shape_.displacement : shape_.displacement.Inverse());
+  for (const double level : world().ground->levels()) {
+    if (!Rises(shape_, forwards ? level - stance.z : stance.z - level)) continue;
+    other.z = level;
+    if (Holds(other) && Holds(stance)) return other;
+  }
+  return std::nullopt;
+}
+
+std::optional<GroundedStance> FixedManoeuvre::OtherEnd(const GroundedStance& stance, End end,
+                                                       const Vector2d& towards) const {
+  for (const bool forwards : Directions(end)) {
+    const std::optional<GroundedStance> other = Displaced(stance, forwards);
+    if (!other) continue;
+    if ((other->pose.position() - stance.pose.position()).dot(towards) > 0) return other;
+  }
+  return std::nullopt;
+}
+
+graph::Point FixedManoeuvre::Extended(End end, const graph::Point& v0,
+                                      const graph::Point& v1) const {
+  const std::optional<GroundedStance> stance = StanceAt(end, v0);
+  if (!stance) return v0;
+  const std::optional<GroundedStance> other = OtherEnd(*stance, end, (v1 - v0).head<2>());
+  return other ? PointOf(*other) : v0;
+}
+
+graph::Point FixedManoeuvre::ExtendTowards(const graph::Point& v0, const graph::Point& v1) const {
+  return Extended(End::kLaunch, v0, v1);
+}
+
+graph::Point FixedManoeuvre::ReverseExtend(const graph::Point& v0, const graph::Point& v1) const {
+  return Extended(End::kLanding, v0, v1);
+}
+
+std::optional<graph::Point> FixedManoeuvre::StanceAtAnEdge(End end, const graph::Point& v,
+                                                           const graph::Point& v1) const {
+  const std::optional<GroundedStance> stance = StanceAt(end, v);
+  const Vector2d towards = (v1 - v).head<2>();
+  if (!stance) return std::nullopt;
+  if (OtherEnd(*stance, end, towards)) return v;
+  for (const double heading : headings_) {
+    for (const bool forwards : Directions(end)) {
+      const PlanarPose way = forwards ? shape_.displacement : shape_.displacement.Inverse();
+      const Vector2d ahead = (Eigen::Rotation2Dd(heading) * way.position()).normalized();
+      if (ahead.dot(towards) < towards.norm() * std::numbers::sqrt2 / 2) continue;
+      for (double s = 0; s < kFarthest; s += kSpacing) {
+        GroundedStance there = *stance;
+        there.pose = {stance->pose.x + s * ahead.x(), stance->pose.y + s * ahead.y(), heading};
+        if (Displaced(there, forwards)) return PointOf(there);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<graph::Point> FixedManoeuvre::FindLaunchPoint(const graph::Point& v,
+                                                            const graph::Point& v1) const {
+  return StanceAtAnEdge(End::kLaunch, v, v1);
+}
+
+std::optional<graph::Point> FixedManoeuvre::FindLandingPoint(const graph::Point& v,
+                                                             const graph::Point& v1) const {
+  return StanceAtAnEdge(End::kLanding, v, v1);
+}
+
+FixedManoeuvre::Outcome FixedManoeuvre::OutcomeOf(double rise,
+                                                  const CancellationToken& cancellation) const {
+  const std::int64_t key = KeyOf(rise);
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = outcomes_.find(key);
+    if (known != outcomes_.end()) return known->second;
+  }
+  Outcome outcome;
+  try {
+    // The rounded rise, so that the motion does not depend on which edge asks first.
+    outcome.motion = motion_(static_cast<double>(key) * kSameRise, cancellation);
+  } catch (const MotionError& error) {
+    outcome.fault = error.what();
+  }
+  const std::lock_guard lock(mutex_);
+  return outcomes_.emplace(key, std::move(outcome)).first->second;
+}
+
+std::vector<Phase> FixedManoeuvre::Motion(const graph::Edge& edge,
+                                          const CancellationToken& cancellation) const {
+  const std::optional<Execution> execution = AsExecution(edge);
+  if (!execution) throw MotionError("the edge is no '" + shape_.name + "'");
+  Outcome outcome = OutcomeOf(execution->rise, cancellation);
+  if (!outcome.fault.empty()) throw MotionError(outcome.fault);
+  std::vector<Phase> motion =
+      Placed(std::move(outcome.motion), execution->launch.pose, execution->launch.z);
+  return execution->is_reversed ? Reversed(motion) : motion;
+}
+
+ManoeuvreBounds FixedManoeuvre::Bounds() const {
+  ManoeuvreBounds bounds;
+  bounds.landings = [shape = shape_](double rise) -> std::optional<LandingRange> {
+    LandingRange range;
+    const auto extend = [&range](const PlanarPose& landing) {
+      range.offset.extend(landing.position());
+      range.turn = std::max(range.turn, std::abs(WrapAngle(landing.yaw)));
+    };
+    if (Rises(shape, rise)) extend(shape.displacement);
+    if (shape.is_reversible && Rises(shape, -rise)) extend(shape.displacement.Inverse());
+    if (range.offset.isEmpty()) return std::nullopt;
+    return range;
+  };
+  bounds.flight = shape_.flight;
+  return bounds;
+}
+
+void FixedManoeuvre::RefuteEverywhere(const graph::Edge& edge) {
+  const std::optional<Execution> execution = AsExecution(edge);
+  if (!execution) return;
+  const std::lock_guard lock(mutex_);
+  refuted_.insert(KeyOf(execution->rise));
+}
+
+}  // namespace possibility::actions

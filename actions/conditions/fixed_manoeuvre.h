@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "actions/conditions/manoeuvre.h"
+#include "actions/motion/planar_pose.h"
+
+namespace possibility::actions {
+
+/// What a FixedManoeuvre does, wherever it does it.
+struct FixedManoeuvreShape {
+  std::string name;
+  int from = 0;             ///< index of the first gait
+  int to = 0;               ///< index of the last gait
+  PlanarPose displacement;  ///< landing stance in the launch stance
+  double lowest = 0;        ///< m, least rise: height of the landing ground above the launch ground
+  double highest = 0;       ///< m, largest rise
+  bool is_reversible = false;  ///< the motion, reversed in time, leads back
+  double duration = 0;         ///< s, expected
+  /// How far the pelvis gets from the ground (ManoeuvreBounds); none: not known.
+  std::optional<FlightBounds> flight;
+};
+
+/// A manoeuvre that is the same everywhere: it leads to the stance at a fixed displacement, and
+/// its motion depends on nothing but the rise. The conditions, the search for launches and
+/// landings, and the bounds follow from the shape. Launches are sought square to the edges of the
+/// ground.
+class FixedManoeuvre final : public Manoeuvre {
+ public:
+  /// The motion from the nominal stance at the origin on ground at z = 0, at rest, to the displaced
+  /// one on ground at z = `rise` (m), at rest; times from 0. Called from any thread, about once per
+  /// rise. Throws MotionError if there is no motion, and Cancelled.
+  using MotionAtOrigin =
+      std::function<std::vector<Phase>(double rise, const CancellationToken& cancellation)>;
+
+  /// @throws std::invalid_argument if it is reversible and ends in another gait.
+  FixedManoeuvre(const PlanningContext& context, FixedManoeuvreShape shape, MotionAtOrigin motion);
+
+  using Manoeuvre::CN;
+  bool CN(const graph::Edge& edge) const override;
+  graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;
+  graph::Point ReverseExtend(const graph::Point& v0, const graph::Point& v1) const override;
+  std::optional<graph::Point> FindLaunchPoint(const graph::Point& v,
+                                              const graph::Point& v1) const override;
+  std::optional<graph::Point> FindLandingPoint(const graph::Point& v,
+                                               const graph::Point& v1) const override;
+  double ExpectedDuration(const graph::Edge&) const override { return shape_.duration; }
+  std::vector<Phase> Motion(const graph::Edge& edge,
+                            const CancellationToken& cancellation) const override;
+  ManoeuvreBounds Bounds() const override;
+  /// Excludes the rise of the edge.
+  void RefuteEverywhere(const graph::Edge& edge) override;
+
+  const FixedManoeuvreShape& shape() const { return shape_; }
+
+ private:
+  /// An edge as an execution of the motion.
+  struct Execution {
+    GroundedStance launch;     ///< where the motion begins, forwards in time
+    double rise = 0;           ///< m
+    bool is_reversed = false;  ///< in time
+  };
+  /// What is known of a rise.
+  struct Outcome {
+    std::vector<Phase> motion;  ///< at the origin
+    std::string fault;          ///< why there is none; empty if there is one
+  };
+  enum class End { kLaunch, kLanding };
+
+  std::optional<Execution> AsExecution(const graph::Edge& edge) const;
+  std::optional<Execution> Forwards(const GroundedStance& launch,
+                                    const GroundedStance& landing) const;
+  bool Holds(const GroundedStance& stance) const;
+  /// Displacements from a stance at `end` of an edge to the other end. True: forwards.
+  std::vector<bool> Directions(End end) const;
+  std::optional<GroundedStance> StanceAt(End end, const graph::Point& v) const;
+  /// The stance displaced from `stance`, or the one that it is displaced from. None if the ground
+  /// does not hold at both.
+  std::optional<GroundedStance> Displaced(const GroundedStance& stance, bool forwards) const;
+  /// The other end of an edge of which `stance` is `end`, where it leads closer to `towards`.
+  std::optional<GroundedStance> OtherEnd(const GroundedStance& stance, End end,
+                                         const Eigen::Vector2d& towards) const;
+  graph::Point Extended(End end, const graph::Point& v0, const graph::Point& v1) const;
+  /// The first stance on the way from v towards v1 that is square to an edge of the ground and
+  /// can be `end`; v itself if it can.
+  std::optional<graph::Point> StanceAtAnEdge(End end, const graph::Point& v,
+                                             const graph::Point& v1) const;
+  Outcome OutcomeOf(double rise, const CancellationToken& cancellation) const;
+
+  FixedManoeuvreShape shape_;
+  MotionAtOrigin motion_;
+  std::vector<double> headings_;                      ///< rad, square to the edges of the ground
+  mutable std::mutex mutex_;                          ///< of what follows
+  mutable std::map<std::int64_t, Outcome> outcomes_;  ///< by rise in nm
+  std::set<std::int64_t> refuted_;                    ///< rises in nm
+};
+
+}  // namespace possibility::actions
