@@ -63,10 +63,9 @@ std::optional<std::pair<double, double>> JumpReach::Distances(double height) con
   return result;
 }
 
-JumpLibrary::JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
-                         const std::filesystem::path& folder, Use use)
+JumpLibrary::JumpLibrary(const JumpSolver& solver, const std::filesystem::path& folder, Use use)
     : solver_(solver),
-      identity_(JumpIdentity(robot, solver.settings())),
+      identity_(solver.Identity()),
       folder_(MotionFolder(folder, identity_)),
       use_(use),
       reach_(OptimisticReach(solver.model())) {

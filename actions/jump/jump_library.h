@@ -44,8 +44,7 @@ class JumpLibrary {
   };
 
   /// `solver` must outlive it. `folder`: empty for none; need not exist.
-  JumpLibrary(const models::RobotModel& robot, const JumpSolver& solver,
-              const std::filesystem::path& folder, Use use = Use::kAll);
+  JumpLibrary(const JumpSolver& solver, const std::filesystem::path& folder, Use use = Use::kAll);
 
   /// The nearest task on the grid.
   static JumpTask OnGrid(const JumpTask& task);
@@ -77,7 +76,7 @@ class JumpLibrary {
   void ReadReach();
 
   const JumpSolver& solver_;
-  std::string identity_;  ///< of robot and settings
+  std::string identity_;  ///< of the solver
   std::filesystem::path folder_;
   Use use_;
   JumpReach reach_;

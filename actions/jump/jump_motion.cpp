@@ -72,7 +72,10 @@ std::vector<Phase> JumpMotion::Realise(const JumpProblem& problem,
   std::vector<Phase> motion;
   const auto last = [&motion]() -> const Knot& { return motion.back().knots.back(); };
   // If joints turned while the robot crouches, the simulation would follow 35 jumps instead of 37.
-  Append(stance_.Prepare(), &motion);
+  if (stance_.NeedsPreparation()) {
+    Append(stance_.Prepare(), &motion);
+    report->preparation = last().t;
+  }
   const PhaseTrajectory& crouch = plans[JumpProblem::kCrouch];
   Append(stance_.Follow(crouch, stance_.PlannedKnot(crouch, 0), stance_.LaunchFeet()), &motion);
   Append(RollOverToes(plans[JumpProblem::kToes], last()), &motion);

@@ -7,6 +7,7 @@
 #include "collocation/robot/balance_functions.h"
 #include "collocation/robot/multibody_functions.h"
 #include "collocation/robot/point_functions.h"
+#include "models/input/file_contents.h"
 
 namespace possibility::actions {
 namespace {
@@ -24,11 +25,21 @@ constexpr double kImpulse = 10;  // N s, typical
 
 }  // namespace
 
-std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings) {
-  return MotionIdentity(robot, settings,
-                        {settings.min_stance_pitch, settings.max_stance_pitch,
-                         settings.max_contact_speed, settings.leg_reach, settings.longest_toe_push,
-                         settings.settling.heel, settings.settling.toe});
+JumpSettings JumpSettings::For(const NominalStance& launch, const NominalStance& landing) {
+  constexpr double kTimeWeight = 0.05;  // 1/s; from 0.2 on the whole robot cannot follow
+  JumpSettings settings;
+  if (landing.gait->limbs.size() == launch.gait->limbs.size()) settings.time_weight = kTimeWeight;
+  return settings;
+}
+
+std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings,
+                         const std::string& from, const std::string& to) {
+  return models::HashOfParts(
+      {from, to,
+       MotionIdentity(robot, settings,
+                      {settings.min_stance_pitch, settings.max_stance_pitch,
+                       settings.max_contact_speed, settings.leg_reach, settings.longest_toe_push,
+                       settings.settling.heel, settings.settling.toe, settings.time_weight})});
 }
 
 JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
@@ -45,6 +56,11 @@ JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
     StayWithinRanges(phase, at);
   }
   AddCosts();
+  if (settings.time_weight > 0) {
+    for (const collocation::RobotPhase& phase : phases_) {
+      problem_.AddCost({phase.phase->duration(), At::kStart}, settings.time_weight);
+    }
+  }
   GuessMotion();
 }
 
@@ -97,8 +113,8 @@ void JumpProblem::Land(const JumpSettings& settings) {
   StartHeld(kSettle, HeldSoles());
   HoldSoles(kSettle, At::kEverywhere, settings.settling);
   KeepHandsAbove(kSettle, settings.hand_approach, At::kBeforeEnd);
-  // The feet stay in place; the hands are set down at zero speed.
-  StartPlaced(kLanding, 2);
+  // The feet stay in place; the hands, if it lands on them, are set down at zero speed.
+  if (!model_.hands().empty()) StartPlaced(kLanding, 2);
   StartHeld(kLanding, HeldSolesAnd(model_.hands().size()));
   HoldFeetAndHands(kLanding, At::kBeforeEnd);
   EndAtRest(kLanding);

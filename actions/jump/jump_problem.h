@@ -29,10 +29,16 @@ struct JumpSettings : SagittalSettings {
   /// Least shares of the soles' load until the hands touch down. The way to the toes is what a
   /// robot that lands too fast or leans too far has to stop in.
   SoleShares settling = {.heel = 0.35, .toe = 0.15};
+  double time_weight = 0;  ///< 1/s, of the duration in the cost
+
+  /// The defaults. A jump that lands on its feet alone is over when it stands: its time counts,
+  /// too.
+  static JumpSettings For(const NominalStance& launch, const NominalStance& landing);
 };
 
-/// Hash of what solved jumps depend on (motion_identity.h).
-std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings);
+/// Hash of what solved jumps from one gait to another depend on (motion_identity.h).
+std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings,
+                         const std::string& from, const std::string& to);
 
 /// The sagittal jump as one optimal-control problem: crouch and push on the soles, push on the
 /// toes, rise and descend (equal times), inelastic impact of the feet, settle on the feet until the

@@ -54,6 +54,10 @@ JumpSolver::JumpSolver(const models::RobotModel& robot, const NominalStance& lau
   settings_.limits.friction = robot.friction;
 }
 
+std::string JumpSolver::Identity() const {
+  return JumpIdentity(robot_, settings_, launch_.gait->name, landing_.gait->name);
+}
+
 JumpAnswer JumpSolver::Solve(const JumpTask& task, const CancellationToken& cancellation,
                              const Log& log) const {
   const Stopwatch stopwatch;

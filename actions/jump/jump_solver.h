@@ -22,7 +22,7 @@ struct SolvedJump {
 
   double duration() const { return phases.back().knots.back().t; }  ///< s
   /// Of the first phase, which only turns joints, s. A gait that leads to the jump does so, too.
-  double preparation() const { return phases.front().knots.back().t; }
+  double preparation() const { return report.preparation; }
 };
 
 /// Cost of an answer.
@@ -51,10 +51,16 @@ class JumpSolver {
 
   /// `robot`, `launch` and `landing` must outlive the solver. @throws as SagittalModel.
   JumpSolver(const models::RobotModel& robot, const NominalStance& launch,
-             const NominalStance& landing, const JumpSettings& settings = {});
+             const NominalStance& landing, const JumpSettings& settings);
+  /// With JumpSettings::For.
+  JumpSolver(const models::RobotModel& robot, const NominalStance& launch,
+             const NominalStance& landing)
+      : JumpSolver(robot, launch, landing, JumpSettings::For(launch, landing)) {}
 
   const SagittalModel& model() const { return model_; }
   const JumpSettings& settings() const { return settings_; }
+  /// Of this solver's jumps (JumpIdentity).
+  std::string Identity() const;
 
   /// Solves from scratch. `log` (may be empty) is called with every iteration.
   JumpAnswer Solve(const JumpTask& task, const CancellationToken& cancellation = {},

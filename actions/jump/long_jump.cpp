@@ -92,7 +92,7 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
       solver_(std::make_unique<JumpSolver>(*model().robot, model().gaits[from()]->stance,
                                            model().gaits[to()]->stance)),
       library_(std::make_unique<JumpLibrary>(
-          *model().robot, *solver_, context.library,
+          *solver_, context.library,
           context.solved_motions ? JumpLibrary::Use::kAll : JumpLibrary::Use::kReachAlone)),
       reach_(library_->reach_is_derived()
                  ? library_->reach()
@@ -143,7 +143,9 @@ bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
 }
 
 bool LongJump::IsNeedless(const GroundedStance& launch, const GroundedStance& landing) const {
-  if (transition_ == nullptr || std::abs(launch.z - landing.z) > kSamePose) return false;
+  if (std::abs(launch.z - landing.z) > kSamePose) return false;
+  if (from() == to()) return launch_gait().CS(launch, landing);
+  if (transition_ == nullptr) return false;
   const double distance = (landing.pose.position() - launch.pose.position()).norm();
   if (WayIsOpen(launch, distance)) return true;
   const PlanarPose& displacement = transition_->displacement;

@@ -223,17 +223,23 @@ void SagittalModel::FindGuards() {
     for (const ContactPoint& hand : hands_) links.insert(hand.link);
     return links;
   }();
-  const Eigen::AlignedBox3d trunk = BoundsOf(tree.links[0]);
-  if (!trunk.isEmpty()) {
-    for (const double x : {trunk.min().x(), trunk.max().x()}) {
-      for (const double z : {trunk.min().z(), trunk.max().z()}) {
-        guards_.push_back({{0, {x, 0, z}}, 0});
+  const auto guard_corners = [this, &tree](int link) {
+    const Eigen::AlignedBox3d box = BoundsOf(tree.links[link]);
+    if (box.isEmpty()) return;
+    for (const double x : {box.min().x(), box.max().x()}) {
+      for (const double z : {box.min().z(), box.max().z()}) {
+        guards_.push_back({{link, {x, 0, z}}, 0});
       }
     }
-  }
+  };
+  std::set<int> carrying;
+  for (const models::Joint& joint : tree.joints) carrying.insert(joint.parent);
+  guard_corners(0);
   for (int link = 1; link < tree.num_links(); ++link) {
     if (bearing.contains(link)) continue;
     guards_.push_back({{link, Vector3d::Zero()}, HousingRadius(BoundsOf(tree.links[link]))});
+    // The end of a limb that does not bear, such as the hand of a robot that lands on its feet.
+    if (!carrying.contains(link)) guard_corners(link);
   }
   // Guards the end of the forearm (the hand's origin) and the side of the hand opposite its peg.
   for (const ContactPoint& hand : hands_) {

@@ -67,7 +67,7 @@ class SagittalModel {
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
   /// Points of the body that must stay above the ground by the radius of their surroundings: joints
-  /// in their housings, and corners of the trunk.
+  /// in their housings, corners of the trunk and of the ends of limbs that do not bear.
   struct Guard {
     dynamics::ContactPoint point;
     double radius = 0;  ///< m

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "collocation/problem/function.h"
@@ -197,19 +198,34 @@ void SagittalProblem::StartPlaced(int phase, int first_point) {
 
 void SagittalProblem::EndAtRest(int phase) {
   const collocation::RobotPhase& robot = phases_[phase];
-  // With the contacts held, legs and arms follow from the root. Fixes only the root and what no
-  // contact determines.
+  // With the contacts held, legs and bearing arms follow from the root. Fixes only the root and
+  // what no contact determines.
   const VectorXd& q = model_.landed();
   robot.phase->Fix(robot.q[0], q[0], At::kEnd);
   robot.phase->Fix(robot.q[1], q[1] + distance_, At::kEnd);
   robot.phase->Fix(robot.q[2], q[2] + height_, At::kEnd);
   for (const Variable& v : robot.v) robot.phase->Fix(v, 0, At::kEnd);
   for (int i = 0; i < 3; ++i) robot.phase->Fix(robot.a[i], 0, At::kEnd);
-  for (const ContactPoint& hand : model_.hands()) {
-    const int wrist = 3 + hand.link - 1;
-    robot.phase->Fix(robot.q[wrist], q[wrist], At::kEnd);
-    robot.phase->Fix(robot.a[wrist], 0, At::kEnd);
+  for (const int joint : FreeJointsAtRest()) {
+    robot.phase->Fix(robot.q[3 + joint], q[3 + joint], At::kEnd);
+    robot.phase->Fix(robot.a[3 + joint], 0, At::kEnd);
   }
+}
+
+std::vector<int> SagittalProblem::FreeJointsAtRest() const {
+  const models::RobotModel& tree = model_.planar()->tree();
+  std::set<int> held;
+  const auto hold = [&](int link) {
+    for (; link > 0; link = tree.joints[link - 1].parent) held.insert(link - 1);
+  };
+  hold(model_.heel().link);
+  // A point leaves the link that it is on free to turn.
+  for (const ContactPoint& hand : model_.hands()) hold(tree.joints[hand.link - 1].parent);
+  std::vector<int> free;
+  for (int joint = 0; joint < model_.planar()->num_joints(); ++joint) {
+    if (!held.contains(joint)) free.push_back(joint);
+  }
+  return free;
 }
 
 void SagittalProblem::KeepAbove(int phase, const std::string& name,

@@ -91,6 +91,8 @@ class SagittalProblem {
   void StartPlaced(int phase, int first_point);
   /// The phase ends at rest in the landing stance.
   void EndAtRest(int phase);
+  /// Planar joints that neither the root nor the contacts of the landing stance determine.
+  std::vector<int> FreeJointsAtRest() const;
   /// Keeps points at least `clearance` above the ground.
   void KeepAbove(int phase, const std::string& name,
                  const std::vector<dynamics::ContactPoint>& points, double clearance,

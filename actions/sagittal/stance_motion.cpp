@@ -182,10 +182,18 @@ double StanceMotion::TurningTime(const VectorXd& offset, double speed_share) con
   return time;
 }
 
+VectorXd StanceMotion::ReadyJoints() const {
+  return model_.reduction().ExpandConfiguration(model_.ready()).tail(robot_.num_joints());
+}
+
+bool StanceMotion::NeedsPreparation() const {
+  constexpr double kSame = 1e-6;  // rad, of stances that are symmetric up to their solver's error
+  return (ReadyJoints() - launch_.q.tail(robot_.num_joints())).lpNorm<Eigen::Infinity>() > kSame;
+}
+
 Phase StanceMotion::Prepare() const {
-  const int n = robot_.num_joints();
-  const VectorXd from = launch_.q.tail(n);
-  const VectorXd to = model_.reduction().ExpandConfiguration(model_.ready()).tail(n);
+  const VectorXd from = launch_.q.tail(robot_.num_joints());
+  const VectorXd to = ReadyJoints();
   const double duration = std::max(kPreparation, TurningTime(to - from, kPreparationSpeed));
   WholeBodyTask task;
   task.root_yaw = Constant(0);

@@ -43,6 +43,8 @@ class StanceMotion {
   /// Including hands, which have just come down.
   Support LandingAll(double distance, double height) const;
 
+  /// Whether a joint of the launch stance is not as in SagittalModel::ready().
+  bool NeedsPreparation() const;
   /// At rest, from the launch stance to SagittalModel::ready().
   Phase Prepare() const;
   /// A motion from the launch stance at rest. `follow` makes its first phase from a knot. The
@@ -73,6 +75,7 @@ class StanceMotion {
  private:
   /// Time in which joints turn by `offset` within a share of their speed limits, s.
   double TurningTime(const Eigen::VectorXd& offset, double speed_share) const;
+  Eigen::VectorXd ReadyJoints() const;
   /// Whether the motion on the launch's ground hits anything.
   bool Hits(const Phase& phase) const;
   Support SupportOf(const NominalStance& stance, const std::vector<int>& contacts, double x,

@@ -54,10 +54,9 @@ double ConfirmedFraction(const std::vector<JumpSweepEntry>& entries,
 }
 
 /// Median time, s, with a folder that another run filled.
-double LibraryMedian(const models::RobotModel& robot, const actions::JumpSolver& solver,
-                     const std::filesystem::path& folder,
+double LibraryMedian(const actions::JumpSolver& solver, const std::filesystem::path& folder,
                      const std::vector<JumpSweepEntry>& entries) {
-  actions::JumpLibrary library(robot, solver, folder);
+  actions::JumpLibrary library(solver, folder);
   std::vector<double> seconds;
   for (const JumpSweepEntry& entry : entries) {
     if (!entry.is_possible) continue;
@@ -99,7 +98,7 @@ BenchmarkReport BenchConfirmation(const models::RobotModel& robot,
   const auto landing = actions::SolveNominalStance(robot, robot.GaitNamed(jump.to));
   const actions::JumpSolver solver(robot, launch, landing);
   const TemporaryFolder folder;
-  actions::JumpLibrary library(robot, solver, folder.path());
+  actions::JumpLibrary library(solver, folder.path());
   actions::JumpSweep sweep;
   sweep.heights = {-0.1, 0, 0.1};
   sweep.progress = progress;
@@ -115,8 +114,7 @@ BenchmarkReport BenchConfirmation(const models::RobotModel& robot,
          {}});
   }
   AddTimes(entries, &report);
-  report.figures.push_back(
-      {"library_s_median", LibraryMedian(robot, solver, folder.path(), entries)});
+  report.figures.push_back({"library_s_median", LibraryMedian(solver, folder.path(), entries)});
   report.ratios.push_back(
       {"confirmed_fraction", ConfirmedFraction(entries, reach), "of the jumps within the reach"});
   const auto worker = [&solver]() -> std::function<void(int)> {

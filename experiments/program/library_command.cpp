@@ -48,43 +48,47 @@ std::vector<double> ParseHeights(const std::string& text) {
   return heights;
 }
 
-const models::Jump& OnlyJump(const models::RobotModel& robot) {
-  if (robot.jumps.empty()) {
-    throw InputError(fmt::format("{}: jumps: the robot has none", robot.file.string()));
-  }
-  return robot.jumps.front();
-}
+/// The jumps of one name.
+struct Swept {
+  std::string name;
+  std::vector<actions::JumpSweepEntry> entries;
+  actions::JumpReach reach;
+};
 
-void PrintText(const std::vector<actions::JumpSweepEntry>& entries,
-               const actions::JumpReach& reach) {
-  for (const actions::JumpSweepEntry& entry : entries) {
-    PrintOut("{:.2f} m by {:+.3f} m  {}  {:.2f} s{}{}\n", entry.task.distance, entry.task.height,
-             entry.is_possible ? "yes" : "no ", entry.effort.total,
-             entry.was_known ? "  (known)" : "", entry.reason.empty() ? "" : "  " + entry.reason);
-  }
-  for (const actions::JumpReach::Row& row : reach.rows) {
-    if (row.farthest < row.shortest) {
-      PrintOut("height {:+.3f} m: none\n", row.height);
-    } else {
-      PrintOut("height {:+.3f} m: {:.2f} to {:.2f} m\n", row.height, row.shortest, row.farthest);
+void PrintText(const std::vector<Swept>& jumps) {
+  for (const auto& [name, entries, reach] : jumps) {
+    for (const actions::JumpSweepEntry& entry : entries) {
+      PrintOut("{} {:.2f} m by {:+.3f} m  {}  {:.2f} s{}{}\n", name, entry.task.distance,
+               entry.task.height, entry.is_possible ? "yes" : "no ", entry.effort.total,
+               entry.was_known ? "  (known)" : "", entry.reason.empty() ? "" : "  " + entry.reason);
+    }
+    for (const actions::JumpReach::Row& row : reach.rows) {
+      if (row.farthest < row.shortest) {
+        PrintOut("{}, height {:+.3f} m: none\n", name, row.height);
+      } else {
+        PrintOut("{}, height {:+.3f} m: {:.2f} to {:.2f} m\n", name, row.height, row.shortest,
+                 row.farthest);
+      }
     }
   }
 }
 
-void PrintJson(const std::vector<actions::JumpSweepEntry>& entries,
-               const actions::JumpReach& reach) {
+void PrintJson(const std::vector<Swept>& jumps) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (const actions::JumpSweepEntry& entry : entries) {
-    rows.push_back({{"distance", entry.task.distance},
-                    {"height", entry.task.height},
-                    {"possible", entry.is_possible},
-                    {"known", entry.was_known},
-                    {"seconds", entry.effort.total},
-                    {"reason", entry.reason}});
-  }
   nlohmann::ordered_json table = nlohmann::ordered_json::array();
-  for (const actions::JumpReach::Row& row : reach.rows) {
-    table.push_back({row.height, row.shortest, row.farthest});
+  for (const auto& [name, entries, reach] : jumps) {
+    for (const actions::JumpSweepEntry& entry : entries) {
+      rows.push_back({{"jump", name},
+                      {"distance", entry.task.distance},
+                      {"height", entry.task.height},
+                      {"possible", entry.is_possible},
+                      {"known", entry.was_known},
+                      {"seconds", entry.effort.total},
+                      {"reason", entry.reason}});
+    }
+    for (const actions::JumpReach::Row& row : reach.rows) {
+      table.push_back({row.height, row.shortest, row.farthest, name});
+    }
   }
   PrintOut("{}\n", models::JsonText(nlohmann::ordered_json{{"jumps", rows}, {"reach", table}}));
 }
@@ -105,34 +109,44 @@ void SavePaces(const models::RobotModel& robot, const std::string& folder) {
   }
 }
 
+/// Solves a jump's distances and saves them with their table and picture.
+Swept SolveJumps(const models::RobotModel& robot, const models::Jump& jump,
+                 const std::string& folder, actions::JumpSweep sweep) {
+  const auto launch = actions::SolveNominalStance(robot, robot.GaitNamed(jump.from));
+  const auto landing = actions::SolveNominalStance(robot, robot.GaitNamed(jump.to));
+  const actions::JumpSolver solver(robot, launch, landing);
+  actions::JumpLibrary library(solver, folder);
+  const CountLine progress(jump.name);
+  sweep.progress = [&progress](int done, int all) { progress.Show(done, all); };
+  Swept swept{jump.name, actions::SweepJumps(sweep, &library), {}};
+  swept.reach = actions::ReachOf(swept.entries);
+  library.SaveReach(swept.reach);
+  WriteOutput(library.folder() / "reach.svg", JumpReachPicture(swept.entries));
+  return swept;
+}
+
 ExitCode RunLibrary(const LibraryOptions& options) {
   const models::RobotModel robot = models::LoadRobotModel(options.robot);
-  const models::Jump& jump = OnlyJump(robot);
+  if (robot.jumps.empty()) {
+    throw InputError(fmt::format("{}: jumps: the robot has none", robot.file.string()));
+  }
   PrepareOutputFolder("--out", options.out);
-  const actions::NominalStance launch =
-      actions::SolveNominalStance(robot, robot.GaitNamed(jump.from));
-  const actions::NominalStance landing =
-      actions::SolveNominalStance(robot, robot.GaitNamed(jump.to));
-  const actions::JumpSolver solver(robot, launch, landing);
-  actions::JumpLibrary library(robot, solver, options.out);
   actions::JumpSweep sweep;
   sweep.heights = ParseHeights(options.heights);
   sweep.threads =
       options.threads.empty()
           ? HardwareThreads()
           : static_cast<int>(ParseInteger("--threads", options.threads, 1, kMaxThreads));
-  const CountLine progress("jump");
-  sweep.progress = [&progress](int done, int all) { progress.Show(done, all); };
-  const std::vector<actions::JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
-  const actions::JumpReach reach = actions::ReachOf(entries);
-  library.SaveReach(reach);
+  std::vector<Swept> jumps;
+  for (const models::Jump& jump : robot.jumps) {
+    jumps.push_back(SolveJumps(robot, jump, options.out, sweep));
+  }
   SaveTransitions(robot, options.out);
   SavePaces(robot, options.out);
-  WriteOutput(library.folder() / "reach.svg", JumpReachPicture(entries));
   if (options.json) {
-    PrintJson(entries, reach);
+    PrintJson(jumps);
   } else {
-    PrintText(entries, reach);
+    PrintText(jumps);
   }
   return kDone;
 }

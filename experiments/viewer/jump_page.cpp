@@ -189,6 +189,29 @@ PageHeading HeadingOf(const LoadedJump& loaded) {
 
 }  // namespace
 
+namespace {
+
+actions::NominalStance StanceOf(const models::RobotModel& robot, const std::string& gait) {
+  return actions::SolveNominalStance(robot, robot.GaitNamed(gait));
+}
+
+/// Whether the file is in the solver's folder of a library.
+bool IsOfLibrary(const fs::path& file, const actions::JumpSolver& solver) {
+  return IsInFolder(file, actions::JumpLibrary(solver, file.parent_path().parent_path()).folder());
+}
+
+/// The robot's jump in whose folder the file is, or its first one.
+models::Jump KindOf(const fs::path& file, const models::RobotModel& robot) {
+  for (const models::Jump& jump : robot.jumps) {
+    const actions::NominalStance launch = StanceOf(robot, jump.from);
+    const actions::NominalStance landing = StanceOf(robot, jump.to);
+    if (IsOfLibrary(file, actions::JumpSolver(robot, launch, landing))) return jump;
+  }
+  return robot.jumps.front();
+}
+
+}  // namespace
+
 LoadedJump LoadJump(const fs::path& file, const fs::path& robot_file) {
   const collocation::StoredSolution solution = collocation::ReadSolution(file);
   const actions::JumpTask task = TaskOf(solution, file);
@@ -199,14 +222,11 @@ LoadedJump LoadJump(const fs::path& file, const fs::path& robot_file) {
     throw InputError(fmt::format("{}: jumps: the robot has none, expected that of {}",
                                  loaded.robot.file.string(), file.string()));
   }
-  loaded.kind = loaded.robot.jumps.front();
-  const actions::NominalStance launch =
-      actions::SolveNominalStance(loaded.robot, loaded.robot.GaitNamed(loaded.kind.from));
-  const actions::NominalStance landing =
-      actions::SolveNominalStance(loaded.robot, loaded.robot.GaitNamed(loaded.kind.to));
+  loaded.kind = KindOf(file, loaded.robot);
+  const actions::NominalStance launch = StanceOf(loaded.robot, loaded.kind.from);
+  const actions::NominalStance landing = StanceOf(loaded.robot, loaded.kind.to);
   const actions::JumpSolver solver(loaded.robot, launch, landing);
-  const actions::JumpLibrary library(loaded.robot, solver, file.parent_path().parent_path());
-  loaded.is_current = IsInFolder(file, library.folder());
+  loaded.is_current = IsOfLibrary(file, solver);
   try {
     const actions::JumpAnswer answer = solver.Realise(task, solution);
     if (!answer.jump) throw InputError(fmt::format("{}: {}", file.string(), answer.reason));

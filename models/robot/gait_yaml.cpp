@@ -213,7 +213,6 @@ Jump ReadJump(const YamlNode& node, const RobotModel& robot) {
   node.MapOf({"name", "from", "to"});
   const Gait& from = robot.gaits[IndexOfNamed(node.At("from"), robot.gaits, "gait")];
   const Gait& to = robot.gaits[IndexOfNamed(node.At("to"), robot.gaits, "gait")];
-  if (&from == &to) node.At("to").FailExpected("another gait than 'from'");
   const Jump jump{ReadActionName(node.At("name")), from.name, to.name};
   for (const Gait& gait : robot.gaits) {
     if (gait.name == jump.name) node.At("name").Fail("this name is already that of a gait");

@@ -24,7 +24,7 @@ inline models::Scenario PitScene(bool with_bridge) {
   scenario.name = "pit";
   scenario.file = "pit.yaml";
   scenario.robot_file = DrcHubo1().file;
-  scenario.actions = {"walk", "leap"};
+  scenario.actions = {"walk", "vault"};
   scenario.start = {"walk", -1.2, 0, 0, 0};
   scenario.goals = {{"walk", 1.2, 0, 0, 0}};
   scenario.environment.bounds = Eigen::AlignedBox2d(Eigen::Vector2d(-2, -1), Eigen::Vector2d(2, 3));
@@ -77,7 +77,7 @@ class Leap : public Manoeuvre {
   Leap(
       const PlanningContext& context, RunJob run_job, MakeMotion make_motion,
       OnAsked on_asked = [](const std::string&) {})
-      : Manoeuvre(context, "leap", context.model->GaitIndex("walk"),
+      : Manoeuvre(context, "vault", context.model->GaitIndex("walk"),
                   context.model->GaitIndex("walk")),
         run_job_(std::move(run_job)),
         make_motion_(std::move(make_motion)),
@@ -180,7 +180,7 @@ inline Leap::RunJob Sleeps(double seconds) {
 
 inline ManoeuvreFactory LeapFactory(const Leap::RunJob& run_job,
                                     const Leap::MakeMotion& make_motion) {
-  return {"leap", [=](const PlanningContext& context) {
+  return {"vault", [=](const PlanningContext& context) {
             return std::make_shared<Leap>(context, run_job, make_motion);
           }};
 }

@@ -153,7 +153,7 @@ struct Jumps {
   actions::NominalStance landing =
       actions::SolveNominalStance(robot, robot.GaitNamed(robot.jumps[0].to));
   actions::JumpSolver solver{robot, launch, landing};
-  std::string identity = actions::JumpIdentity(robot, solver.settings());
+  std::string identity = solver.Identity();
   fs::path shipped = actions::MotionFolder(kRobotFolder / "jumps", identity);
 };
 
@@ -224,18 +224,17 @@ Subject SolutionSubject(const fs::path& folder) {
   const std::string text = models::ReadFileContents(jumps->shipped / "jump_10_0.json");
   const fs::path library = actions::MotionFolder(folder / "solutions", jumps->identity);
   fs::create_directories(library);
-  return {
-      "solution", ".json", Syntax::kJson, [text](std::uint64_t) { return text; },
-      [folder, jumps, library](std::uint64_t seed, const std::string& spoilt) {
-        const fs::path file = Write(library / "jump_10_0.json", spoilt);
-        if (seed % kDear == 0) {
-          actions::JumpLibrary(jumps->robot, jumps->solver, folder / "solutions").Find({0.5, 0});
-        }
-        if (seed % kDear == 1) {
-          experiments::JumpPage(experiments::LoadJump(file, kRobotFolder / "drchubo1.yaml"));
-        }
-        collocation::ReadSolution(file);
-      }};
+  return {"solution", ".json", Syntax::kJson, [text](std::uint64_t) { return text; },
+          [folder, jumps, library](std::uint64_t seed, const std::string& spoilt) {
+            const fs::path file = Write(library / "jump_10_0.json", spoilt);
+            if (seed % kDear == 0) {
+              actions::JumpLibrary(jumps->solver, folder / "solutions").Find({0.5, 0});
+            }
+            if (seed % kDear == 1) {
+              experiments::JumpPage(experiments::LoadJump(file, kRobotFolder / "drchubo1.yaml"));
+            }
+            collocation::ReadSolution(file);
+          }};
 }
 
 Subject LibrarySubject(const fs::path& folder) {
@@ -254,7 +253,7 @@ Subject LibrarySubject(const fs::path& folder) {
             Write(seed % 2 == 0 ? library / "reach.json" : paces.FileOf(gait), spoilt);
             paces.Find(gait);
             if (seed % 2 != 0) return;
-            const actions::JumpLibrary reader(jumps->robot, jumps->solver, folder / "library");
+            const actions::JumpLibrary reader(jumps->solver, folder / "library");
             for (const double height : {-1e6, -0.2, 0.0, 0.05, 1e6}) {
               reader.reach().Distances(height);
               reader.reach().Allows({0.5, height});

@@ -121,7 +121,7 @@ class SpoiltStride(Spoilt):
 class SpoiltJump(Spoilt):
     @classmethod
     def setUpClass(cls):
-        cls._original = cls.piece("hallway", "jump")
+        cls._original = cls.piece("double_jump", "jump")
         phases = cls._original["segments"][0]["phases"]
         flight = next(i for i, phase in enumerate(phases) if not phase["contacts"])
         cls._original["segments"][0]["phases"] = phases[flight - 1:flight + 2]

@@ -39,12 +39,12 @@ void ExpectOneLine(const std::string& message, const std::vector<std::string>& p
 TEST(ManoeuvreTest, UnknownActionNamesAreRefused) {
   const models::Scenario scenario = PitScene(true);
   const ManoeuvreFactory leap = LeapFactory(Refutes, Slides);
-  ExpectOneLine(MessageOf(scenario, {}), {"pit.yaml: actions", "no action 'leap'"});
-  ExpectOneLine(MessageOf(scenario, {leap}, {"walk", "lepa"}),
-                {"pit.yaml: actions", "no action 'lepa'", "leap"});
+  ExpectOneLine(MessageOf(scenario, {}), {"pit.yaml: actions", "no action 'vault'"});
+  ExpectOneLine(MessageOf(scenario, {leap}, {"walk", "valut"}),
+                {"pit.yaml: actions", "no action 'valut'", "vault"});
   models::Scenario stands = scenario;
-  stands.start.action = "leap";
-  ExpectOneLine(MessageOf(stands, {leap}), {"start.action", "'leap' is not a gait"});
+  stands.start.action = "vault";
+  ExpectOneLine(MessageOf(stands, {leap}), {"start.action", "'vault' is not a gait"});
 }
 
 TEST(ManoeuvreTest, NamesThatAreTakenAreRefused) {
@@ -56,26 +56,26 @@ TEST(ManoeuvreTest, NamesThatAreTakenAreRefused) {
     ExpectOneLine(MessageOf(scenario, {leap}, {"walk"}), {"pit.yaml: actions", "'" + name + "'"});
   }
   const ManoeuvreFactory leap = LeapFactory(Refutes, Slides);
-  ExpectOneLine(MessageOf(scenario, {leap, leap}), {"pit.yaml: actions", "'leap'"});
+  ExpectOneLine(MessageOf(scenario, {leap, leap}), {"pit.yaml: actions", "'vault'"});
 }
 
 TEST(ManoeuvreTest, FactoriesThatMakeNoManoeuvreOfTheirNameAreRefused) {
   models::Scenario scenario = PitScene(true);
   const auto nothing = [](const PlanningContext&) { return std::shared_ptr<Manoeuvre>(); };
-  ExpectOneLine(MessageOf(scenario, {{"leap", nothing}}), {"pit.yaml", "'leap' made nothing"});
-  ExpectOneLine(MessageOf(scenario, {{"leap", {}}}), {"pit.yaml", "'leap' is empty"});
+  ExpectOneLine(MessageOf(scenario, {{"vault", nothing}}), {"pit.yaml", "'vault' made nothing"});
+  ExpectOneLine(MessageOf(scenario, {{"vault", {}}}), {"pit.yaml", "'vault' is empty"});
   ManoeuvreFactory hop = LeapFactory(Refutes, Slides);
   hop.name = "hop";
   scenario.actions = {"walk"};
-  ExpectOneLine(MessageOf(scenario, {hop}, {"walk", "hop"}), {"'hop' made one called 'leap'"});
+  ExpectOneLine(MessageOf(scenario, {hop}, {"walk", "hop"}), {"'hop' made one called 'vault'"});
 }
 
 TEST(ManoeuvreTest, AManoeuvreWithoutItsGaitsIsRefused) {
   models::Scenario scenario = PitScene(true);
   scenario.start.action = "crawl";
   scenario.goals = {scenario.start};
-  ExpectOneLine(MessageOf(scenario, {LeapFactory(Refutes, Slides)}, {"crawl", "leap"}),
-                {"'leap'", "not planned with"});
+  ExpectOneLine(MessageOf(scenario, {LeapFactory(Refutes, Slides)}, {"crawl", "vault"}),
+                {"'vault'", "not planned with"});
 }
 
 /// The goal is on an island around a random landing of a random launch, with no ground in between.

@@ -81,7 +81,7 @@ TEST(SearchedManoeuvreTest, AThrowingConditionBecomesAnInputErrorOfOneLine) {
     FAIL() << "expected an InputError";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    EXPECT_EQ(message.find("pit.yaml: actions: action 'leap': CN failed for the edge from"), 0u)
+    EXPECT_EQ(message.find("pit.yaml: actions: action 'vault': CN failed for the edge from"), 0u)
         << message;
     EXPECT_NE(message.find("two lines"), std::string::npos) << message;
   }

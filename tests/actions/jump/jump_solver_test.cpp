@@ -94,6 +94,34 @@ TEST(JumpSolverTest, LeadsFromStanceToStanceAtRest) {
   EXPECT_LT(first.v.norm() + last.v.norm(), kMesh);
 }
 
+/// A jump that lands on its feet: there are no hands to set down. Solve verifies and simulates it.
+TEST(LeapSolverTest, LeadsFromWalkingStanceToWalkingStanceAtRest) {
+  const JumpSolver solver(DrcHubo1(), Stance("walk"), Stance("walk"));
+  for (const JumpTask& task : {JumpTask{0.4, 0}, JumpTask{0.75, 0}, JumpTask{0.6, -0.1}}) {
+    const JumpAnswer answer = solver.Solve(task);
+    ASSERT_TRUE(answer.jump) << answer.reason;
+    const std::vector<Phase>& phases = answer.jump->phases;
+    EXPECT_LT((phases.front().knots.front().q - Stance("walk").q).norm(), 1e-9);
+    VectorXd landed = Stance("walk").q;
+    landed[4] += task.distance;
+    landed[6] += task.height;
+    EXPECT_LT((phases.back().knots.back().q - landed).norm(), 1e-7);
+    EXPECT_LT(phases.back().knots.back().v.norm(), kMesh);
+    // No joint turns before the crouch.
+    EXPECT_EQ(answer.jump->preparation(), 0);
+    ASSERT_EQ(phases.size(), 5u);
+    EXPECT_TRUE(phases.at(kFlight - 1).contacts.empty());
+    for (const int phase : {kSettle, kLanding}) {
+      EXPECT_EQ(phases.at(phase - 1).contacts, phases.at(kCrouch - 1).contacts);
+    }
+  }
+}
+
+TEST(LeapSolverTest, JumpsOfOtherGaitsHaveAnotherIdentity) {
+  const JumpSolver leap(DrcHubo1(), Stance("walk"), Stance("walk"));
+  EXPECT_NE(leap.Identity(), Solver().Identity());
+}
+
 TEST(JumpSolverTest, PhasesAreContinuousExceptForTheImpact) {
   const std::vector<Phase>& phases = Answer().jump->phases;
   for (std::size_t i = 1; i < phases.size(); ++i) {
@@ -262,7 +290,7 @@ class JumpLibraryTest : public ::testing::Test {
     return std::string("possibility_jumps_") +
            ::testing::UnitTest::GetInstance()->current_test_info()->name();
   }
-  JumpLibrary Library() const { return JumpLibrary(DrcHubo1(), Solver(), folder_); }
+  JumpLibrary Library() const { return JumpLibrary(Solver(), folder_); }
   void Fill() const {
     const JumpLibrary library = Library();
     library.Save(Answer(), kTask);
@@ -273,7 +301,7 @@ class JumpLibraryTest : public ::testing::Test {
 };
 
 TEST_F(JumpLibraryTest, WithoutAFolderTheReachIsOptimistic) {
-  JumpLibrary library(DrcHubo1(), Solver(), {});
+  JumpLibrary library(Solver(), {});
   EXPECT_FALSE(library.reach_is_derived());
   EXPECT_TRUE(library.reach().Allows({0.95, 0}));
   EXPECT_FALSE(library.Find(kTask));
@@ -296,7 +324,7 @@ TEST_F(JumpLibraryTest, SavedJumpsAndReachAreReadBack) {
 
 TEST_F(JumpLibraryTest, TheReachIsReadWithoutTheJumps) {
   Fill();
-  JumpLibrary library(DrcHubo1(), Solver(), folder_, JumpLibrary::Use::kReachAlone);
+  JumpLibrary library(Solver(), folder_, JumpLibrary::Use::kReachAlone);
   EXPECT_TRUE(library.reach_is_derived());
   EXPECT_FALSE(library.reach().Allows({0.65, 0}));
   EXPECT_FALSE(library.Find(kTask));
@@ -306,7 +334,10 @@ TEST_F(JumpLibraryTest, AnotherRobotsFolderIsIgnored) {
   Fill();
   models::RobotModel other = DrcHubo1();
   other.content_hash = "another";
-  JumpLibrary library(other, Solver(), folder_);
+  const NominalStance launch = SolveNominalStance(other, other.GaitNamed("walk"));
+  const NominalStance landing = SolveNominalStance(other, other.GaitNamed("crawl"));
+  const JumpSolver solver(other, launch, landing);
+  JumpLibrary library(solver, folder_);
   EXPECT_FALSE(library.reach_is_derived());
   EXPECT_FALSE(library.Find(kTask));
 }
@@ -330,7 +361,7 @@ TEST_F(JumpLibraryTest, MalformedTableIsAnInputError) {
 
 /// All jumps that the reach table promises over level ground.
 std::vector<std::shared_ptr<const SolvedJump>> ShippedJumps() {
-  JumpLibrary library(DrcHubo1(), Solver(), DrcHubo1().file.parent_path() / "jumps");
+  JumpLibrary library(Solver(), DrcHubo1().file.parent_path() / "jumps");
   EXPECT_TRUE(library.reach_is_derived());
   const auto [shortest, farthest] = library.reach().Distances(0).value();
   const auto first = std::lround(shortest / JumpLibrary::kDistanceStep);

@@ -54,7 +54,8 @@ models::Obstacle Wall(double x, double height) {
 
 class JumpScene {
  public:
-  explicit JumpScene(models::Environment environment)
+  /// `jump`: of the robot's file.
+  explicit JumpScene(models::Environment environment, int jump = 0)
       : environment_(std::move(environment)),
         ground_(environment_),
         world_{&environment_, &ground_},
@@ -67,7 +68,7 @@ class JumpScene {
     context.world = world_;
     context.gaits = gaits_;
     context.space = space_;
-    jump_ = std::make_shared<LongJump>(context, DrcHubo1().jumps.front());
+    jump_ = std::make_shared<LongJump>(context, DrcHubo1().jumps.at(jump));
     searched_ = std::make_unique<SearchedManoeuvre>(jump_);
   }
 
@@ -131,6 +132,20 @@ TEST(LongJumpTest, OverGroundThatCanBeWalkedNoJumpIsExplored) {
   EXPECT_TRUE(scene.jump().CN(edge));
   EXPECT_FALSE(scene.jump().Explorable(edge));
   EXPECT_FALSE(scene.jump().FindLaunchPoint(edge.from, edge.to).has_value());
+}
+
+/// From walking stance to walking stance, where walking straight on takes the leap's place.
+TEST(LongJumpTest, ALeapIsExploredAcrossAGapOnly) {
+  constexpr int kLeap = 1;
+  const graph::Edge edge = {JumpScene::At(0, -0.3, 0, 0), JumpScene::At(0, 0.6, 0, 0)};
+  const JumpScene gap(TwoFloors(0.4), kLeap);
+  EXPECT_TRUE(gap.jump().Explorable(edge));
+  EXPECT_FALSE(gap.jump().Explorable(graph::Edge{edge.to, edge.from})) << "backwards";
+  EXPECT_TRUE(gap.jump().FindLaunchPoint(edge.from, edge.to).has_value());
+  const JumpScene floor(TwoFloors(0), kLeap);
+  EXPECT_TRUE(floor.jump().CN(edge));
+  EXPECT_FALSE(floor.jump().Explorable(edge));
+  EXPECT_FALSE(floor.jump().FindLaunchPoint(edge.from, edge.to).has_value());
 }
 
 TEST(LongJumpTest, ExtensionsFaceTheTargetAndStayOnTheGrid) {

@@ -40,7 +40,7 @@ void ExpectWalking(const PlanResult& result) {
 }
 
 void ExpectReason(const PlanResult& result, const std::string& reason) {
-  EXPECT_NE(result.explanation.find("'leap'"), std::string::npos) << result.explanation;
+  EXPECT_NE(result.explanation.find("'vault'"), std::string::npos) << result.explanation;
   EXPECT_NE(result.explanation.find(reason), std::string::npos) << result.explanation;
 }
 
@@ -187,7 +187,7 @@ TEST(FaultInjectionTest, AConditionThatThrowsIsNamedWithActionFunctionAndPose) {
       const auto on_asked = [&](const std::string& asked) {
         if (asked == function) throw std::logic_error("the condition's\nfuse blew");
       };
-      request.manoeuvres = {{"leap", [&](const PlanningContext& context) {
+      request.manoeuvres = {{"vault", [&](const PlanningContext& context) {
                                return std::make_shared<Leap>(context, Confirms, Slides, on_asked);
                              }}};
       try {
@@ -195,7 +195,7 @@ TEST(FaultInjectionTest, AConditionThatThrowsIsNamedWithActionFunctionAndPose) {
         ADD_FAILURE() << function << ": nothing thrown";
       } catch (const InputError& error) {
         const std::string message = error.what();
-        for (const char* part : {"pit.yaml: actions: action 'leap': ", " failed for ",
+        for (const char* part : {"pit.yaml: actions: action 'vault': ", " failed for ",
                                  "the pelvis at (", "the condition's fuse blew"}) {
           EXPECT_NE(message.find(part), std::string::npos) << message;
         }
@@ -217,7 +217,7 @@ TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsPlanning) {
   const auto on_asked = [&](const std::string&) {
     if (is_running) throw std::logic_error("the condition's fuse blew");
   };
-  request.manoeuvres = {{"leap", [&](const PlanningContext& context) {
+  request.manoeuvres = {{"vault", [&](const PlanningContext& context) {
                            return std::make_shared<Leap>(context, sleeps, Slides, on_asked);
                          }}};
   EXPECT_THROW(PlanTraversal(DrcHubo1(), PitScene(false), request), InputError);
@@ -239,7 +239,7 @@ std::string ExplainedFailure(const Leap::MakeMotion& make_motion, const std::str
 
 TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatVerificationRefusedAndWhy) {
   const std::string leg =
-      "refused by verification; the first in leap from (-0.60, 0.00) to (0.60, "
+      "refused by verification; the first in vault from (-0.60, 0.00) to (0.60, "
       "0.00): ";
   const std::string explanation = ExplainedFailure(Slides, leg);
   const std::size_t place = explanation.find(leg);
@@ -254,7 +254,7 @@ TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatHasNoMotionAndWhy) {
     throw MotionError("the knee would break");
   };
   const std::string expected =
-      " 1 confirmed route came to nothing, 1 without a motion; the first in leap from (-0.60, "
+      " 1 confirmed route came to nothing, 1 without a motion; the first in vault from (-0.60, "
       "0.00) to (0.60, 0.00): the knee would break.";
   const std::string explanation = ExplainedFailure(throws, expected);
   EXPECT_NE(explanation.find(expected), std::string::npos) << explanation;

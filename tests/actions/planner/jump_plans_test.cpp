@@ -56,6 +56,24 @@ void ExpectNo(const std::string& name, std::uint64_t runs) {
 
 TEST(JumpPlans, TheGapOfTheHallwayIsJumped) { ExpectVerifiedPlans("hallway", 1, true); }
 
+/// The hallway's gap is 0.45 m wide. Behind the bars the robot stands up and leaps.
+TEST(JumpPlans, AWiderGapOfTheHallwayIsLeaptOnFeet) {
+  models::Scenario scenario = ShippedScenario("hallway");
+  for (models::Obstacle& obstacle : scenario.environment.obstacles) {
+    if (obstacle.name != "left_floor") continue;
+    obstacle.shape.size.x() -= 0.15;
+    obstacle.X_WO.translation().x() -= 0.075;
+  }
+  PlanRequest request = Request(1, 1);
+  request.actions = {"walk", "crawl", "leap"};
+  const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_TRUE(result.verification.accepted()) << FormatText(result.verification);
+  EXPECT_EQ(std::count_if(result.plan.segments.begin(), result.plan.segments.end(),
+                          [](const Segment& segment) { return segment.action == "leap"; }),
+            1);
+}
+
 TEST(JumpPlans, BarsTooLowToCrawlAndTooManyToJumpAreRefused) { ExpectNo("hallway_infeasible", 1); }
 TEST(JumpPlans, AGapBeyondReachIsRefused) { ExpectNo("three_routes_c_infeasible", 1); }
 TEST(JumpPlans, ABlockedLandingIsRefused) { ExpectNo("double_jump_infeasible", 1); }

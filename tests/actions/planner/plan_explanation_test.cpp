@@ -37,13 +37,13 @@ TEST(PlanExplanationTest, ASearchIsExplainedByItsCounters) {
                      {"walk: extend rejected on edge", 0},
                      {"walk: extend made", 3000},
                      {"crawl: extend rejected on edge", 400},
-                     {"leap: growth not lined up", 21},
-                     {"leap: growth rejected", 5},
+                     {"vault: growth not lined up", 21},
+                     {"vault: growth rejected", 5},
                      {"jobs spawned", 4},
                      {"jobs confirmed", 1},
                      {"jobs refuted", 3}}),
       " The search went through 1 cycle and knows 1 place and 1 way between them. Most often: "
-      "400 ways that 'crawl' cannot go; 21 tries of 'leap' to which no way leads; 20 places "
+      "400 ways that 'crawl' cannot go; 21 tries of 'vault' to which no way leads; 20 places "
       "where 'walk' cannot be. Of 4 confirmation jobs, 1 confirmed, 3 refuted, 0 failed and 0 "
       "not needed any more.");
 }
@@ -78,11 +78,11 @@ TEST(PlanExplanationTest, ManoeuvresAreExplainedByTheirFirstFewRefusals) {
     return graph::Edge{ToPoint(PlanarPose{x, 1, 0}.At(1)), ToPoint(PlanarPose{x, 2, 0}.At(1))};
   };
   leap->Forbid(edge(0), "a wall", false);
-  EXPECT_EQ(ExplainManoeuvres({leap}, {}), " 1 of 'leap' refuted: from (0.00, 1.00): a wall.");
+  EXPECT_EQ(ExplainManoeuvres({leap}, {}), " 1 of 'vault' refuted: from (0.00, 1.00): a wall.");
   for (int i = 1; i < 5; ++i) leap->Forbid(edge(i), "r" + std::to_string(i), false);
-  EXPECT_EQ(ExplainManoeuvres({leap}, {{"leap", {{edge(9), "it threw"}}}, {"hop", {{}}}}),
-            " 5 of 'leap' refuted: from (0.00, 1.00): a wall; from (1.00, 1.00): r1; from (2.00, "
-            "1.00): r2; ... 1 job of 'leap' failed: from (9.00, 1.00): it threw.");
+  EXPECT_EQ(ExplainManoeuvres({leap}, {{"vault", {{edge(9), "it threw"}}}, {"hop", {{}}}}),
+            " 5 of 'vault' refuted: from (0.00, 1.00): a wall; from (1.00, 1.00): r1; from (2.00, "
+            "1.00): r2; ... 1 job of 'vault' failed: from (9.00, 1.00): it threw.");
 }
 
 }  // namespace

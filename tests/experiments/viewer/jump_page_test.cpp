@@ -38,7 +38,7 @@ class JumpPageTest : public ::testing::Test {
     for (const char* name : {"drchubo1.yaml", "drchubo1.urdf"}) {
       fs::copy_file(kRobotFolder / name, folder_ / name);
     }
-    actions::JumpLibrary library(robot, solver, folder_ / "jumps");
+    actions::JumpLibrary library(solver, folder_ / "jumps");
     library.Save(library.FindOrSolve(kTask), kTask);
     file_ = library.folder() / "jump_10_0.json";
     loaded_ = LoadJump(file_, {});

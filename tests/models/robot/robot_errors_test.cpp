@@ -225,9 +225,6 @@ const BadRobot kBadYaml[] = {
     {"JumpUnknownGait", false, kTransition,
      kTransition + "\njumps:\n  - {name: leap, from: stan, to: squat}",
      "robot.yaml:35: jumps[0].from: unknown gait 'stan' (did you mean 'stand'?)"},
-    {"JumpToItself", false, kTransition,
-     kTransition + "\njumps:\n  - {name: leap, from: stand, to: stand}",
-     "robot.yaml:35: jumps[0].to: expected another gait than 'from', got stand"},
     {"JumpWithMarkup", false, kTransition,
      kTransition + "\njumps:\n  - {name: '<b>', from: stand, to: squat}",
      "robot.yaml:35: jumps[0].name: expected a name of at most 64 letters, digits, '_' and '-' "
