@@ -17,6 +17,7 @@ namespace {
 std::vector<int> Intervals(double fineness) {
   constexpr std::array<int, JumpProblem::kNumPhases> kIntervals = {10, 4, 4, 4, 8, 8};
   std::vector<int> intervals;
+  intervals.reserve(kIntervals.size());
   for (const int count : kIntervals) {
     intervals.push_back(static_cast<int>(std::lround(fineness * count)));
   }
