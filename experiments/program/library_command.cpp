@@ -109,6 +109,15 @@ void SavePaces(const models::RobotModel& robot, const std::string& folder) {
   }
 }
 
+/// @throws InputError if the robot cannot be reduced to one of its jumps, before any is solved.
+void RequireJumps(const models::RobotModel& robot) {
+  for (const models::Jump& jump : robot.jumps) {
+    const auto launch = actions::SolveNominalStance(robot, robot.GaitNamed(jump.from));
+    const auto landing = actions::SolveNominalStance(robot, robot.GaitNamed(jump.to));
+    const actions::JumpSolver solver(robot, launch, landing);
+  }
+}
+
 /// Solves a jump's distances and saves them with their table and picture.
 Swept SolveJumps(const models::RobotModel& robot, const models::Jump& jump,
                  const std::string& folder, actions::JumpSweep sweep) {
@@ -130,6 +139,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
   if (robot.jumps.empty()) {
     throw InputError(fmt::format("{}: jumps: the robot has none", robot.file.string()));
   }
+  RequireJumps(robot);
   PrepareOutputFolder("--out", options.out);
   actions::JumpSweep sweep;
   sweep.heights = ParseHeights(options.heights);
