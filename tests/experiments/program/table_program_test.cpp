@@ -33,7 +33,8 @@ class ExperimentProgram : public ProgramRun {
                   "2.8");
   }
 
-  /// A scenario of a few steps across a floor, with or without a way.
+  /// A scenario of a few steps across a floor, with or without a way. Its time limit is for
+  /// sanitizers, which are slow.
   void WriteScenario(const std::string& name, const std::string& obstacles,
                      const std::string& goal_x = "1.7") const {
     std::ofstream(folder_ / "scenarios" / (name + ".yaml"))
@@ -43,7 +44,7 @@ class ExperimentProgram : public ProgramRun {
            "goal: {action: walk, x: "
         << goal_x
         << ", y: 0, yaw_deg: 0}\n"
-           "time_limit: 30\nenvironment:\n  bounds: {x: [0, 4], y: [-2, 2]}\n  ground:\n"
+           "time_limit: 1000\nenvironment:\n  bounds: {x: [0, 4], y: [-2, 2]}\n  ground:\n"
            "    - {name: floor, size: [4, 4, 0.5], position: [2, 0, -0.25]}\n  obstacles:\n"
            "    - {name: post, shape: box, size: [0.1, 0.1, 1], position: [0.1, 1.9, 0.5]}\n"
         << obstacles;
@@ -163,7 +164,7 @@ TEST_F(ExperimentProgram, ASweepIsResumedShardedAndMerged) {
       << "name: length_${length}\nrobot: " POSSIBILITY_SOURCE_DIR
          "/models/drchubo1/drchubo1.yaml\nactions: [walk]\n"
          "start: {action: walk, x: 1.2, y: 0, yaw_deg: 0}\n"
-         "goal: {action: walk, x: ${1.2 + length}, y: 0, yaw_deg: 0}\ntime_limit: 30\n"
+         "goal: {action: walk, x: ${1.2 + length}, y: 0, yaw_deg: 0}\ntime_limit: 1000\n"
          "environment:\n  bounds: {x: [0, 5], y: [-2, 2]}\n  ground:\n"
          "    - {name: floor, size: [5, 4, 0.5], position: [2.5, 0, -0.25]}\n  obstacles:\n"
          "    - posts: {count: 5, x: [0, 5], y: [-2, 2], size: [0.05, 0.1], height: 1, clear: "
