@@ -42,7 +42,8 @@ std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& se
 
 /// The sagittal jump as one optimal-control problem: crouch and push on the soles, push on the
 /// toes, rise and descend (equal times), inelastic impact of the feet, settle on the feet until the
-/// hands touch down at zero speed, and move on until the robot rests in the landing stance.
+/// hands touch down at zero speed, and move on until the robot rests in the landing stance. A leap
+/// lands on the feet alone: both of the last phases bear on them.
 class JumpProblem : public SagittalProblem {
  public:
   enum PhaseIndex { kCrouch, kToes, kRise, kDescent, kSettle, kLanding, kNumPhases };
