@@ -38,22 +38,6 @@ int SwingsAbove(const models::RobotModel& robot, int joint) {
   return swings;
 }
 
-/// Joints that keep their place in the posture: of the arms, all but shoulder and elbow pitch.
-std::map<int, double> LockedJoints(const models::RobotModel& robot, const models::Gait& gait) {
-  std::set<int> legs;
-  for (const models::GaitLimb& limb : gait.limbs) {
-    legs.insert(limb.joints.begin(), limb.joints.end());
-  }
-  std::map<int, double> locked;
-  for (const auto& pair : robot.sagittal_pairs) {
-    for (const int joint : {pair.first, pair.second}) {
-      const bool swings = IsAcross(robot.joints[joint]) && SwingsAbove(robot, joint) < 2;
-      if (!legs.contains(joint) && !swings) locked[joint] = gait.posture.joints[joint];
-    }
-  }
-  return locked;
-}
-
 std::vector<ContactPoint> SolePoints(const dynamics::MultibodyModel& model, int contact) {
   const models::ContactPatch& patch = model.tree().contacts[contact];
   std::vector<ContactPoint> points;
@@ -77,7 +61,7 @@ class Step {
         settings_(settings),
         model_(dynamics::MultibodyModel::OnJoints(robot, settings.joints == StepJoints::kAll
                                                              ? std::map<int, double>()
-                                                             : LockedJoints(robot, gait_))),
+                                                             : StillArmJoints(robot, gait_))),
         stance_(SolePoints(*model_, gait_.limbs[0].contact)),
         swing_(SolePoints(*model_, gait_.limbs[1].contact)),
         nominal_(Nominal()),
@@ -200,6 +184,21 @@ class Step {
 };
 
 }  // namespace
+
+std::map<int, double> StillArmJoints(const models::RobotModel& robot, const models::Gait& gait) {
+  std::set<int> legs;
+  for (const models::GaitLimb& limb : gait.limbs) {
+    legs.insert(limb.joints.begin(), limb.joints.end());
+  }
+  std::map<int, double> locked;
+  for (const auto& pair : robot.sagittal_pairs) {
+    for (const int joint : {pair.first, pair.second}) {
+      const bool swings = IsAcross(robot.joints[joint]) && SwingsAbove(robot, joint) < 2;
+      if (!legs.contains(joint) && !swings) locked[joint] = gait.posture.joints[joint];
+    }
+  }
+  return locked;
+}
 
 std::unique_ptr<OptimalControlProblem> WalkingStep(const models::RobotModel& humanoid,
                                                    const WalkingStepSettings& settings) {

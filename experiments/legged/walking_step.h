@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "collocation/problem/optimal_control_problem.h"
@@ -19,6 +20,10 @@ struct WalkingStepSettings {
   double clearance = 0.04;  ///< m, of the swing foot's sole half-way
   StepJoints joints = StepJoints::kAll;
 };
+
+/// Joints of the arms, all but those of shoulder and elbow that swing in the sagittal plane, and
+/// their positions in the gait's posture.
+std::map<int, double> StillArmJoints(const models::RobotModel& robot, const models::Gait& gait);
 
 /// One step of a humanoid in space, single support, periodic up to a mirror image, the swing foot
 /// landing without speed. Minimises squares of torques and, less, of accelerations, forces and

@@ -10,6 +10,7 @@
 #include "collocation/robot/point_functions.h"
 #include "collocation/robot/robot_phase.h"
 #include "dynamics/sagittal/sagittal_reduction.h"
+#include "experiments/legged/walk_from_rest.h"
 #include "experiments/legged/walking_step.h"
 
 namespace possibility::experiments {
@@ -71,16 +72,23 @@ std::unique_ptr<OptimalControlProblem> SquatToStand(const models::RobotModel& hu
 }  // namespace
 
 std::vector<RegressionProblem> RobotProblems(const models::RobotModel& humanoid) {
-  return {{"drchubo1_squat_to_stand",
-           "ours: both linear solvers, and a mesh of 80 intervals",
-           {{"global", 0.478078, 1e-5}},
-           [humanoid] { return SquatToStand(humanoid); },
-           20},
-          {"drchubo1_walking_step",
-           "ours: both linear solvers, and a mesh of 40 intervals",
-           {{"global", 0.846036, 2e-5}},
-           [humanoid] { return WalkingStep(humanoid); },
-           15}};
+  return {
+      {"drchubo1_squat_to_stand",
+       "ours: both linear solvers, and a mesh of 80 intervals",
+       {{"global", 0.478078, 1e-5}},
+       [humanoid] { return SquatToStand(humanoid); },
+       20},
+      {"drchubo1_walking_step",
+       "ours: both linear solvers, and a mesh of 40 intervals",
+       {{"global", 0.846036, 2e-5}},
+       [humanoid] { return WalkingStep(humanoid); },
+       15},
+      {"drchubo1_walk",
+       "ours, of the nonlinear program on this mesh: both linear solvers (10 intervals per phase: "
+       "3.89659, 20: 3.88346)",
+       {{"global", 3.92101345, 1e-6}},
+       [humanoid] { return WalkFromRest(humanoid); },
+       5}};
 }
 
 }  // namespace possibility::experiments

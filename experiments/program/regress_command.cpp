@@ -44,6 +44,7 @@ struct RegressOptions {
   std::string solver = "ipopt";
   std::string linear_solver = "ldlt";
   std::string hessian = "exact";
+  bool work_precision = false;
   bool json = false;
 };
 
@@ -97,6 +98,7 @@ RegressionOptions RunOptions(const RegressOptions& options) {
   run.solver = SolverOf(options.solver);
   if (run.solver != &IpoptSolver()) run.time_limit = kSlsqpSeconds;
   run.second_order_check = true;
+  run.work_precision = options.work_precision;
   run.linear_solver =
       Choose<LinearSolver>("--linear-solver", options.linear_solver,
                            {{"ldlt", LinearSolver::kSparseLdlt}, {"mumps", LinearSolver::kMumps}});
@@ -203,6 +205,10 @@ ExitCode Verdict(const RegressionReport& report,
 }
 
 ExitCode RunRegress(const RegressOptions& options) {
+  if (options.work_precision && options.plots.empty() && options.out.empty() && !options.json) {
+    throw InputError(
+        "--work-precision: expected --plots, --out or --json beside it, for its results");
+  }
   const RegressionOptions run_options = RunOptions(options);
   const std::vector<RegressionProblem> problems = Select(options.problems, options.robot);
   std::optional<nlohmann::json> old_run;
@@ -245,6 +251,8 @@ Command AddRegressCommand(CLI::App& program) {
   command.AddOptional("--solver", &options->solver, "ipopt, or slsqp: dense, for small problems");
   command.AddOptional("--linear-solver", &options->linear_solver, "ldlt or mumps");
   command.AddOptional("--hessian", &options->hessian, "exact or limited_memory");
+  command.AddFlag("--work-precision", &options->work_precision,
+                  "Also each scheme's error and time on meshes from coarse to fine");
   command.AddFlag("--json", &options->json, "Print one JSON object");
   return {command, [options] { return RunRegress(*options); }};
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "experiments/regression/work_precision.h"
 #include "experiments/report/svg_plot.h"
 #include "experiments/report/trajectory_plot.h"
 #include "experiments/support/output_file.h"
@@ -14,12 +15,12 @@
 namespace possibility::experiments {
 namespace {
 
-std::string FileName(const std::string& problem) {
+std::string FileName(const std::string& problem, const char* suffix = "") {
   std::string name = problem;
   for (char& c : name) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
   }
-  return name + ".svg";
+  return name + suffix + ".svg";
 }
 
 std::string Number(double value, const char* format) {
@@ -53,6 +54,10 @@ std::string Section(const RegressionRecord& record, bool has_picture) {
   html += has_picture ? fmt::format("<img src=\"{}\" alt=\"{}\">\n", FileName(record.name),
                                     XmlText(record.name + ": coordinates, rates, controls"))
                       : "<p>There is no motion to show.</p>\n";
+  if (!record.work_precision.empty()) {
+    html += fmt::format("<img src=\"{}\" alt=\"{}\">\n", FileName(record.name, "_precision"),
+                        XmlText(record.name + ": error over time, one curve for each scheme"));
+  }
   return html + "</section>\n";
 }
 
@@ -95,6 +100,10 @@ void WriteRegressionPages(const RegressionReport& report, const std::filesystem:
   for (const RegressionRecord& record : report.problems) {
     const std::vector<Plot> plots = TrajectoryPlots(record.solution);
     if (!plots.empty()) WriteOutput(folder / FileName(record.name), SvgDocument(plots));
+    if (!record.work_precision.empty()) {
+      WriteOutput(folder / FileName(record.name, "_precision"),
+                  SvgDocument({WorkPrecisionPlot(record)}));
+    }
     table += Row(record);
     sections += Section(record, !plots.empty());
   }

@@ -7,6 +7,8 @@
 #include <exception>
 #include <limits>
 
+#include "experiments/regression/work_precision.h"
+
 namespace possibility::experiments {
 namespace {
 
@@ -153,48 +155,68 @@ RegressionReport RunRegression(const std::vector<RegressionProblem>& problems,
                                const std::function<void(int, const std::string&)>& progress) {
   RegressionReport report{ThisEnvironment(), options, {}};
   for (const RegressionProblem& problem : problems) {
-    progress(static_cast<int>(report.problems.size()), problem.name);
-    report.problems.push_back(RunProblem(problem, options));
+    const auto done = static_cast<int>(report.problems.size());
+    progress(done, problem.name);
+    RegressionRecord record = RunProblem(problem, options);
+    if (options.work_precision) {
+      record.work_precision = MeasureWorkPrecision(problem, options, [&](int mesh, int meshes) {
+        progress(done, fmt::format("{}, mesh {} of {}", problem.name, mesh + 1, meshes));
+      });
+    }
+    report.problems.push_back(std::move(record));
   }
   return report;
 }
 
+ordered_json WorkPrecisionPoint::Json() const {
+  return {{"scheme", scheme},         {"intervals", intervals},
+          {"status", status},         {"relative_error", relative_error},
+          {"iterations", iterations}, {"seconds", seconds}};
+}
+
 ordered_json RegressionRecord::Json() const {
-  return {{"name", name},
-          {"source", source},
-          {"status", status},
-          {"message", message},
-          {"objective", objective},
-          {"optimum", within_tolerance ? ordered_json(nearest.name) : ordered_json(nullptr)},
-          {"nearest_optimum",
-           {{"name", nearest.name},
-            {"objective", nearest.objective},
-            {"tolerance", nearest.tolerance}}},
-          {"relative_error", relative_error},
-          {"within_tolerance", within_tolerance},
-          {"stationary_point", StationaryPointName(stationary_point)},
-          {"iterations", iterations},
-          {"evaluations",
-           {{"objective", evaluations.objective},
-            {"gradient", evaluations.gradient},
-            {"constraints", evaluations.constraints},
-            {"jacobian", evaluations.jacobian},
-            {"hessian", evaluations.hessian}}},
-          {"mesh",
-           {{"scheme", scheme},
-            {"intervals", intervals},
-            {"refinements", refinements},
-            {"error", mesh_error}}},
-          {"seconds",
-           {{"total", seconds.total},
-            {"functions", seconds.functions},
-            {"derivatives", seconds.derivatives},
-            {"factorisation", seconds.factorisation},
-            {"back_solves", seconds.back_solves},
-            {"second_order", seconds.second_order},
-            {"rest", seconds.rest}}},
-          {"variables", variables},
-          {"constraints", constraints}};
+  ordered_json json = {
+      {"name", name},
+      {"source", source},
+      {"status", status},
+      {"message", message},
+      {"objective", objective},
+      {"optimum", within_tolerance ? ordered_json(nearest.name) : ordered_json(nullptr)},
+      {"nearest_optimum",
+       {{"name", nearest.name},
+        {"objective", nearest.objective},
+        {"tolerance", nearest.tolerance}}},
+      {"relative_error", relative_error},
+      {"within_tolerance", within_tolerance},
+      {"stationary_point", StationaryPointName(stationary_point)},
+      {"iterations", iterations},
+      {"evaluations",
+       {{"objective", evaluations.objective},
+        {"gradient", evaluations.gradient},
+        {"constraints", evaluations.constraints},
+        {"jacobian", evaluations.jacobian},
+        {"hessian", evaluations.hessian}}},
+      {"mesh",
+       {{"scheme", scheme},
+        {"intervals", intervals},
+        {"refinements", refinements},
+        {"error", mesh_error}}},
+      {"seconds",
+       {{"total", seconds.total},
+        {"functions", seconds.functions},
+        {"derivatives", seconds.derivatives},
+        {"factorisation", seconds.factorisation},
+        {"back_solves", seconds.back_solves},
+        {"second_order", seconds.second_order},
+        {"rest", seconds.rest}}},
+      {"variables", variables},
+      {"constraints", constraints}};
+  if (work_precision.empty()) return json;
+  json["work_precision"] = ordered_json::array();
+  for (const WorkPrecisionPoint& point : work_precision) {
+    json["work_precision"].push_back(point.Json());
+  }
+  return json;
 }
 
 std::vector<std::string> RegressionReport::Failures() const {

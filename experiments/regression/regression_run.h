@@ -20,10 +20,23 @@ struct RegressionOptions {
   const collocation::NonlinearSolver* solver = nullptr;  ///< null: Ipopt
   double time_limit = 0;                                 ///< s for each mesh; 0: none
   bool second_order_check = false;
+  bool work_precision = false;  ///< measured for each problem; takes some 30 times as long
 
   nlohmann::ordered_json Json() const;
   /// Options for one problem.
   collocation::OptimalControlOptions For(const RegressionProblem& problem) const;
+};
+
+/// One solve on a fixed mesh (work_precision.h).
+struct WorkPrecisionPoint {
+  std::string scheme;
+  int intervals = 0;  ///< of each phase
+  std::string status;
+  double relative_error = 0;  ///< to the known optimum nearest to this solve's objective
+  int iterations = 0;
+  double seconds = 0;
+
+  nlohmann::ordered_json Json() const;
 };
 
 /// Result of one problem.
@@ -46,7 +59,8 @@ struct RegressionRecord {
   collocation::SolverTimes seconds;
   int variables = 0;
   int constraints = 0;
-  collocation::StoredSolution solution;  ///< no phases if there is none; not in the JSON
+  std::vector<WorkPrecisionPoint> work_precision;  ///< by scheme, then mesh; empty: not measured
+  collocation::StoredSolution solution;            ///< no phases if there is none; not in the JSON
 
   nlohmann::ordered_json Json() const;
 };
@@ -71,7 +85,7 @@ std::string StatusName(collocation::SolverStatus status);
 RegressionRecord RunProblem(const RegressionProblem& problem, const RegressionOptions& options);
 
 /// Solves the problems one after another. Before each, `progress` gets the number done and the
-/// problem's name.
+/// problem's name; for work and precision before each mesh, with the mesh.
 RegressionReport RunRegression(const std::vector<RegressionProblem>& problems,
                                const RegressionOptions& options,
                                const std::function<void(int, const std::string&)>& progress);
