@@ -75,18 +75,33 @@ std::pair<double, double> RangeOf(const Plot& plot, bool is_x) {
   return AxisRange(values, axis.logarithmic, is_x ? 0 : 0.06);
 }
 
-int LegendEntries(const Plot& plot) {
-  const auto has_label = [](const auto& item) { return !item.label.empty(); };
-  return static_cast<int>(std::count_if(plot.curves.begin(), plot.curves.end(), has_label) +
-                          std::count_if(plot.regions.begin(), plot.regions.end(), has_label));
+std::vector<std::string> LegendLabels(const Plot& plot) {
+  std::vector<std::string> labels;
+  for (const PlotCurve& curve : plot.curves) labels.push_back(curve.label);
+  for (const PlotRegion& region : plot.regions) labels.push_back(region.label);
+  std::erase(labels, "");
+  return labels;
+}
+
+/// Wide enough for the longest label. Without a legend: a margin.
+double LegendWidth(const Plot& plot) {
+  constexpr double kCharacter = 6.5, kSign = 45, kMargin = 20;
+  const std::vector<std::string> labels = LegendLabels(plot);
+  if (labels.empty()) return kMargin;
+  double width = kLegend;
+  for (const std::string& label : labels) {
+    width = std::max(width, kSign + kCharacter * static_cast<double>(label.size()));
+  }
+  return width;
 }
 
 double HeightOf(const Plot& plot) {
-  return std::max(plot.height, kTop + kBottom + kLegendLine * LegendEntries(plot));
+  return std::max(plot.height,
+                  kTop + kBottom + kLegendLine * static_cast<double>(LegendLabels(plot).size()));
 }
 
 Panel PanelOf(const Plot& plot, double top) {
-  const double right = plot.width - (LegendEntries(plot) > 0 ? kLegend : 20);
+  const double right = plot.width - LegendWidth(plot);
   const double bottom = top + HeightOf(plot) - kBottom;
   return {&plot,
           kLeft,
