@@ -24,6 +24,7 @@ std::vector<collocation::TranscriptionScheme> SchemesOf(const RegressionOptions&
 std::vector<int> MeshesOf(const RegressionProblem& problem, const RegressionOptions& options) {
   const int own = options.intervals.value_or(problem.intervals);
   std::vector<int> meshes;
+  meshes.reserve(kShares.size());
   for (const double share : kShares) {
     meshes.push_back(std::max(kFewestIntervals, static_cast<int>(std::lround(share * own))));
   }
