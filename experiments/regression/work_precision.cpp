@@ -1,19 +1,20 @@
 #include "experiments/regression/work_precision.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "common/stopwatch.h"
+
 namespace possibility::experiments {
 namespace {
 
 constexpr std::array<double, 5> kShares = {0.25, 0.5, 1, 2, 4};  // of a problem's own intervals
 constexpr int kFewestIntervals = 2;
-constexpr int kRepeats = 3;
+constexpr int kMostRepeats = 3;
+constexpr double kLongEnough = 1;  // s: nothing is repeated beyond
 
 std::vector<collocation::TranscriptionScheme> SchemesOf(const RegressionOptions& options) {
   if (options.scheme) return {*options.scheme};
@@ -35,7 +36,9 @@ std::vector<int> MeshesOf(const RegressionProblem& problem, const RegressionOpti
 WorkPrecisionPoint Measure(const RegressionProblem& problem, const RegressionOptions& options) {
   WorkPrecisionPoint point{
       options.scheme->name, *options.intervals, {}, 0, 0, std::numeric_limits<double>::infinity()};
-  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+  const Stopwatch stopwatch;
+  for (int repeat = 0; repeat < kMostRepeats; ++repeat) {
+    if (repeat > 0 && stopwatch.Seconds() > kLongEnough) break;
     const RegressionRecord record = RunProblem(problem, options);
     point.status = record.status;
     point.relative_error = record.relative_error;
@@ -72,7 +75,7 @@ Plot WorkPrecisionPlot(const RegressionRecord& record) {
   Plot plot;
   plot.title = "Work and precision";
   plot.x = {"time", "s", true, {}};
-  plot.y = {fmt::format("error to \u201c{}\u201d", record.nearest.name), "", true, {}};
+  plot.y = {"relative error", "", true, {}};
   std::vector<double> seconds;
   std::map<std::string, PlotCurve> curves;
   for (const WorkPrecisionPoint& point : record.work_precision) {

@@ -12,7 +12,8 @@ namespace possibility::experiments {
 /// What a problem costs on fixed meshes, and how near its known optimum the answers come: by
 /// hermite_simpson, its compressed form and trapezoidal, on a quarter, half, once, twice and four
 /// times the problem's own intervals. A scheme or a number of intervals in `options` takes the
-/// place of these three, or of the problem's own number. Times are the least of three solves.
+/// place of these three, or of the problem's own number. Times are the least of three solves, or of
+/// fewer once they took a second.
 /// `progress` gets the number of meshes done and of all.
 std::vector<WorkPrecisionPoint> MeasureWorkPrecision(const RegressionProblem& problem,
                                                      const RegressionOptions& options,
