@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "collocation/robot/robot_function.h"
+#include "dynamics/tree/multibody_points.h"
 
 namespace possibility::collocation {
 
@@ -45,28 +46,30 @@ class PointFunction : public RobotFunction {
 class PointPositionsFunction : public PointFunction {
  public:
   PointPositionsFunction(const RobotSystem& model, const std::vector<PointComponent>& components)
-      : PointFunction(model, components, 1) {}
+      : PointFunction(model, components, 1), positions_(model) {}
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
-    PutComponents([this](const ContactPoint& point) { return dynamics_.Position(point); }, y);
+    positions_.SetPosition(z);
+    PutComponents([this](const ContactPoint& point) { return positions_.Position(point); }, y);
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
-    MatrixXd jacobian(3, n_);
+    positions_.SetPosition(z);
     for (const Point& point : points_) {
-      dynamics_.Jacobian(point.point, jacobian);
+      const MatrixXd& jacobian = positions_.Jacobian(point.point);
       for (const int i : point.components) J->row(i) = Axis(i) * jacobian;
     }
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
-    *H = dynamics_.Hessian(VectorXd::Zero(n_), Terms(&PointTerm::on_position, multipliers)).qq;
+    positions_.SetPosition(z);
+    *H = positions_.Hessian(Terms(&PointTerm::on_position, multipliers));
   }
 
   Mask HessianMask() const override { return PointPairMask(); }
+
+ private:
+  dynamics::MultibodyPoints positions_;
 };
 
 /// weight * |p_from - p_to|^2, a part of an output.
@@ -84,6 +87,7 @@ class SquaredDistancesFunction : public RobotFunction {
                            const VectorXd& constants)
       : RobotFunction(model, ComponentsOf(*model, EndsOf(squares)), model->nv(),
                       static_cast<int>(constants.size())),
+        positions_(model),
         squares_(squares),
         constants_(constants),
         jacobian_mask_(Mask::Constant(num_outputs(), n_, false)),
@@ -101,7 +105,7 @@ class SquaredDistancesFunction : public RobotFunction {
   }
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
+    positions_.SetPosition(z);
     *y = constants_;
     for (const WeightedSquare& square : squares_) {
       (*y)[square.output] += square.weight * Difference(square).squaredNorm();
@@ -109,7 +113,7 @@ class SquaredDistancesFunction : public RobotFunction {
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
+    positions_.SetPosition(z);
     J->setZero();
     for (std::size_t k = 0; k < squares_.size(); ++k) {
       J->row(squares_[k].output) +=
@@ -118,7 +122,7 @@ class SquaredDistancesFunction : public RobotFunction {
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
-    dynamics_.SetState(z, VectorXd::Zero(n_));
+    positions_.SetPosition(z);
     std::vector<PointTerm> terms;
     for (const WeightedSquare& square : squares_) {
       const Vector3d gradient = 2 * square.weight * multipliers[square.output] * Difference(square);
@@ -126,7 +130,7 @@ class SquaredDistancesFunction : public RobotFunction {
       terms.push_back({.link = square.to.link, .p_L = square.to.p_L, .on_position = -gradient});
     }
     // The base's part cancels but for rounding.
-    *H = hessian_mask_.select(dynamics_.Hessian(VectorXd::Zero(n_), terms).qq, 0.0);
+    *H = hessian_mask_.select(positions_.Hessian(terms), 0.0);
     for (std::size_t k = 0; k < squares_.size(); ++k) {
       const MatrixXd J = DifferenceJacobian(k);
       const double weight = 2 * squares_[k].weight * multipliers[squares_[k].output];
@@ -145,22 +149,20 @@ class SquaredDistancesFunction : public RobotFunction {
   }
 
   Vector3d Difference(const WeightedSquare& square) {
-    return dynamics_.Position(square.from) - dynamics_.Position(square.to);
+    return positions_.Position(square.from) - positions_.Position(square.to);
   }
 
   MatrixXd DifferenceJacobian(std::size_t k) {
-    MatrixXd first(3, n_);
-    MatrixXd second(3, n_);
-    dynamics_.Jacobian(squares_[k].from, first);
-    dynamics_.Jacobian(squares_[k].to, second);
-    first -= second;
+    MatrixXd difference = positions_.Jacobian(squares_[k].from);
+    difference -= positions_.Jacobian(squares_[k].to);
     // Other contributions cancel but for rounding.
     for (int i = 0; i < n_; ++i) {
-      if (!bends_[k][i]) first.col(i).setZero();
+      if (!bends_[k][i]) difference.col(i).setZero();
     }
-    return first;
+    return difference;
   }
 
+  dynamics::MultibodyPoints positions_;
   std::vector<WeightedSquare> squares_;
   VectorXd constants_;
   /// By square and velocity: whether it moves one point against the other.

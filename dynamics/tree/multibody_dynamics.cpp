@@ -70,16 +70,7 @@ void MultibodyDynamics::SetAcceleration(const Eigen::Ref<const VectorXd>& a) {
   }
 }
 
-/// Adds up the tree's columns, each times its factor, in the independent columns.
-void MultibodyDynamics::ReduceColumns(const MatrixXd& tree, Eigen::Ref<MatrixXd> reduced) const {
-  reduced.setZero();
-  for (Eigen::Index c = 0; c < tree.cols(); ++c) {
-    const CoupledVelocity& column = model_->couplings()[c];
-    if (column.independent >= 0) reduced.col(column.independent) += column.factor * tree.col(c);
-  }
-}
-
-/// The same for rows and columns.
+/// Reduces rows and columns.
 void MultibodyDynamics::Reduce(const MatrixXd& tree, MatrixXd* reduced) const {
   reduced->setZero();
   AddReduced(tree, *reduced);
@@ -145,7 +136,7 @@ void MultibodyDynamics::Jacobian(const ContactPoint& point, Eigen::Ref<MatrixXd>
   }
   MatrixXd tree(3, model_->tree().nv());
   kinematics().PointJacobian(point.link, point.p_L, tree);
-  ReduceColumns(tree, J);
+  model_->ReduceColumns(tree, J);
 }
 
 const PointDerivatives& MultibodyDynamics::DifferentiatePoint(const ContactPoint& point) {
@@ -154,7 +145,7 @@ const PointDerivatives& MultibodyDynamics::DifferentiatePoint(const ContactPoint
   if (model_->is_identity()) return tree;
   const auto reduce = [&](const MatrixXd& from, MatrixXd* to) {
     to->resize(3, model_->nv());
-    ReduceColumns(from, *to);
+    model_->ReduceColumns(from, *to);
   };
   reduce(tree.jacobian, &point_.jacobian);
   reduce(tree.velocity_dq, &point_.velocity_dq);
@@ -190,9 +181,9 @@ const CentroidalQuantities& MultibodyDynamics::Centroidal() {
   if (model_->is_identity()) return tree;
   centroidal_.position = tree.position;
   centroidal_.momentum = tree.momentum;
-  ReduceColumns(tree.jacobian, centroidal_.jacobian);
-  ReduceColumns(tree.momentum_dq, centroidal_.momentum_dq);
-  ReduceColumns(tree.momentum_dv, centroidal_.momentum_dv);
+  model_->ReduceColumns(tree.jacobian, centroidal_.jacobian);
+  model_->ReduceColumns(tree.momentum_dq, centroidal_.momentum_dq);
+  model_->ReduceColumns(tree.momentum_dv, centroidal_.momentum_dv);
   return centroidal_;
 }
 
@@ -214,7 +205,7 @@ const MatrixXd& MultibodyDynamics::DifferentiateVirtualVelocity(const ContactPoi
   const MatrixXd& tree = tree_.DifferentiateVirtualVelocity(point.link, point.p_L);
   if (model_->is_identity()) return tree;
   virtual_velocity_dq_.resize(3, model_->nv());
-  ReduceColumns(tree, virtual_velocity_dq_);
+  model_->ReduceColumns(tree, virtual_velocity_dq_);
   return virtual_velocity_dq_;
 }
 

@@ -74,7 +74,6 @@ class MultibodyDynamics {
  private:
   void Check(const char* what, const Eigen::Ref<const Eigen::VectorXd>& x, int expected) const;
   void CheckPoint(const ContactPoint& point) const;
-  void ReduceColumns(const Eigen::MatrixXd& tree, Eigen::Ref<Eigen::MatrixXd> reduced) const;
   void Reduce(const Eigen::MatrixXd& tree, Eigen::MatrixXd* reduced) const;
   void AddReduced(const Eigen::MatrixXd& tree, Eigen::Ref<Eigen::MatrixXd> reduced) const;
 

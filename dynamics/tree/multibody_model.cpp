@@ -236,6 +236,19 @@ VectorXd MultibodyModel::IndependentForces(const Eigen::Ref<const VectorXd>& tre
   return forces;
 }
 
+void MultibodyModel::ReduceColumns(const Eigen::MatrixXd& tree,
+                                   // A writable Eigen::Ref is passed by value.
+                                   // NOLINTNEXTLINE(performance-unnecessary-value-param)
+                                   Eigen::Ref<Eigen::MatrixXd> reduced) const {
+  CheckSize("a derivative of the tree", tree.cols(), tree_.nv());
+  CheckSize("a derivative", reduced.cols(), nv());
+  reduced.setZero();
+  for (int c = 0; c < tree_.nv(); ++c) {
+    const CoupledVelocity& column = couplings_[c];
+    if (column.independent >= 0) reduced.col(column.independent) += column.factor * tree.col(c);
+  }
+}
+
 VectorXd MultibodyModel::Displaced(const Eigen::Ref<const VectorXd>& q,
                                    const Eigen::Ref<const VectorXd>& tangent) const {
   CheckSize("q", q.size(), nq());

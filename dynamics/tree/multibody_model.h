@@ -82,6 +82,10 @@ class MultibodyModel {
   /// Independent generalised forces from those of the tree (the transpose of TreeVelocity).
   Eigen::VectorXd IndependentForces(const Eigen::Ref<const Eigen::VectorXd>& tree_forces) const;
 
+  /// Writes the derivative with respect to the independent velocities (rows x nv) of something
+  /// whose derivative with respect to the tree's is `tree` (rows x tree().nv()).
+  void ReduceColumns(const Eigen::MatrixXd& tree, Eigen::Ref<Eigen::MatrixXd> reduced) const;
+
   /// q displaced by a tangent (nv), with the quaternion normalised.
   Eigen::VectorXd Displaced(const Eigen::Ref<const Eigen::VectorXd>& q,
                             const Eigen::Ref<const Eigen::VectorXd>& tangent) const;

@@ -1,5 +1,7 @@
 #include "dynamics/tree/tree_hessian.h"
 
+#include <algorithm>
+
 namespace possibility::dynamics {
 
 using Eigen::Matrix3d;
@@ -21,12 +23,10 @@ const HessianProduct& TreeHessian::Compute(const TreeMotion& motion,
                                            const std::vector<PointTerm>& terms) {
   motion.CheckSize("lambda", lambda.size());
   motion_ = &motion;
-  FindVirtualMotion(lambda);
-  for (int i = motion_->num_links() - 1; i > 0; --i) AddJointHessian(i);
-  AddRootHessian();
-  CollectForces(terms);
-  for (int i = 0; i < motion_->num_links(); ++i) {
-    if (forces_[i].any) AddForceHessian(i);
+  if (lambda.isZero(0)) {
+    ClearDynamics();
+  } else {
+    AddDynamics(lambda, terms);
   }
   for (const PointTerm& term : terms) {
     const bool moves = !term.on_position.isZero(0) || !term.on_velocity.isZero(0) ||
@@ -37,6 +37,26 @@ const HessianProduct& TreeHessian::Compute(const TreeMotion& motion,
   const Matrix3d root = hessian_.qq.topLeftCorner<3, 3>();
   hessian_.qq.topLeftCorner<3, 3>() = (root + root.transpose()) / 2;
   return hessian_;
+}
+
+/// What AddDynamics leaves if the multipliers are zero.
+void TreeHessian::ClearDynamics() {
+  for (Eigen::MatrixXd* block : {&hessian_.qq, &hessian_.qv, &hessian_.vv, &hessian_.qa}) {
+    block->setZero();
+  }
+  std::fill(w_.begin(), w_.end(), SpatialVector());
+  std::fill(virtual_rates_.begin(), virtual_rates_.end(), SpatialVector());
+}
+
+void TreeHessian::AddDynamics(const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                              const std::vector<PointTerm>& terms) {
+  FindVirtualMotion(lambda);
+  for (int i = motion_->num_links() - 1; i > 0; --i) AddJointHessian(i);
+  AddRootHessian();
+  CollectForces(terms);
+  for (int i = 0; i < motion_->num_links(); ++i) {
+    if (forces_[i].any) AddForceHessian(i);
+  }
 }
 
 void TreeHessian::FindVirtualMotion(const Eigen::Ref<const Eigen::VectorXd>& lambda) {

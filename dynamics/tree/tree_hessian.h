@@ -83,6 +83,9 @@ class TreeHessian {
     }
   };
 
+  void ClearDynamics();
+  void AddDynamics(const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                   const std::vector<PointTerm>& terms);
   void FindVirtualMotion(const Eigen::Ref<const Eigen::VectorXd>& lambda);
   void AddJointHessian(int link);
   void AddRootHessian();

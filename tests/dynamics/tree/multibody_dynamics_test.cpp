@@ -13,6 +13,7 @@
 #include "models/robot/robot_yaml.h"
 #include "tests/dynamics/random_robot.h"
 #include "tests/dynamics/richardson.h"
+#include "tests/dynamics/tree/multibody_cases.h"
 #include "tests/message_of.h"
 
 namespace possibility::dynamics {
@@ -21,66 +22,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using ModelPtr = std::shared_ptr<const MultibodyModel>;
-
-const models::RobotModel& Hubo() {
-  static const models::RobotModel robot = models::LoadRobotModel(
-      std::string(POSSIBILITY_SOURCE_DIR) + "/models/drchubo1/drchubo1.yaml");
-  return robot;
-}
-
-/// A random tree some of whose joints mimic others.
-models::RobotModel CoupledTree(std::mt19937* random, int num_joints) {
-  models::RobotModel tree = RandomTree(random, num_joints);
-  for (int j = 0; j < num_joints; j += 3) {
-    const int master = (j + 1) % num_joints;
-    if (master % 3 == 0) continue;
-    tree.joints[j].mimic =
-        models::Mimic{master, Uniform(random, 0.5, 2) * (j % 2 == 0 ? 1 : -1), 0.3};
-  }
-  return tree;
-}
-
-struct MotionState {
-  VectorXd q, v, a;
-};
-
-MotionState RandomMotionState(std::mt19937* random, const MultibodyModel& model) {
-  MotionState state{RandomVector(random, model.nq(), 2), RandomVector(random, model.nv(), 3),
-                    RandomVector(random, model.nv(), 10)};
-  if (model.base() == Base::kFloating) state.q.head<4>().normalize();
-  return state;
-}
-
-ContactPoint RandomPoint(std::mt19937* random, const MultibodyModel& model) {
-  const int link = static_cast<int>((*random)() % model.tree().num_links());
-  return {link, RandomVector(random, 3, 0.3)};
-}
-
-/// All models whose derivatives are tested, with how many states each.
-struct ModelCase {
-  std::string name;
-  ModelPtr model;
-  int states;
-};
-
-std::vector<ModelCase> Cases(int hubo_states, int tree_states) {
-  std::mt19937 random(11);
-  std::vector<ModelCase> cases = {
-      {"drchubo1", MultibodyModel::Spatial(Hubo()), hubo_states},
-      {"drchubo1, sagittal", SagittalReduction(Hubo()).model(), hubo_states}};
-  for (int i = 0; i < 20; ++i) {
-    const int joints = 2 + i;
-    const auto number = std::to_string(i);
-    cases.push_back(
-        {"tree " + number, MultibodyModel::Spatial(RandomTree(&random, joints)), tree_states});
-    cases.push_back({"coupled tree " + number,
-                     MultibodyModel::Spatial(CoupledTree(&random, joints)), tree_states});
-    cases.push_back({"planar tree " + number,
-                     MultibodyModel::Planar(RandomPlanarTree(&random, joints)), tree_states});
-  }
-  return cases;
-}
 
 constexpr double kDerivativeTolerance = 1e-7;
 
