@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "actions/motion/force_fault.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
@@ -93,10 +94,8 @@ Knot ToeRoll::KnotAt(const Turn& turn, double t, const JointMotion& joints) {
   force_settings.torque_margin = settings_.torque_margin;
   const auto forces = dynamics::DistributeContactForces(&dynamics_, toes_, force_settings);
   if (!forces) {
-    throw MotionError(fmt::format(
-        "no forces at the toes within friction cones and torque limits realise the motion at "
-        "{:.2f} s of the roll",
-        t));
+    throw MotionError(fmt::format("{} at {:.2f} s of the roll over the toes",
+                                  ForceFault(&dynamics_, toes_, force_settings), t));
   }
   Knot knot;
   knot.t = t;

@@ -22,6 +22,9 @@ using Eigen::VectorXd;
 constexpr double kBoundedWeight = 0.01;
 // Below this slope the sides of a pyramid no longer ensure accurately that the force pushes.
 constexpr double kSteep = 1e-3;
+// Points on one line bear no moment about it, so the balance has a row too many. Inverse kinematics
+// leaves them on the line to some 1e-11 m only.
+constexpr double kBalanceTolerance = 1e-9;
 
 /// Two unit vectors perpendicular to `normal`; x and y if it points up.
 Eigen::Matrix<double, 3, 2> Tangents(const Vector3d& normal) {
@@ -104,6 +107,7 @@ std::optional<VectorXd> SolveConeForces(const ConeForceProblem& problem) {
   WriteCost(problem, &program);
   program.E = problem.balance_loads;
   program.e = problem.balance_required;
+  program.equality_tolerance = kBalanceTolerance;
   const int rows_per_cone = problem.cone_edges + (problem.slope < kSteep ? 1 : 0);
   const int cone_rows = static_cast<int>(problem.normals.size()) * rows_per_cone;
   const Index bounded = (problem.bounds.array().isFinite()).count();

@@ -20,7 +20,7 @@ constexpr const char* kCaller = "DistributeContactForces";
 // Limits are tightened by this factor, so that rounding cannot push a force over the true limit.
 constexpr double kInside = 1 - 1e-9;
 // Tolerated residual of the base wrench, as a fraction of the weight (times a metre).
-constexpr double kResidual = 1e-11;
+constexpr double kResidual = 1e-9;
 
 void CheckSettings(const ContactForceSettings& settings, std::size_t num_points) {
   for (const double setting : {settings.friction, settings.friction_margin, settings.torque_margin,

@@ -201,7 +201,7 @@ class Solver {
         working_.Polish();
         size_ = std::max(size_, working_.x().norm());
       } else if (std::abs(residual) >
-                 kFeasibility * (std::abs(program_.e[i]) + normal.norm() * size_)) {
+                 program_.equality_tolerance * (std::abs(program_.e[i]) + normal.norm() * size_)) {
         return false;
       }
     }

@@ -14,6 +14,8 @@ struct QuadraticProgram {
   Eigen::VectorXd e;
   Eigen::MatrixXd C;
   Eigen::VectorXd d;
+  /// To which dependent rows of E are consistent, relative to the sizes of x and of the bound.
+  double equality_tolerance = 1e-11;
 };
 
 enum class QuadraticProgramStatus { kSolved, kInfeasible, kIterationLimit };

@@ -322,7 +322,9 @@ class Subject {
     if (!result) return;
     ++counts->forces_found;
     VectorXd left = dynamics->InverseDynamics();
-    const double scale = 1 + left.norm();
+    // Forces are found to a share of the weight, however little the motion requires.
+    const double weight = model_->tree().TotalMass() * kGravity;
+    const double scale = 1 + left.norm() + weight;
     const int base = model_->num_base_velocities();
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vector3d force = result->forces.col(i);
