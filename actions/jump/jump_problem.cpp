@@ -21,7 +21,13 @@ using collocation::PointVelocities;
 using collocation::Variable;
 
 constexpr Bounds kZero = {0, 0};
-constexpr double kImpulse = 10;  // N s, typical
+
+// Multiples of NaturalUnits.
+constexpr double kImpulse = 0.1;  // typical
+constexpr Bounds kImpulseAlong = {-1.8, 1.8};
+constexpr Bounds kImpulseUp = {0, 2.7};
+constexpr double kShortest = 0.1;  // of phases whose durations the motion decides
+constexpr double kHalfFlight = 0.65;
 
 }  // namespace
 
@@ -65,12 +71,12 @@ JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
 }
 
 void JumpProblem::AddPhases(const JumpSettings& settings) {
-  AddPhase("crouch", Feet(), {0.3, 1.0});
-  AddPhase("toes", {model_.toe()}, {0.03, settings.longest_toe_push});
-  AddPhase("rise", {}, {0.03, kLongestHalfFlight});
-  AddPhase("descent", {}, {0.03, kLongestHalfFlight});
-  AddPhase("settle", Feet(), {0.03, 1.2});
-  AddPhase("landing", FeetAndHands(), {0.3, 1.5});
+  AddPhase("crouch", Feet(), Times({1.2, 3.9}));
+  AddPhase("toes", {model_.toe()}, Times({kShortest, settings.longest_toe_push}));
+  AddPhase("rise", {}, Times({kShortest, kLongestHalfFlight}));
+  AddPhase("descent", {}, Times({kShortest, kLongestHalfFlight}));
+  AddPhase("settle", Feet(), Times({kShortest, 4.6}));
+  AddPhase("landing", FeetAndHands(), Times({1.2, 5.8}));
   for (int phase = 1; phase < kNumPhases; ++phase) {
     collocation::ContinueRobot(&problem_, phases_[phase - 1], phases_[phase], phase != kSettle);
   }
@@ -104,7 +110,7 @@ void JumpProblem::Fly(const JumpSettings& settings) {
 
 void JumpProblem::Land(const JumpSettings& settings) {
   const collocation::RobotPhase& descent = phases_[kDescent];
-  const double speed = settings.max_contact_speed;
+  const double speed = settings.max_contact_speed * model_.units().speed();
   descent.phase->Constrain("touchdown speed", PointVelocities(model_.planar(), Feet()),
                            descent.State(), {{-speed, speed}}, At::kEnd);
   StartPlaced(kSettle, 0);
@@ -124,22 +130,27 @@ void JumpProblem::AddImpact() {
   const collocation::RobotPhase& before = phases_[kDescent];
   const collocation::RobotPhase& after = phases_[kSettle];
   const double friction = settings_.limits.friction * settings_.limits.friction_fraction;
+  const double unit = model_.units().impulse();
+  const double typical = kImpulse * unit;
   std::vector<EndVariable> impact;
   for (const Variable& q : after.q) impact.push_back({q, At::kStart});
   for (const Variable& v : before.v) impact.push_back({v, At::kEnd});
   for (const Variable& v : after.v) impact.push_back({v, At::kStart});
   for (std::size_t i = 0; i < after.points.size(); ++i) {
     const std::string name = fmt::format("impulse {}", i);
-    const Variable x = problem_.AddParameter(name + " x", {-200, 200}, kImpulse);
-    const Variable z = problem_.AddParameter(name + " z", {0, 300}, kImpulse, kImpulse);
-    problem_.Link(name + " cone", Differentiated<2, 2>([friction](const auto& f, auto* g) {
-                    (*g)[0] = (friction * f[1] + f[0]) / kImpulse;
-                    (*g)[1] = (friction * f[1] - f[0]) / kImpulse;
+    const auto bounds = [unit](const Bounds& share) {
+      return Bounds{share.lower * unit, share.upper * unit};
+    };
+    const Variable x = problem_.AddParameter(name + " x", bounds(kImpulseAlong), typical);
+    const Variable z = problem_.AddParameter(name + " z", bounds(kImpulseUp), typical, typical);
+    problem_.Link(name + " cone", Differentiated<2, 2>([friction, typical](const auto& f, auto* g) {
+                    (*g)[0] = (friction * f[1] + f[0]) / typical;
+                    (*g)[1] = (friction * f[1] - f[0]) / typical;
                   }),
                   {{x, At::kStart}, {z, At::kStart}}, {{0, kInfinity}});
     // The distribution of impulses along a sole is not unique; the least impulses are chosen.
-    problem_.AddCost(name, Differentiated<2, 1>([](const auto& f, auto* y) {
-                       (*y)[0] = (f[0] * f[0] + f[1] * f[1]) / (100 * kImpulse * kImpulse);
+    problem_.AddCost(name, Differentiated<2, 1>([unit](const auto& f, auto* y) {
+                       (*y)[0] = (f[0] * f[0] + f[1] * f[1]) / (unit * unit);
                      }),
                      {{x, At::kStart}, {z, At::kStart}});
     for (const Variable& impulse : {x, z}) {
@@ -151,13 +162,26 @@ void JumpProblem::AddImpact() {
 }
 
 void JumpProblem::GuessMotion() {
-  // Straight lines from stance to stance, with most of the distance in the air.
-  GuessLine(kCrouch, 0.8, 0, 0);
-  GuessLine(kToes, 0.12, 0, 0.1);
-  GuessLine(kRise, 0.17, 0.1, 0.5);
-  GuessLine(kDescent, 0.17, 0.5, 0.8);
-  GuessLine(kSettle, 0.2, 0.8, 1);
-  GuessLine(kLanding, 0.6, 1, 1);
+  // Straight lines from stance to stance, with most of the distance in the air; there, the root
+  // moves along a parabola.
+  GuessLine(kCrouch, 3, 0, 0);
+  GuessLine(kToes, 0.5, 0, 0.1);
+  GuessLine(kRise, kHalfFlight, 0.1, 0.5);
+  GuessLine(kDescent, kHalfFlight, 0.5, 0.8);
+  GuessLine(kSettle, 0.8, 0.8, 1);
+  GuessLine(kLanding, 2.3, 1, 1);
+  const double apex = model_.units().length * kHalfFlight * kHalfFlight / 2;
+  GuessHeight(kRise, 0.1, 0.5, [apex](double s) { return apex * (1 - (1 - s) * (1 - s)); });
+  GuessHeight(kDescent, 0.5, 0.8, [apex](double s) { return apex * (1 - s * s); });
+}
+
+void JumpProblem::GuessHeight(int phase, double from, double to,
+                              const std::function<double(double)>& above) {
+  const double begin = model_.ready()[2];
+  const double change = model_.landed()[2] + height_ - begin;
+  phases_[phase].phase->Guess(phases_[phase].q[2], [=](double s) {
+    return begin + (from + s * (to - from)) * change + above(s);
+  });
 }
 
 Eigen::Matrix2Xd JumpProblem::Impulses(const collocation::Trajectory& trajectory) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,17 +16,18 @@ struct JumpTask {
   double height = 0;    ///< m, of the landing ground above the launch ground
 };
 
+/// l: the leg's length (NaturalUnits).
 struct JumpSettings : SagittalSettings {
   double min_stance_pitch = -0.5;  ///< rad: lean backward at most, while the feet push
   double max_stance_pitch = 1.1;   ///< rad: lean forward at most
-  /// m/s, along x and z, of the contact points before touchdown: limits the impact.
-  double max_contact_speed = 1.5;
+  /// Times sqrt(g l), along x and z, of the contact points before touchdown: limits the impact.
+  double max_contact_speed = 0.6;
   /// Largest leg length at touchdown, as a fraction of the stretched leg's: nearly straight legs
   /// cannot absorb an impact.
   double leg_reach = 0.93;
-  /// s: the robot balances on the line of its toes for no longer. It falls over that line
-  /// meanwhile, and a slope or a push that the plan does not know grows with it.
-  double longest_toe_push = 0.15;
+  /// Times sqrt(l / g): the robot balances on the line of its toes for no longer. It falls over
+  /// that line meanwhile, and a slope or a push that the plan does not know grows with it.
+  double longest_toe_push = 0.58;
   /// Least shares of the soles' load until the hands touch down. The way to the toes is what a
   /// robot that lands too fast or leans too far has to stop in.
   SoleShares settling = {.heel = 0.35, .toe = 0.15};
@@ -47,7 +49,7 @@ std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& se
 class JumpProblem : public SagittalProblem {
  public:
   enum PhaseIndex { kCrouch, kToes, kRise, kDescent, kSettle, kLanding, kNumPhases };
-  static constexpr double kLongestHalfFlight = 0.5;  ///< s, for rise and descent each
+  static constexpr double kLongestHalfFlight = 2;  ///< times sqrt(l / g), rise and descent each
 
   /// `model` must outlive the problem.
   JumpProblem(const SagittalModel& model, const JumpTask& task, const JumpSettings& settings);
@@ -65,6 +67,8 @@ class JumpProblem : public SagittalProblem {
   void Land(const JumpSettings& settings);
   void AddImpact();
   void GuessMotion();
+  /// The root is `above` (m, by share of the phase) the line that GuessLine draws.
+  void GuessHeight(int phase, double from, double to, const std::function<double(double)>& above);
 
   std::vector<collocation::Variable> impulses_;
 };

@@ -63,10 +63,11 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
   return reach;
 }
 
-FlightBounds BoundFlight(const JumpSettings& settings) {
+FlightBounds BoundFlight(const JumpSettings& settings, const NaturalUnits& units) {
   // Distance from take-off or touchdown, where the feet reach the ground, whichever is nearer in
   // time.
-  const double farthest = settings.limits.max_base_speed * JumpProblem::kLongestHalfFlight;
+  const double farthest =
+      settings.limits.max_base_speed * JumpProblem::kLongestHalfFlight * units.time();
   return {farthest, farthest};
 }
 

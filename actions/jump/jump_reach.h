@@ -21,6 +21,6 @@ JumpReach DeriveFarthest(const JumpReach& guess, JumpLibrary* library,
 
 /// Follows from the longest flight and the largest root speed: JumpProblem bounds both, and
 /// JumpMotion refuses faster motion.
-FlightBounds BoundFlight(const JumpSettings& settings);
+FlightBounds BoundFlight(const JumpSettings& settings, const NaturalUnits& units);
 
 }  // namespace possibility::actions

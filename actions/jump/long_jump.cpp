@@ -27,9 +27,14 @@ constexpr double kWideEnds = 0.05;
 constexpr double kFarthestMove = 0.2;
 constexpr int kMoves = 10;
 
-/// Ground that extends this far to all sides is wide enough for every stance, m. Narrower ground is
-/// tested in detail.
-constexpr double kWideGround = 0.4;
+/// Ground that extends this far to all sides of the stance's frame is wide enough for it, m.
+double WideGround(const NominalStance& stance) {
+  double farthest = 0;
+  for (const std::vector<Vector2d>& points : stance.bearing_points) {
+    for (const Vector2d& point : points) farthest = std::max(farthest, point.norm());
+  }
+  return farthest + kWideEnds;
+}
 
 bool SameTask(const JumpTask& a, const JumpTask& b) {
   return std::abs(a.distance - b.distance) < kSamePose && std::abs(a.height - b.height) < kSamePose;
@@ -97,7 +102,9 @@ LongJump::LongJump(const PlanningContext& context, const models::Jump& jump)
       reach_(library_->reach_is_derived()
                  ? library_->reach()
                  : GuessReach(*solver_, RisesOf(world().ground->levels()))),
-      highest_rise_(BoundFlight(solver_->settings()).rise),
+      wide_ground_(std::max(WideGround(model().gaits[from()]->stance),
+                            WideGround(model().gaits[to()]->stance))),
+      highest_rise_(BoundFlight(solver_->settings(), solver_->model().units()).rise),
       pelvis_checker_(*world().environment),
       pelvis_(*model().robot, pelvis_checker_) {
   for (const LocomotionModel::TransitionEntry& transition : model().transitions) {
@@ -119,20 +126,20 @@ bool LongJump::GroundIsWide(const GroundedStance& launch, double begin, double e
   if (!level) return false;
   const double half = (end - begin) / 2;
   const double clearance = world().ground->Clearance(*level, middle);
-  if (clearance >= half + kWideGround) return true;
+  if (clearance >= half + wide_ground_) return true;
   // Halving would never end along a boundary exactly at the limit.
-  if (clearance < kWideGround || half < kSamePose) return false;
+  if (clearance < wide_ground_ || half < kSamePose) return false;
   return GroundIsWide(launch, begin, begin + half) && GroundIsWide(launch, begin + half, end);
 }
 
 bool LongJump::WayIsOpen(const GroundedStance& launch, double distance) const {
-  const double begin = -kWideGround;
-  const double end = distance + kWideGround;
+  const double begin = -wide_ground_;
+  const double end = distance + wide_ground_;
   const std::optional<int> level =
       world().ground->LevelAt(launch.pose.position(), launch.z, kSamePose);
   if (!level) return false;
   const bool one_face_holds = world().ground->OneFaceHolds(
-      *level, launch.pose * Vector2d(begin, 0), launch.pose * Vector2d(end, 0), kWideGround);
+      *level, launch.pose * Vector2d(begin, 0), launch.pose * Vector2d(end, 0), wide_ground_);
   if (!one_face_holds && !GroundIsWide(launch, begin, end)) return false;
   Eigen::AlignedBox3d box = room_;
   box.extend(room_.translated(Eigen::Vector3d(distance, 0, 0)));
@@ -391,7 +398,7 @@ ManoeuvreBounds LongJump::Bounds() const {
     // The lower bound is 0: shorter jumps connect only what walking connects.
     return LandingRange{{Vector2d::Zero(), Vector2d(distances->second, 0)}};
   };
-  bounds.flight = BoundFlight(solver_->settings());
+  bounds.flight = BoundFlight(solver_->settings(), solver_->model().units());
   return bounds;
 }
 

@@ -123,7 +123,10 @@ class LongJump : public Manoeuvre {
   JumpReach reach_;
   const LocomotionModel::TransitionEntry* transition_ = nullptr;  ///< from launch to landing gait
   Eigen::AlignedBox3d room_;  ///< of the gaits and the transition, in the launch stance
-  double highest_rise_ = 0;   ///< m, of a flight above its launch
+  /// Ground this wide around the frames of both stances is enough, m. Narrower ground is tested in
+  /// detail.
+  double wide_ground_;
+  double highest_rise_ = 0;  ///< m, of a flight above its launch
   models::CollisionChecker pelvis_checker_;
   PelvisClearance pelvis_;
 

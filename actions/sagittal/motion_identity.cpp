@@ -9,7 +9,7 @@ namespace possibility::actions {
 namespace {
 
 /// Of SagittalModel; motions solved with another version's joint limits are stale.
-constexpr double kModelVersion = 2;
+constexpr double kModelVersion = 3;
 
 // Every new field of the settings must be added here.
 
@@ -20,8 +20,8 @@ std::vector<double> Fields(const collocation::RobotLimits& l) {
 }
 
 std::vector<double> Fields(const SagittalSettings& s) {
-  return {s.body_clearance, s.hand_clearance, s.hand_approach,
-          s.sole_margin,    s.max_hand_tilt,  s.arm_reach};
+  return {s.least_point_load, s.body_clearance, s.hand_clearance, s.hand_approach,
+          s.sole_margin,      s.max_hand_tilt,  s.arm_reach};
 }
 
 }  // namespace

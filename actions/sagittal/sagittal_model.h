@@ -6,6 +6,7 @@
 
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/self_clearance.h"
+#include "actions/sagittal/natural_units.h"
 #include "dynamics/sagittal/sagittal_reduction.h"
 #include "dynamics/tree/contact_point.h"
 #include "models/robot/robot_model.h"
@@ -52,7 +53,10 @@ class SagittalModel {
     dynamics::ContactPoint tip;
     double length = 0;  ///< m, stretched out
   };
-  const Limb& leg() const { return leg_; }                 ///< to the ankle
+  const Limb& leg() const { return leg_; }  ///< to the ankle
+  NaturalUnits units() const {
+    return {planar()->tree().TotalMass() * dynamics::kGravity, leg_.length};
+  }
   const std::vector<Limb>& arms() const { return arms_; }  ///< by hand
   /// Two points of the body that must stay apart.
   struct Separation {

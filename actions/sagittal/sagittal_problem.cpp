@@ -28,7 +28,6 @@ using Eigen::VectorXd;
 
 constexpr Bounds kFree = {-kInfinity, kInfinity};
 constexpr Bounds kZero = {0, 0};
-constexpr double kForce = 400;        // N, typical
 constexpr double kAcceleration = 20;  // m/s^2, typical of a point
 
 /// weights' z.
@@ -76,6 +75,7 @@ Bounds GapBetween(const SagittalModel& model, double distance) {
 SagittalProblem::SagittalProblem(const std::string& name, const SagittalModel& model,
                                  double distance, double height, const SagittalSettings& settings)
     : model_(model), distance_(distance), height_(height), settings_(settings), problem_(name) {
+  settings_.limits.min_normal_force = settings.least_point_load * model.units().force;
   if (height != 0) step_ = StepBetween(GapBetween(model, distance), height);
 }
 
@@ -140,12 +140,12 @@ void SagittalProblem::HoldSoles(int phase, At at) {
 void SagittalProblem::HoldSoles(int phase, At at, const SoleShares& least) {
   const collocation::RobotPhase& robot = phases_[phase];
   HoldPoints(phase, HeldSolesAnd(robot.points.size() - 2), at);
-  robot.phase->Constrain("centre of pressure",
-                         Differentiated<2, 2>([least](const auto& f, auto* g) {
-                           (*g)[0] = (1 - least.heel) * f[0] - least.heel * f[1];
-                           (*g)[1] = (1 - least.toe) * f[1] - least.toe * f[0];
-                         }),
-                         {robot.f[1], robot.f[3]}, {{0, kInfinity}}, At::kEverywhere, {kForce});
+  robot.phase->Constrain(
+      "centre of pressure", Differentiated<2, 2>([least](const auto& f, auto* g) {
+        (*g)[0] = (1 - least.heel) * f[0] - least.heel * f[1];
+        (*g)[1] = (1 - least.toe) * f[1] - least.toe * f[0];
+      }),
+      {robot.f[1], robot.f[3]}, {{0, kInfinity}}, At::kEverywhere, {model_.units().force});
 }
 
 void SagittalProblem::HoldFeetAndHands(int phase, At at) {
@@ -303,8 +303,13 @@ void SagittalProblem::AddCosts() {
     std::vector<Variable> joints(phase.a.begin() + 3, phase.a.end());
     joints.push_back(phase.a[0]);
     collocation::AddSquareCost("acceleration", joints, 10, 0.01, phase.phase);
-    collocation::AddSquareCost("force", phase.f, kForce, 0.01, phase.phase);
+    collocation::AddSquareCost("force", phase.f, model_.units().force, 0.01, phase.phase);
   }
+}
+
+Bounds SagittalProblem::Times(const Bounds& multiples) const {
+  const double unit = model_.units().time();
+  return {multiples.lower * unit, multiples.upper * unit};
 }
 
 void SagittalProblem::GuessLine(int phase, double duration, double from, double to) {
@@ -313,7 +318,7 @@ void SagittalProblem::GuessLine(int phase, double duration, double from, double 
   landed[1] += distance_;
   landed[2] += height_;
   collocation::RobotPhase& robot = phases_[phase];
-  robot.phase->Guess(robot.phase->duration(), duration);
+  robot.phase->Guess(robot.phase->duration(), duration * model_.units().time());
   for (int k = 0; k < static_cast<int>(robot.q.size()); ++k) {
     const double begin = ready[k] + from * (landed[k] - ready[k]);
     const double change = (to - from) * (landed[k] - ready[k]);

@@ -24,11 +24,11 @@ struct SagittalSettings {
                                      .speed_fraction = 0.9,
                                      .torque_fraction = 0.9,
                                      .max_base_speed = 8,
-                                     .min_normal_force = 30,
                                      .joint_margin = 0.03};
-  double body_clearance = 0.02;  ///< m, guards above the ground in every phase
-  double hand_clearance = 0.03;  ///< m, hands above the ground they leave
-  double hand_approach = 0.01;   ///< m, hands above the ground they are about to touch
+  double least_point_load = 0.07;  ///< of the weight, on every contact point
+  double body_clearance = 0.02;    ///< m, guards above the ground in every phase
+  double hand_clearance = 0.03;    ///< m, hands above the ground they leave
+  double hand_approach = 0.01;     ///< m, hands above the ground they are about to touch
   /// Heel and toe each bear at least this fraction of the sole's load while the sole is flat.
   double sole_margin = 0.1;
   double max_hand_tilt = 0.35;  ///< rad, of a bearing hand from its orientation in the stance
@@ -112,7 +112,10 @@ class SagittalProblem {
   void KeepBent(int phase, const std::string& name, const SagittalModel::Limb& limb, double reach,
                 collocation::At at);
   void AddCosts();
+  /// Durations from multiples of the robot's unit of time (NaturalUnits).
+  collocation::Bounds Times(const collocation::Bounds& multiples) const;
   /// Initial guess: a straight line between two fractions of the way from stance to stance.
+  /// `duration` in the robot's unit of time.
   void GuessLine(int phase, double duration, double from, double to);
 
   const SagittalModel& model_;

@@ -26,8 +26,8 @@ std::string SitDownIdentity(const models::RobotModel& robot, const SitDownSettin
 
 SitDownProblem::SitDownProblem(const SagittalModel& model, const SitDownSettings& settings)
     : SagittalProblem("sit down", model, Displacement(model), 0, settings) {
-  AddPhase("sit", Feet(), settings.sit);
-  AddPhase("bear", FeetAndHands(), settings.bear);
+  AddPhase("sit", Feet(), Times(settings.sit));
+  AddPhase("bear", FeetAndHands(), Times(settings.bear));
   collocation::ContinueRobot(&problem_, phases_[kSit], phases_[kBear], true);
   ContinueAccelerations(kSit, kBear);
   StartAtRest(kSit);
@@ -43,8 +43,8 @@ SitDownProblem::SitDownProblem(const SagittalModel& model, const SitDownSettings
     StayWithinRanges(phase, at);
   }
   AddCosts();
-  GuessLine(kSit, 1.2, 0, 0.8);
-  GuessLine(kBear, 0.8, 0.8, 1);
+  GuessLine(kSit, 4.6, 0, 0.8);
+  GuessLine(kBear, 3.1, 0.8, 1);
 }
 
 }  // namespace possibility::actions

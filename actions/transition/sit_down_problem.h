@@ -5,8 +5,9 @@
 namespace possibility::actions {
 
 struct SitDownSettings : SagittalSettings {
-  collocation::Bounds sit = {0.5, 1.5};   ///< s, on the feet alone
-  collocation::Bounds bear = {0.3, 1.0};  ///< s, on feet and hands
+  // Durations, times sqrt(l / g) (NaturalUnits).
+  collocation::Bounds sit = {2, 5.5};     ///< on the feet alone
+  collocation::Bounds bear = {1.2, 3.9};  ///< on feet and hands
 };
 
 /// Hash of what solved transitions depend on (motion_identity.h).

@@ -238,7 +238,8 @@ TEST(JumpSolverLoopholes, FeetTouchDownSlowly) {
   simbody.SetState(touchdown.q, touchdown.v);
   for (const dynamics::ContactPoint& point : Points({"left_sole", "right_sole"})) {
     const Vector3d v = simbody.PointVelocity(point.link, point.p_L);
-    EXPECT_LT(std::hypot(v.x(), v.z()), 1.5 * Solver().settings().max_contact_speed);
+    EXPECT_LT(std::hypot(v.x(), v.z()),
+              1.5 * Solver().settings().max_contact_speed * Solver().model().units().speed());
     EXPECT_LT(v.z(), 0.05);
   }
 }
@@ -386,7 +387,7 @@ TEST_F(JumpLibraryTest, TheVerifierAcceptsEveryShippedJump) {
 }
 
 TEST_F(JumpLibraryTest, NoShippedJumpFliesBeyondItsBound) {
-  const FlightBounds bounds = BoundFlight(Solver().settings());
+  const FlightBounds bounds = BoundFlight(Solver().settings(), Solver().model().units());
   for (const auto& jump : ShippedJumps()) {
     const std::vector<Knot>& flight = jump->phases.at(kFlight).knots;
     const auto place = [](const Knot& knot) -> Vector3d { return knot.q.segment<3>(4); };
