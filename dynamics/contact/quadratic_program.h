@@ -30,7 +30,8 @@ struct QuadraticProgramSolution {
   int iterations = 0;
 };
 
-/// Dual active-set method (Goldfarb & Idnani 1983). Constraints hold to a relative 1e-11.
+/// Dual active-set method (Goldfarb & Idnani 1983). Constraints hold to a relative 1e-11,
+/// dependent equalities to equality_tolerance.
 /// @throws std::invalid_argument if sizes disagree, a number is not finite or H is not positive
 /// definite.
 QuadraticProgramSolution Solve(const QuadraticProgram& program);
