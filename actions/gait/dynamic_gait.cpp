@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "actions/motion/phase_sequence.h"
@@ -68,92 +66,16 @@ std::vector<Pace> Candidates(const models::GaitParameters& parameters, double he
   return paces;
 }
 
-/// Ways differ if a stride moves or turns the stance by more, m and rad.
-constexpr double kBend = 1e-6;
+/// Links that come too close to each other, in some phases of a motion.
+class CloseLinks : public MotionError {
+ public:
+  CloseLinks(const std::string& message, std::vector<int> phases)
+      : MotionError(message, phases.front()), phases_(std::move(phases)) {}
+  const std::vector<int>& phases() const { return phases_; }
 
-/// Whether the way bends between two strides.
-bool Bends(const PlanarPose& a, const PlanarPose& b, const PlanarPose& c) {
-  const Eigen::Vector2d before = b.position() - a.position();
-  const Eigen::Vector2d after = c.position() - b.position();
-  const double turn = WrapAngle(c.yaw - b.yaw) - WrapAngle(b.yaw - a.yaw);
-  return (after - before).norm() > kBend || std::abs(turn) > kBend;
-}
-
-/// Steps that bring all limbs together in every bend, so that no limb cuts a corner: each swing
-/// stays inside the swept volume of one straight way.
-std::vector<Step> StepsAlong(const NominalStance& stance,
-                             const std::vector<std::vector<int>>& groups,
-                             const std::vector<PlanarPose>& strides, const StepBounds& bounds) {
-  std::vector<Step> steps;
-  std::vector<PlanarPose> line;
-  for (std::size_t i = 0; i < strides.size(); ++i) {
-    line.push_back(strides[i]);
-    const bool is_end =
-        i + 1 == strides.size() || (i > 0 && Bends(strides[i - 1], strides[i], strides[i + 1]));
-    if (!is_end || line.size() < 2) continue;
-    const std::vector<Step> more = PlanSteps(stance, groups, line, bounds);
-    if (more.empty()) throw MotionError("no footholds along the way");
-    steps.insert(steps.end(), more.begin(), more.end());
-    line = {strides[i]};
-  }
-  if (steps.empty()) throw MotionError("no footholds along the way");
-  return steps;
-}
-
-/// Where each step takes its group, seen from the group's place before. `start`: of all groups.
-std::vector<PlanarPose> Displacements(const std::vector<Step>& steps, const PlanarPose& start) {
-  std::map<int, PlanarPose> places;
-  std::vector<PlanarPose> displacements;
-  for (const Step& step : steps) {
-    const PlanarPose from = places.contains(step.group) ? places[step.group] : start;
-    displacements.push_back(from.Inverse() * step.stance);
-    places[step.group] = step.stance;
-  }
-  return displacements;
-}
-
-/// Steps are alike if their displacements differ by less, m and rad; of either side.
-constexpr double kAlike = 0.01;
-
-bool AreAlike(const PlanarPose& a, const PlanarPose& b) {
-  return std::abs(a.x - b.x) < kAlike && std::abs(std::abs(a.y) - std::abs(b.y)) < kAlike &&
-         std::abs(std::abs(a.yaw) - std::abs(b.yaw)) < kAlike;
-}
-
-/// Steps that fail, those alike, and the neighbours of all are slowed down by this factor at a
-/// time, and by the most in all.
-constexpr double kSlower = 1.25;
-constexpr double kSlowest = 2;
-
-/// Slows down the step of a schedule's interval (ScheduleOf). False if the interval is unknown or
-/// its step is as slow as it may be.
-bool SlowDown(int interval, const PlanarPose& start, std::vector<Step>* steps) {
-  if (interval < 0) return false;
-  const int last = static_cast<int>(steps->size()) - 1;
-  const int step = std::clamp((interval - 1) / 2, 0, last);
-  const double slowness = (*steps)[step].slowness;
-  if (kSlower * slowness > kSlowest) return false;
-  const std::vector<PlanarPose> displacements = Displacements(*steps, start);
-  std::set<int> slower;
-  for (int i = 0; i <= last; ++i) {
-    if ((*steps)[i].slowness != slowness || !AreAlike(displacements[i], displacements[step])) {
-      continue;
-    }
-    slower.insert({std::max(0, i - 1), i, std::min(last, i + 1)});
-  }
-  for (const int i : slower) (*steps)[i].slowness *= kSlower;
-  return true;
-}
-
-/// Shares of a pace's steps aside and in turns that are tried: legs that come too close to each
-/// other need shorter ones.
-constexpr double kShorter[] = {1, 0.75, 0.5};
-
-Pace Shortened(Pace pace, double share) {
-  pace.bounds.lateral *= share;
-  pace.bounds.turn *= share;
-  return pace;
-}
+ private:
+  std::vector<int> phases_;
+};
 
 /// Closing up at the end of a straight way, s, and a share of a step because ways are no whole
 /// number of steps. On average it is less than half: some ways fit.
@@ -262,18 +184,20 @@ std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<Pla
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                                          const Demands& demands, bool adapts,
                                          const CancellationToken& cancellation) const {
-  std::vector<Step> steps = StepsAlong(*stance_, groups_, strides, pace.bounds);
+  SteppedWay way(*stance_, groups_, strides, pace.bounds);
   while (true) {
     try {
-      return MotionOf(pace, strides.front(), steps, demands, cancellation);
+      return MotionOf(pace, way, demands, cancellation);
+    } catch (const CloseLinks& error) {
+      if (!adapts || !way.Shorten(error.phases())) throw;
     } catch (const MotionError& error) {
-      if (!adapts || !SlowDown(error.phase(), strides.front(), &steps)) throw;
+      if (!adapts || !(way.SlowDown(error.phase()) || way.Shorten({error.phase()}))) throw;
     }
   }
 }
 
-std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& start,
-                                         const std::vector<Step>& steps, const Demands& demands,
+std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const SteppedWay& way,
+                                         const Demands& demands,
                                          const CancellationToken& cancellation) const {
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
@@ -283,9 +207,9 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
   pattern.end_joints = demands.end.joints;
   pattern.turning_time = demands.end.turning_time;
   const models::ContactSchedule schedule =
-      ScheduleOf(*robot_, *stance_, groups_, start, steps, pace.timing);
+      ScheduleOf(*robot_, *stance_, groups_, way.start(), way.Steps(), pace.timing);
   Eigen::VectorXd guess = stance_->q;
-  guess.segment<2>(4) = start.position();
+  guess.segment<2>(4) = way.start().position();
   std::vector<Phase> motion =
       MotionBuilder(*robot_, demands.settings)
           .Build(PatternPhases(*robot_, *stance_, schedule, pattern, cancellation), guess,
@@ -297,17 +221,24 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const PlanarPose& sta
 void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion,
                                        const Demands& demands) const {
   dynamics::TreeKinematics kinematics(*robot_);
-  for (const Phase& phase : motion) {
-    for (const Knot& knot : phase.knots) {
+  std::string first;
+  std::vector<int> phases;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    for (const Knot& knot : motion[i].knots) {
       kinematics.SetPosition(knot.q);
       const auto faults = demands.self_clearance.Faults(kinematics.X_WL(), demands.clearance);
       if (faults.empty()) continue;
       const auto& [pair, required] = faults.front();
-      throw MotionError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
-                                    robot_->links[pair.link].name, pair.distance,
-                                    robot_->links[pair.other].name, knot.t, required));
+      if (phases.empty()) {
+        first = fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
+                            robot_->links[pair.link].name, pair.distance,
+                            robot_->links[pair.other].name, knot.t, required);
+      }
+      phases.push_back(static_cast<int>(i));
+      break;
     }
   }
+  if (!phases.empty()) throw CloseLinks(first, phases);
 }
 
 std::vector<std::vector<PlanarPose>> DynamicGait::Divided(
@@ -356,12 +287,10 @@ std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strid
   for (const double clearance : {kSelfClearance, kLeastClearance}) {
     demands.clearance = clearance;
     for (const Pace& pace : paces_) {
-      for (const double share : kShorter) {
-        try {
-          return MotionAt(Shortened(pace, share), strides, demands, true, cancellation);
-        } catch (const MotionError& error) {
-          fault = error.what();
-        }
+      try {
+        return MotionAt(pace, strides, demands, true, cancellation);
+      } catch (const MotionError& error) {
+        fault = error.what();
       }
     }
   }

@@ -7,6 +7,7 @@
 #include "actions/gait/gait_motion.h"
 #include "actions/gait/pace.h"
 #include "actions/gait/quasi_static_gait.h"
+#include "actions/gait/stepped_way.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/pattern_motion.h"
 #include "actions/motion/self_clearance.h"
@@ -49,7 +50,9 @@ class DynamicGait final : public GaitMotion {
   const std::vector<Pace>& paces() const { return paces_; }
 
   /// The motion at a pace. With `adapts`, steps that fail, and their neighbours, are slowed down up
-  /// to half the speed. @throws MotionError naming the limit it would exceed; Cancelled.
+  /// to half the speed; where that does not help, or links come too close to each other, steps
+  /// aside and in turns become shorter, along that straight way only.
+  /// @throws MotionError naming the limit it would exceed; Cancelled.
   std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                               const MotionSettings& settings, bool adapts,
                               const CancellationToken& cancellation = {}) const;
@@ -71,15 +74,14 @@ class DynamicGait final : public GaitMotion {
   std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                               const Demands& demands, bool adapts,
                               const CancellationToken& cancellation) const;
-  std::vector<Phase> MotionOf(const Pace& pace, const PlanarPose& start,
-                              const std::vector<Step>& steps, const Demands& demands,
+  std::vector<Phase> MotionOf(const Pace& pace, const SteppedWay& way, const Demands& demands,
                               const CancellationToken& cancellation) const;
   std::vector<Pace> FittedPaces() const;
   /// Whether the robot can repeat a step at this pace, with margins.
   bool Fits(const Pace& pace, const PlanarPose& step) const;
   /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
   std::optional<Pace> Fitted(Pace pace) const;
-  /// @throws MotionError naming two links that come closer than demanded.
+  /// @throws CloseLinks if links come closer to each other than demanded.
   void RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands) const;
 
   const models::RobotModel* robot_;

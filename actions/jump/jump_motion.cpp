@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -23,6 +24,14 @@ using Eigen::VectorXd;
 constexpr double kRollSpacing = 0.0025;
 constexpr double kFlightSpacing = 0.005;
 
+/// Passes of the landing's correction: steps of the flight in multiples of the knots' spacing, and
+/// the error that is left, rad.
+struct Correction {
+  int coarser;
+  double error;
+};
+constexpr std::array<Correction, 2> kCorrections = {{{4, 1e-6}, {1, 1e-10}}};
+
 /// Rise and descent agree at the apex in position and speed only. A quintic blends them over this
 /// time before and after it, s, because interpolation between knots cannot follow a jump in
 /// acceleration.
@@ -32,27 +41,35 @@ int Intervals(double duration, double spacing) {
   return std::max(4, static_cast<int>(std::ceil(duration / spacing - 1e-9)));
 }
 
-/// x at which change(x) = 0 (Broyden 1965, his first method), from a guess at which a step by
-/// `change` is reasonable. @throws MotionError if there is none nearby.
-VectorXd FixedPoint(const std::function<VectorXd(const VectorXd&)>& change, VectorXd x) {
-  constexpr double kTolerance = 1e-10;
-  constexpr int kMostRounds = 40;
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(x.size(), x.size());
-  VectorXd value = change(x);
-  for (int round = 0; round < kMostRounds; ++round) {
-    if (value.lpNorm<Eigen::Infinity>() < kTolerance) return x;
-    const VectorXd step = inverse * value;
-    x += step;
-    const VectorXd next = change(x);
-    // With J the negative Jacobian of `change`: J step = value - next.
-    const VectorXd mapped = inverse * (value - next);
-    const double scale = step.dot(mapped);
-    if (scale == 0) break;
-    inverse += (step - mapped) * (step.transpose() * inverse) / scale;
-    value = next;
+/// Finds x at which change(x) = 0 (Broyden 1965, his first method), from a guess at which a step by
+/// `change` is reasonable. What it has learnt of the Jacobian serves the next, similar function.
+class FixedPoint {
+ public:
+  explicit FixedPoint(Eigen::Index n) : inverse_(Eigen::MatrixXd::Identity(n, n)) {}
+
+  /// @throws MotionError if there is none nearby.
+  VectorXd Solve(const std::function<VectorXd(const VectorXd&)>& change, VectorXd x,
+                 double tolerance) {
+    constexpr int kMostRounds = 40;
+    VectorXd value = change(x);
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (value.lpNorm<Eigen::Infinity>() < tolerance) return x;
+      const VectorXd step = inverse_ * value;
+      x += step;
+      const VectorXd next = change(x);
+      // With J the negative Jacobian of `change`: J step = value - next.
+      const VectorXd mapped = inverse_ * (value - next);
+      const double scale = step.dot(mapped);
+      if (scale == 0) break;
+      inverse_ += (step - mapped) * (step.transpose() * inverse_) / scale;
+      value = next;
+    }
+    throw MotionError("the landing cannot be corrected in flight");
   }
-  throw MotionError("the landing cannot be corrected in flight");
-}
+
+ private:
+  Eigen::MatrixXd inverse_;
+};
 
 }  // namespace
 
@@ -112,7 +129,8 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
                       const Support& feet, JumpMotionReport* report) {
   const int n = stance_.robot().num_joints();
   const double duration = rise.duration + descent.duration;
-  const int intervals = Intervals(duration, kFlightSpacing);
+  const int intervals =
+      kCorrections[0].coarser * Intervals(duration, kCorrections[0].coarser * kFlightSpacing);
   VectorXd correction = VectorXd::Zero(n);
   const double blend = std::min({kApexBlend, rise.duration / 2, descent.duration / 2});
   const Signal<VectorXd> before = stance_.Joints(rise, rise.duration - blend);
@@ -134,12 +152,15 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
   };
   FreeFlight flight(spatial_);
   flight.TakeOff(from.q, from.v);
-  const auto change = [&](const VectorXd& tried) -> VectorXd {
-    correction = tried;
-    const Knot landing = flight.Land(joints, duration, intervals);
-    return (stance_.StateAt(landing, feet).q - landing.q).tail(n);
-  };
-  correction = FixedPoint(change, correction);
+  FixedPoint fixed_point(n);
+  for (const auto& [coarser, error] : kCorrections) {
+    const auto change = [&](const VectorXd& tried) -> VectorXd {
+      correction = tried;
+      const Knot landing = flight.Land(joints, duration, intervals / coarser);
+      return (stance_.StateAt(landing, feet).q - landing.q).tail(n);
+    };
+    correction = fixed_point.Solve(change, correction, error);
+  }
   report->landing_correction = correction.lpNorm<Eigen::Infinity>();
   Phase phase;
   phase.knots = flight.Fly(joints, duration, intervals);

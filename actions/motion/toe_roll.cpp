@@ -52,13 +52,8 @@ ToeRoll::Turn ToeRoll::Advance(const Turn& turn, double t, double step, const Jo
 }
 
 double ToeRoll::Acceleration(const Turn& turn, const Signal<VectorXd>& joints) {
-  const double at_rest = Place(turn, joints, 0);
-  return at_rest / (at_rest - Place(turn, joints, 1));
-}
-
-double ToeRoll::Place(const Turn& turn, const Signal<VectorXd>& joints, double pitch) {
+  // Forces and accelerations depend neither on where the robot is nor on its velocity as a whole.
   const Eigen::Index n = joints.value.size();
-  const double y = q_[5];
   q_.head<4>() << std::cos(turn.pitch / 2), 0, std::sin(turn.pitch / 2), 0;
   q_.segment<3>(4).setZero();
   q_.tail(n) = joints.value;
@@ -66,25 +61,37 @@ double ToeRoll::Place(const Turn& turn, const Signal<VectorXd>& joints, double p
   v_[1] = turn.rate;
   v_.tail(n) = joints.rate;
   a_.setZero(6 + n);
-  a_[1] = pitch;
   a_.tail(n) = joints.acceleration;
   dynamics_.SetState(q_, v_, a_);
-  const dynamics::ContactPoint& toe = toes_.front();
-  const Vector3d reach = dynamics_.Position(toe);
-  v_.segment<3>(3) -= dynamics_.Velocity(toe);
-  a_.segment<3>(3) -= dynamics_.Acceleration(toe);
-  v_[4] = a_[4] = 0;
-  q_.segment<3>(4) = anchor_ - reach;
+  reach_ = dynamics_.Position(toes_.front());
+  drift_ = dynamics_.Acceleration(toes_.front());
+  const double at_rest = Moment(0);
+  return at_rest / (at_rest - Moment(1));
+}
+
+double ToeRoll::Moment(double pitch) {
+  a_[1] = pitch;
+  a_[3] = -drift_.x() - pitch * reach_.z();
+  a_[5] = -drift_.z() + pitch * reach_.x();
+  dynamics_.SetAcceleration(a_);
+  const VectorXd& forces = dynamics_.InverseDynamics();
+  return forces[1] - reach_.z() * forces[3] + reach_.x() * forces[5];
+}
+
+void ToeRoll::Place(const Turn& turn, const Signal<VectorXd>& joints) {
+  const double y = q_[5];
+  Moment(Acceleration(turn, joints));
+  const Vector3d velocity = dynamics_.Velocity(toes_.front());
+  v_[3] = -velocity.x();
+  v_[5] = -velocity.z();
+  q_.segment<3>(4) = anchor_ - reach_;
   q_[5] = y;
   dynamics_.SetState(q_, v_, a_);
-  const VectorXd& forces = dynamics_.InverseDynamics();
-  const Vector3d arm = -reach;
-  return forces[1] + arm.z() * forces[3] - arm.x() * forces[5];
 }
 
 Knot ToeRoll::KnotAt(const Turn& turn, double t, const JointMotion& joints) {
   const Signal<VectorXd> motion = joints(t);
-  Place(turn, motion, Acceleration(turn, motion));
+  Place(turn, motion);
   RequireJointLimits(dynamics_.model().tree(), q_, v_, settings_.speed_margin, t);
   dynamics::ContactForceSettings force_settings;
   force_settings.friction = dynamics_.model().tree().friction;

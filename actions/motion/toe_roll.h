@@ -30,12 +30,14 @@ class ToeRoll {
     double pitch = 0;
     double rate = 0;
   };
+  /// Of the root's pitch, rad/s^2: at which the ground exerts no moment about the line of the toes.
   double Acceleration(const Turn& turn, const Signal<Eigen::VectorXd>& joints);
+  /// In the state of Acceleration: that moment (N m), if the root's pitch accelerates at `pitch`
+  /// (rad/s^2) and the toes stay where they are.
+  double Moment(double pitch);
   Turn Advance(const Turn& turn, double t, double step, const JointMotion& joints);
-  /// Sets the state in which the toes are at their initial place, and accelerates the root at
-  /// `pitch` (rad/s^2) so that they stay. Returns the ground's required moment about the line of
-  /// the toes.
-  double Place(const Turn& turn, const Signal<Eigen::VectorXd>& joints, double pitch);
+  /// Sets the state in which the toes are at their initial place.
+  void Place(const Turn& turn, const Signal<Eigen::VectorXd>& joints);
   Knot KnotAt(const Turn& turn, double t, const JointMotion& joints);
 
   dynamics::MultibodyDynamics dynamics_;
@@ -43,6 +45,8 @@ class ToeRoll {
   MotionSettings settings_;
   Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();
   Eigen::VectorXd q_, v_, a_;
+  Eigen::Vector3d reach_ = Eigen::Vector3d::Zero();  ///< m: of a toe from the root
+  Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();  ///< m/s^2: of a toe, with the root at rest
 };
 
 }  // namespace possibility::actions
