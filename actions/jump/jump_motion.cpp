@@ -24,13 +24,13 @@ using Eigen::VectorXd;
 constexpr double kRollSpacing = 0.0025;
 constexpr double kFlightSpacing = 0.005;
 
-/// Passes of the landing's correction: steps of the flight in multiples of the knots' spacing, and
-/// the error that is left, rad.
+/// Passes of the landing's correction: at first with few knots.
 struct Correction {
-  int coarser;
-  double error;
+  double spacing;  ///< s, of the knots
+  double error;    ///< rad, that is left
 };
-constexpr std::array<Correction, 2> kCorrections = {{{4, 1e-6}, {1, 1e-10}}};
+constexpr std::array<Correction, 2> kCorrections = {
+    {{4 * kFlightSpacing, 1e-6}, {kFlightSpacing, 1e-10}}};
 
 /// Rise and descent agree at the apex in position and speed only. A quintic blends them over this
 /// time before and after it, s, because interpolation between knots cannot follow a jump in
@@ -129,9 +129,6 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
                       const Support& feet, JumpMotionReport* report) {
   const int n = stance_.robot().num_joints();
   const double duration = rise.duration + descent.duration;
-  const int intervals =
-      kCorrections[0].coarser * Intervals(duration, kCorrections[0].coarser * kFlightSpacing);
-  VectorXd correction = VectorXd::Zero(n);
   const double blend = std::min({kApexBlend, rise.duration / 2, descent.duration / 2});
   const Signal<VectorXd> before = stance_.Joints(rise, rise.duration - blend);
   const Signal<VectorXd> after = stance_.Joints(descent, blend);
@@ -141,29 +138,31 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
     if (past_apex > blend) return stance_.Joints(descent, past_apex);
     return Quintic(before, after, past_apex + blend, 2 * blend);
   };
-  // Every correction needs the plan at the same times: those of Runge and Kutta's method.
-  const double half_step = duration / intervals / 2;
-  std::vector<Signal<VectorXd>> planned;
-  for (int i = 0; i <= 2 * intervals; ++i) planned.push_back(plan(i * half_step));
-  const VectorXd none = VectorXd::Zero(n);
-  const JointMotion joints = [&](double t) {
-    const auto i = static_cast<std::size_t>(std::lround(t / half_step));
-    return planned[i] + BlendVector<VectorXd>(none, correction, RestToRest(t, duration));
-  };
   FreeFlight flight(spatial_);
   flight.TakeOff(from.q, from.v);
   FixedPoint fixed_point(n);
-  for (const auto& [coarser, error] : kCorrections) {
+  VectorXd correction = VectorXd::Zero(n);
+  Phase phase;
+  for (const auto& [spacing, error] : kCorrections) {
+    const int intervals = Intervals(duration, spacing);
+    // Every correction needs the plan at the same times: those of Runge and Kutta's method.
+    const double half_step = duration / intervals / 2;
+    std::vector<Signal<VectorXd>> planned;
+    for (int i = 0; i <= 2 * intervals; ++i) planned.push_back(plan(i * half_step));
+    const JointMotion joints = [&](double t) {
+      const auto i = static_cast<std::size_t>(std::lround(t / half_step));
+      return planned[i] +
+             BlendVector<VectorXd>(VectorXd::Zero(n), correction, RestToRest(t, duration));
+    };
     const auto change = [&](const VectorXd& tried) -> VectorXd {
       correction = tried;
-      const Knot landing = flight.Land(joints, duration, intervals / coarser);
+      const Knot landing = flight.Land(joints, duration, intervals);
       return (stance_.StateAt(landing, feet).q - landing.q).tail(n);
     };
     correction = fixed_point.Solve(change, correction, error);
+    phase.knots = flight.Fly(joints, duration, intervals);  // the last pass counts
   }
   report->landing_correction = correction.lpNorm<Eigen::Infinity>();
-  Phase phase;
-  phase.knots = flight.Fly(joints, duration, intervals);
   return phase;
 }
 

@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "dynamics/tree/tree_kinematics.h"
-
 namespace possibility::actions {
 namespace {
 
@@ -36,7 +34,9 @@ Quaterniond Moved(const Quaterniond& R, double step, const Quaterniond& rate) {
 }  // namespace
 
 FreeFlight::FreeFlight(std::shared_ptr<const dynamics::MultibodyModel> model)
-    : dynamics_(std::move(model)), mass_(dynamics_.model().tree().TotalMass()) {}
+    : dynamics_(std::move(model)),
+      kinematics_(dynamics_.model().tree()),
+      mass_(dynamics_.model().tree().TotalMass()) {}
 
 void FreeFlight::TakeOff(const VectorXd& q, const VectorXd& v) {
   dynamics_.SetState(q, v);
@@ -89,17 +89,28 @@ Quaterniond FreeFlight::Advance(const Quaterniond& R, double step, const JointsS
   return Moved(R, step, mean);
 }
 
-/// From the root's rows of the mass matrix. With the centre of mass at c from the root, the angular
-/// momentum about it is L - c x p, and m [c]x is the block that links rotation and translation.
 FreeFlight::JointsShare FreeFlight::ShareOf(const Signal<VectorXd>& joints) {
-  const Eigen::Index n = joints.rate.size();
-  dynamics_.SetState(Configuration(Quaterniond::Identity(), Vector3d::Zero(), joints.value),
-                     VectorXd::Zero(6 + n));
-  const Eigen::MatrixXd& M = dynamics_.MassMatrix();
-  const Eigen::Matrix<double, 6, 1> momentum = M.topRightCorner(6, n) * joints.rate;
-  const Matrix3d crossed = M.block<3, 3>(0, 3) / mass_;
-  return {M.topLeftCorner<3, 3>() - mass_ * crossed * crossed.transpose(),
-          momentum.head<3>() - crossed * momentum.tail<3>()};
+  VectorXd velocity = VectorXd::Zero(6 + joints.rate.size());
+  velocity.tail(joints.rate.size()) = joints.rate;
+  const dynamics::MultibodyModel& model = dynamics_.model();
+  kinematics_.SetPosition(model.TreeConfiguration(
+      Configuration(Quaterniond::Identity(), Vector3d::Zero(), joints.value)));
+  kinematics_.SetVelocity(model.TreeVelocity(velocity));
+  const Vector3d centre = kinematics_.CentreOfMass();
+  const std::vector<models::Link>& links = model.tree().links;
+  JointsShare share{Matrix3d::Zero(), Vector3d::Zero()};
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const models::Inertial& inertial = links[i].inertial;
+    const int link = static_cast<int>(i);
+    const Matrix3d& R = kinematics_.X_WL()[i].linear();
+    const Matrix3d inertia = R * inertial.I_LC * R.transpose();
+    const Vector3d arm = kinematics_.Position(link, inertial.p_LC) - centre;
+    share.inertia += inertia + inertial.mass * (arm.squaredNorm() * Matrix3d::Identity() -
+                                                arm * arm.transpose());
+    share.momentum += inertia * kinematics_.AngularVelocity(link) +
+                      inertial.mass * arm.cross(kinematics_.Velocity(link, inertial.p_LC));
+  }
+  return share;
 }
 
 Vector3d FreeFlight::AngularVelocity(const Quaterniond& R, const JointsShare& share) const {

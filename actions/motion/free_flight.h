@@ -8,6 +8,7 @@
 #include "actions/motion/signal.h"
 #include "actions/plan/plan.h"
 #include "dynamics/tree/multibody_dynamics.h"
+#include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
 
@@ -49,6 +50,7 @@ class FreeFlight {
   Knot KnotAt(const Eigen::Quaterniond& R, double t, const JointMotion& joints);
 
   dynamics::MultibodyDynamics dynamics_;
+  dynamics::TreeKinematics kinematics_;
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();  ///< at take-off
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();               ///< com at take-off, m
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();               ///< of the com, m/s

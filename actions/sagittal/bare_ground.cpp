@@ -63,6 +63,7 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
   plan.segments = {{kMotion, phases}};
   VerifierSettings settings;
   settings.simulates = simulates;
+  settings.measures_margins = false;
   const VerificationReport report = Verify(plan, robot, scenario, settings);
   if (report.accepted()) return {};
   const Violation& worst = report.violations.front();

@@ -24,8 +24,9 @@ using Eigen::VectorXd;
 // at this share of their speed limits: a gait may turn them in its last steps as well.
 constexpr double kPreparation = 1.0;  // s
 constexpr double kPreparationSpeed = 0.9;
-constexpr double kKnotSpacing = 0.01;  // s
-constexpr double kVast = 20;           // m
+constexpr double kKnotSpacing = 0.01;         // s
+constexpr double kPreparationSpacing = 0.02;  // s: the root rests
+constexpr double kVast = 20;                  // m
 constexpr double kCorrection = 0.5;    // s, time until the motion is as planned, if there is time
 constexpr double kTurningSpeed = 0.6;  // of a joint's speed limit, while it turns to the plan
 
@@ -208,7 +209,9 @@ Phase StanceMotion::Prepare() const {
     task.joints = BlendVector<VectorXd>(from, to, RestToRest(t, duration));
     return task;
   };
-  return MotionBuilder(robot_, settings_).Build({phase}, launch_.q).front();
+  MotionSettings settings = settings_;
+  settings.knot_spacing = kPreparationSpacing;
+  return MotionBuilder(robot_, settings).Build({phase}, launch_.q).front();
 }
 
 Signal<VectorXd> StanceMotion::Joints(const PhaseTrajectory& plan, double t) const {

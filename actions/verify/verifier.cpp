@@ -40,7 +40,9 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
     VerifyRollouts(subject, settings, log, report);
   }
   if (report->cancelled) return;
-  report->margins = MeasureMargins(plan, robot, scenario.environment, ground);
+  if (settings.measures_margins) {
+    report->margins = MeasureMargins(plan, robot, scenario.environment, ground);
+  }
 }
 
 }  // namespace

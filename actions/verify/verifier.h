@@ -22,7 +22,8 @@ struct VerificationReport {
   std::vector<Violation> violations;  ///< the worst of each kind; empty: accepted
   /// By dynamic stretch, in order. Empty if the plan has another violation.
   std::vector<StretchRollout> rollouts;
-  std::optional<PlanMargins> margins;  ///< none if the plan's structure is broken, or if cancelled
+  /// None if the plan's structure is broken, if cancelled, or if they were not asked for.
+  std::optional<PlanMargins> margins;
   std::int64_t samples = 0;
   double resolution = 0;  ///< s, largest time between samples
   /// Bounds on deviations from the straight line between two samples: of bearing points (m), and of
@@ -41,6 +42,7 @@ struct VerifierSettings {
   double resolution = 0.005;  ///< s, largest sample time; fast motions are sampled more densely
   /// Also simulates dynamic stretches: seconds for each.
   bool simulates = true;
+  bool measures_margins = true;
   int threads = 1;  ///< samples are independent; the report does not depend on it
 };
 

@@ -198,7 +198,6 @@ class Solver {
         const double step = working_.FullStep(residual);
         working_.Step(step);
         working_.Add(static_cast<int>(i), program_.e[i], step);
-        working_.Polish();
         size_ = std::max(size_, working_.x().norm());
       } else if (std::abs(residual) >
                  program_.equality_tolerance * (std::abs(program_.e[i]) + normal.norm() * size_)) {
@@ -206,6 +205,7 @@ class Solver {
       }
     }
     equalities_ = working_.size();
+    working_.Polish();
     return true;
   }
 
