@@ -15,10 +15,10 @@ namespace {
 using collocation::At;
 using collocation::Bounds;
 using collocation::Differentiated;
-using collocation::EndVariable;
 using collocation::kInfinity;
 using collocation::PointVelocities;
 using collocation::Variable;
+using collocation::VariableAt;
 
 constexpr Bounds kZero = {0, 0};
 
@@ -132,7 +132,7 @@ void JumpProblem::AddImpact() {
   const double friction = settings_.limits.friction * settings_.limits.friction_fraction;
   const double unit = model_.units().impulse();
   const double typical = kImpulse * unit;
-  std::vector<EndVariable> impact;
+  std::vector<VariableAt> impact;
   for (const Variable& q : after.q) impact.push_back({q, At::kStart});
   for (const Variable& v : before.v) impact.push_back({v, At::kEnd});
   for (const Variable& v : after.v) impact.push_back({v, At::kStart});

@@ -19,6 +19,9 @@ class CostTerm {
            PolynomialForm weight);
 
   void FindSlots(ElementSlots* hessian);
+  /// Calls visit(variable) for every variable of the gradient; some more than once.
+  template <typename Visit>
+  void ForVariables(const Visit& visit) const;
 
   double Evaluate(const Eigen::VectorXd& x);
   void AddGradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient);
@@ -31,5 +34,15 @@ class CostTerm {
   std::vector<int> weight_slots_;  // of products of the weight and f, in the order of AddHessian
   Eigen::VectorXd multiplier_;     // 1
 };
+
+template <typename Visit>
+void CostTerm::ForVariables(const Visit& visit) const {
+  std::vector<PolynomialForm> forms = function_.arguments();
+  forms.push_back(weight_);
+  const Eigen::VectorXd x = PointFor(forms);
+  for (const PolynomialForm& form : forms) {
+    form.Gradient(x, [&](int variable, double) { visit(variable); });
+  }
+}
 
 }  // namespace possibility::collocation

@@ -230,9 +230,7 @@ void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
                       std::vector<Variable> arguments, std::vector<Bounds> bounds, At at,
                       std::vector<double> scales) {
   CheckArguments(name, f.get(), arguments);
-  for (const PathConstraint& other : constraints_) {
-    if (other.name == name) Fail(fmt::format("two constraints are named '{}'", name));
-  }
+  CheckNameOfConstraint(name);
   if (bounds.size() == 1) bounds.resize(f->num_outputs(), bounds.front());
   if (static_cast<int>(bounds.size()) != f->num_outputs()) {
     Fail(fmt::format("'{}' has {} outputs and {} bounds", name, f->num_outputs(), bounds.size()));
@@ -270,6 +268,30 @@ void Phase::AddIntegralCost(const std::string& name, std::shared_ptr<Function> f
   costs_.push_back({name, std::move(f), std::move(arguments), weight});
 }
 
+void Phase::CheckNameOfConstraint(const std::string& name) const {
+  const auto is_named = [&](const auto& other) { return other.name == name; };
+  if (std::any_of(constraints_.begin(), constraints_.end(), is_named) ||
+      std::any_of(integrals_.begin(), integrals_.end(), is_named)) {
+    Fail(fmt::format("two constraints are named '{}'", name));
+  }
+}
+
+void Phase::ConstrainIntegral(const std::string& name, std::shared_ptr<Function> f,
+                              std::vector<Variable> arguments, Bounds bounds, double scale) {
+  CheckArguments(name, f.get(), arguments);
+  CheckNameOfConstraint(name);
+  if (f->num_outputs() != 1) {
+    Fail(fmt::format("integral '{}' has {} outputs", name, f->num_outputs()));
+  }
+  if (Contradict(bounds)) {
+    Fail(fmt::format("'{}': contradictory bounds {}", name, Describe(bounds)));
+  }
+  if (!(scale > 0 && std::isfinite(scale))) {
+    Fail(fmt::format("'{}': expected a scale above 0, got {}", name, scale));
+  }
+  integrals_.push_back({name, std::move(f), std::move(arguments), bounds, scale});
+}
+
 void Phase::Guess(Variable variable, std::function<double(double)> value) {
   if (variable == duration()) {
     duration_guess_ = std::move(value);
@@ -281,6 +303,8 @@ void Phase::Guess(Variable variable, std::function<double(double)> value) {
 void Phase::Guess(Variable variable, double value) {
   Guess(variable, [value](double) { return value; });
 }
+
+VariableAt AtShare(Variable variable, double share) { return {variable, At::kInside, share}; }
 
 OptimalControlProblem::OptimalControlProblem(std::string name)
     : name_(std::move(name)), number_(NextNumber()) {}
@@ -318,21 +342,27 @@ std::vector<std::string> OptimalControlProblem::ParameterNames() const {
   return names;
 }
 
-void OptimalControlProblem::CheckEnds(const std::string& name, const Function* f,
-                                      const std::vector<EndVariable>& arguments) const {
+void OptimalControlProblem::CheckInstants(const std::string& name, const Function* f,
+                                          const std::vector<VariableAt>& arguments) const {
   if (f == nullptr) Fail(fmt::format("'{}' has no function", name));
   if (static_cast<int>(arguments.size()) != f->num_inputs()) {
     Fail(fmt::format("'{}' takes {} arguments, got {}", name, f->num_inputs(), arguments.size()));
   }
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (Knows(arguments[i].variable)) continue;
-    Fail(fmt::format("'{}': argument {} is {}", name, i, DescriptionOf(arguments[i].variable)));
+    const VariableAt& argument = arguments[i];
+    if (!Knows(argument.variable)) {
+      Fail(fmt::format("'{}': argument {} is {}", name, i, DescriptionOf(argument.variable)));
+    }
+    if (argument.share && !(*argument.share >= 0 && *argument.share <= 1)) {
+      Fail(fmt::format("'{}': '{}' at the share {} of its phase, expected 0 to 1", name,
+                       NameOf(argument.variable), *argument.share));
+    }
   }
 }
 
-void OptimalControlProblem::Continue(EndVariable from, EndVariable to) {
+void OptimalControlProblem::Continue(VariableAt from, VariableAt to) {
   const std::string name = NameOf(from.variable) + " and " + NameOf(to.variable);
-  const auto is_state = [this](const EndVariable& end) {
+  const auto is_state = [this](const VariableAt& end) {
     return end.variable.kind == VariableKind::kCoordinate &&
            end.variable.order < phases_[end.variable.phase].order();
   };
@@ -346,8 +376,8 @@ void OptimalControlProblem::Continue(EndVariable from, EndVariable to) {
 }
 
 void OptimalControlProblem::Link(const std::string& name, std::shared_ptr<Function> f,
-                                 std::vector<EndVariable> arguments, std::vector<Bounds> bounds) {
-  CheckEnds(name, f.get(), arguments);
+                                 std::vector<VariableAt> arguments, std::vector<Bounds> bounds) {
+  CheckInstants(name, f.get(), arguments);
   if (bounds.size() == 1) bounds.resize(f->num_outputs(), bounds.front());
   if (static_cast<int>(bounds.size()) != f->num_outputs()) {
     Fail(fmt::format("'{}' has {} outputs and {} bounds", name, f->num_outputs(), bounds.size()));
@@ -359,14 +389,14 @@ void OptimalControlProblem::Link(const std::string& name, std::shared_ptr<Functi
 }
 
 void OptimalControlProblem::AddCost(const std::string& name, std::shared_ptr<Function> f,
-                                    std::vector<EndVariable> arguments, double weight) {
-  CheckEnds(name, f.get(), arguments);
+                                    std::vector<VariableAt> arguments, double weight) {
+  CheckInstants(name, f.get(), arguments);
   if (f->num_outputs() != 1) Fail(fmt::format("cost '{}' has {} outputs", name, f->num_outputs()));
   if (!std::isfinite(weight)) Fail(fmt::format("cost '{}' has the weight {}", name, weight));
   costs_.push_back({name, std::move(f), std::move(arguments), weight});
 }
 
-void OptimalControlProblem::AddCost(EndVariable quantity, double weight) {
+void OptimalControlProblem::AddCost(VariableAt quantity, double weight) {
   AddCost(NameOf(quantity.variable),
           Differentiated<1, 1>([](const auto& z, auto* y) { (*y)[0] = z[0]; }), {quantity}, weight);
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,17 @@ enum class At {
   kInside       ///< everywhere but both
 };
 
-/// One quantity at one end of its phase (At::kStart or kEnd), for what ties phases together.
-struct EndVariable {
+/// One quantity at one instant: at an end of its phase (At::kStart or kEnd), or at a share of the
+/// phase's duration.
+struct VariableAt {
   Variable variable;
   At at = At::kStart;
+  std::optional<double> share = std::nullopt;  ///< from 0 to 1; none: `at` says when
 };
+
+/// A quantity at a share of its phase's duration: on the polynomial that is transcribed, wherever
+/// the mesh has its knots.
+VariableAt AtShare(Variable variable, double share);
 
 struct Bounds {
   double lower = -kInfinity;
@@ -91,6 +98,14 @@ class Phase {
     double weight;
   };
 
+  struct IntegralConstraint {
+    std::string name;
+    std::shared_ptr<Function> function;
+    std::vector<Variable> arguments;
+    Bounds bounds;
+    double scale;
+  };
+
   const std::string& name() const { return name_; }
   int order() const { return order_; }
   PhaseNames Names() const;
@@ -131,6 +146,11 @@ class Phase {
   /// Adds weight * the time integral of f(arguments), f of one output.
   void AddIntegralCost(const std::string& name, std::shared_ptr<Function> f,
                        std::vector<Variable> arguments, double weight = 1);
+  /// Bounds the time integral of f(arguments), f of one output. `scale`: typical size of the
+  /// integral. One row that has the quantities of the whole phase: a coordinate whose rate is f is
+  /// quicker in long phases.
+  void ConstrainIntegral(const std::string& name, std::shared_ptr<Function> f,
+                         std::vector<Variable> arguments, Bounds bounds, double scale = 1);
 
   /// The solver's starting point: value at s in [0, 1], the share of the phase's duration. Without
   /// a guess: the line between the values fixed at the ends, or a value within the bounds.
@@ -143,6 +163,7 @@ class Phase {
   const std::vector<Quantity>& controls() const { return controls_; }
   const std::vector<PathConstraint>& constraints() const { return constraints_; }
   const std::vector<IntegralCost>& costs() const { return costs_; }
+  const std::vector<IntegralConstraint>& integrals() const { return integrals_; }
   const Bounds& duration_bounds() const { return duration_; }
   /// Of no argument that matters; may be empty.
   const std::function<double(double)>& duration_guess() const { return duration_guess_; }
@@ -170,6 +191,7 @@ class Phase {
   Quantity& FindMutable(Variable variable);
   void CheckArguments(const std::string& name, const Function* f,
                       const std::vector<Variable>& arguments) const;
+  void CheckNameOfConstraint(const std::string& name) const;
 
   OptimalControlProblem* problem_;
   int index_;
@@ -181,6 +203,7 @@ class Phase {
   std::vector<Quantity> controls_;
   std::vector<PathConstraint> constraints_;
   std::vector<IntegralCost> costs_;
+  std::vector<IntegralConstraint> integrals_;
 };
 
 /// An optimal-control problem of one or more phases in its continuous form; Transcription makes a
@@ -198,14 +221,14 @@ class OptimalControlProblem {
   struct LinkConstraint {
     std::string name;
     std::shared_ptr<Function> function;
-    std::vector<EndVariable> arguments;
+    std::vector<VariableAt> arguments;
     std::vector<Bounds> bounds;
   };
 
   struct EndCost {
     std::string name;
     std::shared_ptr<Function> function;
-    std::vector<EndVariable> arguments;
+    std::vector<VariableAt> arguments;
     double weight;
   };
 
@@ -225,16 +248,17 @@ class OptimalControlProblem {
 
   /// Makes the quantity at the end of one phase and the one at the start of the next the same
   /// variable. Bounds intersect.
-  void Continue(EndVariable from, EndVariable to);
-  /// lower <= f(arguments) <= upper. Arguments are quantities at the ends of any phases, durations
+  void Continue(VariableAt from, VariableAt to);
+  /// lower <= f(arguments) <= upper. Arguments are quantities at instants of any phases, durations
   /// and parameters.
-  void Link(const std::string& name, std::shared_ptr<Function> f,
-            std::vector<EndVariable> arguments, std::vector<Bounds> bounds);
-  /// Adds weight * f(arguments), f of one output.
+  void Link(const std::string& name, std::shared_ptr<Function> f, std::vector<VariableAt> arguments,
+            std::vector<Bounds> bounds);
+  /// Adds weight * f(arguments), f of one output: what ends cost, or the distance from data at
+  /// instants.
   void AddCost(const std::string& name, std::shared_ptr<Function> f,
-               std::vector<EndVariable> arguments, double weight = 1);
+               std::vector<VariableAt> arguments, double weight = 1);
   /// Adds weight * the quantity.
-  void AddCost(EndVariable quantity, double weight = 1);
+  void AddCost(VariableAt quantity, double weight = 1);
 
   std::string NameOf(Variable variable) const;
 
@@ -246,7 +270,7 @@ class OptimalControlProblem {
   // What was added, for those who read the problem.
   const std::vector<Parameter>& parameters() const { return parameters_; }
   /// Pairs that are one variable: the end of a phase, the start of a later one.
-  const std::vector<std::pair<EndVariable, EndVariable>>& continued() const { return continued_; }
+  const std::vector<std::pair<VariableAt, VariableAt>>& continued() const { return continued_; }
   const std::vector<LinkConstraint>& links() const { return links_; }
   const std::vector<EndCost>& costs() const { return costs_; }
 
@@ -255,8 +279,8 @@ class OptimalControlProblem {
 
  private:
   friend class Phase;
-  void CheckEnds(const std::string& name, const Function* f,
-                 const std::vector<EndVariable>& arguments) const;
+  void CheckInstants(const std::string& name, const Function* f,
+                     const std::vector<VariableAt>& arguments) const;
   bool Knows(Variable variable) const;
   /// Of any variable, for messages: its name, or what it is if it is not of this problem.
   std::string DescriptionOf(Variable variable) const;
@@ -265,7 +289,7 @@ class OptimalControlProblem {
   std::int64_t number_;
   std::deque<Phase> phases_;
   std::vector<Parameter> parameters_;
-  std::vector<std::pair<EndVariable, EndVariable>> continued_;
+  std::vector<std::pair<VariableAt, VariableAt>> continued_;
   std::vector<LinkConstraint> links_;
   std::vector<EndCost> costs_;
 };

@@ -19,6 +19,7 @@ class Arguments {
     for (int p = 0; p < problem.num_phases(); ++p) {
       for (const auto& constraint : problem.phase(p).constraints()) Add(constraint.arguments);
       for (const auto& cost : problem.phase(p).costs()) Add(cost.arguments);
+      for (const auto& integral : problem.phase(p).integrals()) Add(integral.arguments);
     }
     for (const auto& link : problem.links()) Add(link.arguments);
     for (const auto& cost : problem.costs()) Add(cost.arguments);
@@ -32,8 +33,8 @@ class Arguments {
   void Add(const std::vector<Variable>& arguments) {
     all_.insert(all_.end(), arguments.begin(), arguments.end());
   }
-  void Add(const std::vector<EndVariable>& arguments) {
-    for (const EndVariable& end : arguments) all_.push_back(end.variable);
+  void Add(const std::vector<VariableAt>& arguments) {
+    for (const VariableAt& end : arguments) all_.push_back(end.variable);
   }
 
   std::vector<Variable> all_;

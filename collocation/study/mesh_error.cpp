@@ -70,30 +70,42 @@ class PhaseBetweenKnots {
       Raise(inequalities, &error.inequalities);
     }
     AddBounds(interval, &error);
+    AddIntegrals(interval, &error);
     return error;
   }
 
   /// The integral costs of an interval as they were minimised.
   double TranscribedCost(int interval) const {
-    const TranscriptionScheme& scheme = motion_.scheme;
-    const VectorXd weights = scheme.weights();
-    double sum = 0;
-    for (int node = 0; node < scheme.num_nodes(); ++node) {
-      sum += weights[node] * CostAt(ShareAt(interval, scheme.nodes[node]));
-    }
-    return sum * LengthOf(interval);
+    return Transcribed(interval, [this](double s) { return CostAt(s); });
   }
 
   /// The same along the motion.
   double TrueCost(int interval) const {
+    return Integral(interval, [this](double s) { return CostAt(s); });
+  }
+
+ private:
+  /// The integral over an interval by the scheme's nodes.
+  template <typename Integrand>
+  double Transcribed(int interval, const Integrand& integrand) const {
+    const TranscriptionScheme& scheme = motion_.scheme;
+    const VectorXd weights = scheme.weights();
     double sum = 0;
-    for (const QuadraturePoint& point : GaussPoints()) {
-      sum += point.weight * CostAt(ShareAt(interval, point.share));
+    for (int node = 0; node < scheme.num_nodes(); ++node) {
+      sum += weights[node] * integrand(ShareAt(interval, scheme.nodes[node]));
     }
     return sum * LengthOf(interval);
   }
 
- private:
+  template <typename Integrand>
+  double Integral(int interval, const Integrand& integrand) const {
+    double sum = 0;
+    for (const QuadraturePoint& point : GaussPoints()) {
+      sum += point.weight * integrand(ShareAt(interval, point.share));
+    }
+    return sum * LengthOf(interval);
+  }
+
   double ShareAt(int interval, double share) const {
     const double begin = motion_.mesh[interval];
     return begin + share * (motion_.mesh[interval + 1] - begin);
@@ -135,6 +147,18 @@ class PhaseBetweenKnots {
       }
     });
     Raise(sums, &error->inequalities);
+  }
+
+  void AddIntegrals(int interval, MeshError* error) const {
+    for (const Phase::IntegralConstraint& integral : phase_.integrals()) {
+      const auto integrand = [&](double s) {
+        return Evaluate(integral.function.get(), integral.arguments, s)[0];
+      };
+      const double difference =
+          std::abs(Integral(interval, integrand) - Transcribed(interval, integrand));
+      Raise(VectorXd::Constant(1, difference / integral.scale),
+            IsEquality(integral.bounds) ? &error->dynamics : &error->inequalities);
+    }
   }
 
   static double ExcessOf(const Phase::Quantity& quantity, double value) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace possibility::collocation {
@@ -21,10 +22,30 @@ void ProgramFunctions::AddFormRow(PolynomialForm form, double scale, Bounds boun
     form_row.hessian_slots.push_back(hessian_.AtLower(i, j));
   });
   form_rows_.push_back(std::move(form_row));
+  PushRow(scale, bounds, std::move(name));
+}
+
+void ProgramFunctions::PushRow(double scale, Bounds bounds, PlacedName name) {
   row_scales_.push_back(scale);
   row_lowers_.push_back(bounds.lower / scale);
   row_uppers_.push_back(bounds.upper / scale);
   row_names_.push_back(std::move(name));
+}
+
+void ProgramFunctions::AddIntegralRow(std::vector<CostTerm> terms, double scale, Bounds bounds,
+                                      PlacedName name) {
+  IntegralRow integral{num_rows(), 1 / scale, std::move(terms), {}, {}, name};
+  std::set<int> variables;
+  for (CostTerm& term : integral.terms) {
+    term.FindSlots(&hessian_);
+    term.ForVariables([&](int variable) { variables.insert(variable); });
+  }
+  integral.variables.assign(variables.begin(), variables.end());
+  for (const int variable : integral.variables) {
+    integral.jacobian_slots.push_back(jacobian_.At(integral.row, variable));
+  }
+  integral_rows_.push_back(std::move(integral));
+  PushRow(scale, bounds, std::move(name));
 }
 
 void ProgramFunctions::AddBlock(ConstraintBlock block, const std::vector<Bounds>& bounds,
@@ -32,11 +53,8 @@ void ProgramFunctions::AddBlock(ConstraintBlock block, const std::vector<Bounds>
   block.FindSlots(static_cast<int>(row_lowers_.size()), &jacobian_, &hessian_);
   for (std::size_t o = 0; o < bounds.size(); ++o) {
     const double scale = scales.size() == 0 ? 1 : scales[static_cast<Eigen::Index>(o)];
-    row_scales_.push_back(scale);
-    row_lowers_.push_back(bounds[o].lower / scale);
-    row_uppers_.push_back(bounds[o].upper / scale);
     name.output = bounds.size() == 1 ? -1 : static_cast<int>(o);
-    row_names_.push_back(name);
+    PushRow(scale, bounds[o], name);
   }
   blocks_.push_back(std::move(block));
   name.output = -1;
@@ -70,6 +88,15 @@ template <typename Run>
 void ProgramFunctions::ForEachCost(const Run& run) {
   for (std::size_t i = 0; i < costs_.size(); ++i) {
     Named("cost", cost_names_[i], [&] { run(&costs_[i]); });
+  }
+}
+
+template <typename Run>
+void ProgramFunctions::ForEachIntegralTerm(const Run& run) {
+  for (IntegralRow& integral : integral_rows_) {
+    for (CostTerm& term : integral.terms) {
+      Named("constraint", integral.name, [&] { run(integral, &term); });
+    }
   }
 }
 
@@ -125,6 +152,11 @@ void ProgramFunctions::FailForHessian(const Eigen::VectorXd& x, double objective
     block->AddHessian(x, multipliers, &values);
     check();
   });
+  ForEachIntegralTerm([&](const IntegralRow& integral, CostTerm* term) {
+    values.setZero();
+    term->AddHessian(x, integral.factor * multipliers[integral.row], &values);
+    check();
+  });
   ForEachCost([&](CostTerm* cost) {
     values.setZero();
     cost->AddHessian(x, objective_factor, &values);
@@ -138,6 +170,23 @@ void ProgramFunctions::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* g)
     (*g)[static_cast<Eigen::Index>(row)] = form_rows_[row].form.Value(x) * form_rows_[row].factor;
   }
   ForEachBlock([&](ConstraintBlock* block) { block->AddRows(x, g); });
+  for (const IntegralRow& integral : integral_rows_) (*g)[integral.row] = 0;
+  ForEachIntegralTerm([&](const IntegralRow& integral, CostTerm* term) {
+    (*g)[integral.row] += integral.factor * term->Evaluate(x);
+  });
+}
+
+void ProgramFunctions::AddIntegralRowsJacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout_.num_variables());
+  for (IntegralRow& integral : integral_rows_) {
+    for (CostTerm& term : integral.terms) {
+      Named("constraint", integral.name, [&] { term.AddGradient(x, &gradient); });
+    }
+    for (std::size_t i = 0; i < integral.variables.size(); ++i) {
+      (*values)[integral.jacobian_slots[i]] += integral.factor * gradient[integral.variables[i]];
+      gradient[integral.variables[i]] = 0;
+    }
+  }
 }
 
 void ProgramFunctions::Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values) {
@@ -148,6 +197,7 @@ void ProgramFunctions::Jacobian(const Eigen::VectorXd& x, Eigen::VectorXd* value
         x, [&](int, double derivative) { (*values)[*slot++] += row.factor * derivative; });
   }
   ForEachBlock([&](ConstraintBlock* block) { block->AddJacobian(x, values); });
+  AddIntegralRowsJacobian(x, values);
   const std::vector<int>& columns = jacobian_.pattern().columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     (*values)[static_cast<Eigen::Index>(i)] *= layout_.scale_vector()[columns[i]];
@@ -164,6 +214,9 @@ void ProgramFunctions::Hessian(const Eigen::VectorXd& x, double objective_factor
     row.form.Hessian(x, [&](int, int, double second) { (*values)[*slot++] += factor * second; });
   }
   ForEachBlock([&](ConstraintBlock* block) { block->AddHessian(x, multipliers, values); });
+  ForEachIntegralTerm([&](const IntegralRow& integral, CostTerm* term) {
+    term->AddHessian(x, integral.factor * multipliers[integral.row], values);
+  });
   ForEachCost([&](CostTerm* cost) { cost->AddHessian(x, objective_factor, values); });
   if (!values->allFinite() && multipliers.allFinite())
     FailForHessian(x, objective_factor, multipliers);

@@ -26,6 +26,8 @@ class ProgramFunctions {
   /// One row per output. `scales`: divisors of the rows; empty: 1.
   void AddBlock(ConstraintBlock block, const std::vector<Bounds>& bounds,
                 const Eigen::VectorXd& scales, PlacedName name);
+  /// One row, the sum of its terms.
+  void AddIntegralRow(std::vector<CostTerm> terms, double scale, Bounds bounds, PlacedName name);
   void AddCost(CostTerm cost, PlacedName name);
 
   int num_rows() const { return static_cast<int>(row_lowers_.size()); }
@@ -55,6 +57,15 @@ class ProgramFunctions {
     std::vector<int> jacobian_slots, hessian_slots;
   };
 
+  struct IntegralRow {
+    int row;
+    double factor;
+    std::vector<CostTerm> terms;
+    std::vector<int> variables, jacobian_slots;  // of each other
+    PlacedName name;
+  };
+
+  void PushRow(double scale, Bounds bounds, PlacedName name);
   /// Runs what evaluates a function, with the function's name in its errors.
   template <typename Run>
   void Named(const char* kind, const PlacedName& name, const Run& run) const;
@@ -62,6 +73,10 @@ class ProgramFunctions {
   void ForEachBlock(const Run& run);
   template <typename Run>
   void ForEachCost(const Run& run);
+  /// For each integral row and each of its terms.
+  template <typename Run>
+  void ForEachIntegralTerm(const Run& run);
+  void AddIntegralRowsJacobian(const Eigen::VectorXd& x, Eigen::VectorXd* values);
   [[noreturn]] void FailForGradient(const Eigen::VectorXd& x);
   /// Returns if every function's part of the Hessian is finite.
   void FailForHessian(const Eigen::VectorXd& x, double objective_factor,
@@ -73,6 +88,7 @@ class ProgramFunctions {
   std::vector<PlacedName> row_names_, block_names_, cost_names_;
   std::vector<FormRow> form_rows_;  // the first rows
   std::vector<ConstraintBlock> blocks_;
+  std::vector<IntegralRow> integral_rows_;
   std::vector<CostTerm> costs_;
   ElementSlots jacobian_, hessian_;
 };

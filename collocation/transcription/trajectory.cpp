@@ -8,17 +8,12 @@
 
 namespace possibility::collocation {
 
-namespace {
-
-/// The interval that contains share s, and the position of s in it, 0 to 1.
 std::pair<int, double> Locate(const Mesh& mesh, double s) {
   const auto after = std::upper_bound(mesh.begin(), mesh.end(), s);
   const int last = static_cast<int>(mesh.size()) - 2;
   const int interval = std::clamp(static_cast<int>(after - mesh.begin()) - 1, 0, last);
   return {interval, (s - mesh[interval]) / (mesh[interval + 1] - mesh[interval])};
 }
-
-}  // namespace
 
 Mesh UniformMesh(int intervals) {
   if (intervals < 1) {

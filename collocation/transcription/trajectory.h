@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "collocation/problem/optimal_control_problem.h"
@@ -11,6 +12,8 @@ namespace possibility::collocation {
 /// Knots of a phase as shares of its duration, ascending from 0 to 1.
 using Mesh = std::vector<double>;
 Mesh UniformMesh(int intervals);
+/// The interval that contains share s, and the position of s in it, 0 to 1.
+std::pair<int, double> Locate(const Mesh& mesh, double s);
 
 /// A motion of one phase: every coordinate with its derivatives at every point of the mesh.
 struct PhaseTrajectory {

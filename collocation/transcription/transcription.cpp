@@ -16,9 +16,9 @@ Transcription::Transcription(const OptimalControlProblem& problem,
   for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
   for (int p = 0; p < problem.num_phases(); ++p) {
     AddPathConstraints(p, cancellation);
-    AddIntegralCosts(p, cancellation);
+    AddIntegrals(p, cancellation);
   }
-  AddEnds();
+  AddInstants();
   const auto copy = [](const std::vector<double>& from) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));
@@ -77,33 +77,50 @@ void Transcription::AddPathConstraints(int phase_index, const CancellationToken&
   }
 }
 
-void Transcription::AddIntegralCosts(int phase_index, const CancellationToken& cancellation) {
+CostTerm Transcription::IntegralTerm(int phase, int point,
+                                     const std::shared_ptr<Function>& function,
+                                     const std::vector<Variable>& variables, double weight) const {
+  const PhaseLayout& layout = layout_.phase(phase);
+  std::vector<PolynomialForm> arguments;
+  for (const Variable& variable : variables) {
+    arguments.push_back(layout_.FormOf(variable, phase, point));
+  }
+  PolynomialForm factor;
+  factor.duration = layout.duration;
+  factor.monomials.push_back(layout.duration < 0 ? Monomial{-1, weight * layout.fixed_duration, 0}
+                                                 : Monomial{-1, weight, 1});
+  return CostTerm(function, std::move(arguments), std::move(factor));
+}
+
+void Transcription::AddIntegrals(int phase_index, const CancellationToken& cancellation) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const PhaseLayout& layout = layout_.phase(phase_index);
   const MeshPoints points(layout.mesh, layout_.scheme());
+  const int num_points = static_cast<int>(layout.points.size());
   for (const Phase::IntegralCost& cost : phase.costs()) {
-    for (int point = 0; point < static_cast<int>(layout.points.size()); ++point) {
+    for (int point = 0; point < num_points; ++point) {
       cancellation.ThrowIfCancelled();
-      std::vector<PolynomialForm> arguments;
-      for (const Variable& argument : cost.arguments) {
-        arguments.push_back(layout_.FormOf(argument, phase_index, point));
-      }
-      PolynomialForm weight;
-      weight.duration = layout.duration;
-      const double share = cost.weight * points.weights[point];
-      weight.monomials.push_back(layout.duration < 0
-                                     ? Monomial{-1, share * layout.fixed_duration, 0}
-                                     : Monomial{-1, share, 1});
-      functions_.AddCost(CostTerm(cost.function, std::move(arguments), std::move(weight)),
+      functions_.AddCost(IntegralTerm(phase_index, point, cost.function, cost.arguments,
+                                      cost.weight * points.weights[point]),
                          {phase_index, point, cost.name, -1});
     }
   }
+  for (const Phase::IntegralConstraint& integral : phase.integrals()) {
+    std::vector<CostTerm> terms;
+    for (int point = 0; point < num_points; ++point) {
+      cancellation.ThrowIfCancelled();
+      terms.push_back(IntegralTerm(phase_index, point, integral.function, integral.arguments,
+                                   points.weights[point]));
+    }
+    functions_.AddIntegralRow(std::move(terms), integral.scale, integral.bounds,
+                              {-1, -1, phase.name() + ": " + integral.name, -1});
+  }
 }
 
-void Transcription::AddEnds() {
-  const auto forms = [this](const std::vector<EndVariable>& ends) {
+void Transcription::AddInstants() {
+  const auto forms = [this](const std::vector<VariableAt>& instants) {
     std::vector<PolynomialForm> arguments;
-    for (const EndVariable& end : ends) arguments.push_back(layout_.EndForm(end));
+    for (const VariableAt& instant : instants) arguments.push_back(layout_.InstantForm(instant));
     return arguments;
   };
   for (const auto& link : layout_.problem().links()) {

@@ -83,8 +83,11 @@ class Transcription : public NonlinearProgram {
  private:
   void AddDefects(int phase, const CancellationToken& cancellation);
   void AddPathConstraints(int phase, const CancellationToken& cancellation);
-  void AddIntegralCosts(int phase, const CancellationToken& cancellation);
-  void AddEnds();
+  void AddIntegrals(int phase, const CancellationToken& cancellation);
+  /// What a point of a phase adds to an integral.
+  CostTerm IntegralTerm(int phase, int point, const std::shared_ptr<Function>& function,
+                        const std::vector<Variable>& variables, double weight) const;
+  void AddInstants();
 
   VariableLayout layout_;
   ProgramFunctions functions_;  // keeps a reference to layout_

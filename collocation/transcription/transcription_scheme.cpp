@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
@@ -49,6 +50,29 @@ TranscriptionScheme HermiteSimpson() { return SchemeOfNodes("hermite_simpson", {
 
 TranscriptionScheme CompressedHermiteSimpson() {
   return SchemeOfNodes("hermite_simpson_compressed", {0, 0.5, 1}, false);
+}
+
+TranscriptionScheme GaussLobatto(int nodes) {
+  if (nodes < 2) {
+    throw std::invalid_argument(
+        fmt::format("transcription scheme: {} nodes, expected 2 or more", nodes));
+  }
+  // The inner nodes are the roots of the Jacobi polynomial for the weight 1 - x^2: eigenvalues of
+  // its three-term recurrence (Golub & Welsch 1969).
+  const int inner = nodes - 2;
+  Eigen::MatrixXd recurrence = Eigen::MatrixXd::Zero(inner, inner);
+  for (int k = 1; k < inner; ++k) {
+    recurrence(k, k - 1) = std::sqrt(k * (k + 2.0) / ((2 * k + 1.0) * (2 * k + 3)));
+  }
+  std::vector<double> shares = {0};
+  if (inner > 0) {
+    const Eigen::VectorXd roots =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(recurrence, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    for (const double root : roots) shares.push_back((1 + root) / 2);
+  }
+  shares.push_back(1);
+  return SchemeOfNodes(fmt::format("gauss_lobatto_{}", nodes), shares, true);
 }
 
 }  // namespace possibility::collocation

@@ -33,6 +33,10 @@ struct TranscriptionScheme {
 TranscriptionScheme Trapezoidal();
 TranscriptionScheme HermiteSimpson();  ///< separated
 TranscriptionScheme CompressedHermiteSimpson();
+/// Gauss and Lobatto's nodes: among all with knots at both ends, those of the highest order, 2
+/// nodes - 2; 2 and 3 nodes are the schemes above. `nodes`: 2 or more.
+/// @throws std::invalid_argument for fewer.
+TranscriptionScheme GaussLobatto(int nodes);
 /// Any nodes from 0 to 1. @throws std::invalid_argument unless they ascend from 0 to 1.
 TranscriptionScheme SchemeOfNodes(const std::string& name, const std::vector<double>& nodes,
                                   bool separated);

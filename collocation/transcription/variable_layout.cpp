@@ -172,11 +172,15 @@ std::string VariableLayout::PointName(int phase, int point) const {
 
 PolynomialForm VariableLayout::IntegralForm(int phase, int interval, int node, int coordinate,
                                             int order) const {
+  return InterpolantForm(phase, interval, scheme_.nodes[node], coordinate, order);
+}
+
+PolynomialForm VariableLayout::InterpolantForm(int phase, int interval, double c, int coordinate,
+                                               int order) const {
   const PhaseLayout& layout = phases_[phase];
   const int highest = problem_.phase(phase).order();
   const int first = interval * (scheme_.num_nodes() - 1);
   const double share = layout.mesh[interval + 1] - layout.mesh[interval];
-  const double c = scheme_.nodes[node];
   PolynomialForm form;
   form.duration = layout.duration;
   const auto add = [&](int variable, double coefficient, int power) {
@@ -193,10 +197,43 @@ PolynomialForm VariableLayout::IntegralForm(int phase, int interval, int node, i
         r - order);
   }
   const int k = highest - order;
+  const Eigen::VectorXd integrals = scheme_.LagrangeIntegrals(c, k);
   for (int j = 0; j < scheme_.num_nodes(); ++j) {
-    add(layout.coordinates[first + j][coordinate][highest], scheme_.integral[k](node, j), k);
+    add(layout.coordinates[first + j][coordinate][highest], integrals[j], k);
   }
   return form;
+}
+
+PolynomialForm VariableLayout::ControlForm(int phase, int interval, double share,
+                                           int control) const {
+  const int first = interval * (scheme_.num_nodes() - 1);
+  const Eigen::VectorXd lagrange = scheme_.LagrangeIntegrals(share, 0);
+  PolynomialForm form;
+  for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    form.monomials.push_back({phases_[phase].controls[first + j][control], lagrange[j], 0});
+  }
+  return form;
+}
+
+PolynomialForm VariableLayout::FormAtShare(Variable variable, int phase, double share) const {
+  switch (variable.kind) {
+    case VariableKind::kCoordinate: {
+      const auto [interval, c] = Locate(phases_[phase].mesh, share);
+      return InterpolantForm(phase, interval, c, variable.index, variable.order);
+    }
+    case VariableKind::kControl: {
+      const auto [interval, c] = Locate(phases_[phase].mesh, share);
+      return ControlForm(phase, interval, c, variable.index);
+    }
+    case VariableKind::kTime:
+      return TimeForm(phase, share);
+    case VariableKind::kShare:
+      return {-1, {{-1, share, 0}}};
+    case VariableKind::kParameter:
+    case VariableKind::kDuration:
+      return FormOf(variable, phase, 0);
+  }
+  throw std::logic_error("FormAtShare: a kind of variable that is none");
 }
 
 PolynomialForm VariableLayout::TimeForm(int phase, double share) const {
@@ -243,14 +280,16 @@ PolynomialForm VariableLayout::FormOf(Variable variable, int phase, int point) c
   throw std::logic_error("FormOf: a kind of variable that is none");
 }
 
-PolynomialForm VariableLayout::EndForm(const EndVariable& end) const {
-  const int phase = end.variable.phase;
-  if (phase < 0) return FormOf(end.variable, 0, 0);
+PolynomialForm VariableLayout::InstantForm(const VariableAt& instant) const {
+  const int phase = instant.variable.phase;
+  if (phase < 0) return FormOf(instant.variable, 0, 0);
+  if (instant.share) return FormAtShare(instant.variable, phase, *instant.share);
   const int last = static_cast<int>(phases_[phase].points.size()) - 1;
-  if (end.at != At::kStart && end.at != At::kEnd) {
-    problem_.Fail(problem_.NameOf(end.variable) + ": expected the start or the end of a phase");
+  if (instant.at != At::kStart && instant.at != At::kEnd) {
+    problem_.Fail(problem_.NameOf(instant.variable) +
+                  ": expected the start or the end of a phase, or a share of it");
   }
-  return FormOf(end.variable, phase, end.at == At::kStart ? 0 : last);
+  return FormOf(instant.variable, phase, instant.at == At::kStart ? 0 : last);
 }
 
 std::string VariableLayout::FullName(const PlacedName& name) const {

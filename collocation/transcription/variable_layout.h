@@ -71,7 +71,7 @@ class VariableLayout {
   /// A coordinate's derivative of an order below the phase's at a node of an interval, by
   /// integration from the interval's first knot.
   PolynomialForm IntegralForm(int phase, int interval, int node, int coordinate, int order) const;
-  PolynomialForm EndForm(const EndVariable& end) const;
+  PolynomialForm InstantForm(const VariableAt& instant) const;
 
   Bounds BoundsAt(const Phase::Quantity& quantity, int phase, int point) const;
   /// s; `x` in the problem's own units.
@@ -90,6 +90,12 @@ class VariableLayout {
   void LayOut(int phase);
   void LayOutPoint(int phase, int point);
   std::string PointName(int phase, int point) const;
+  /// IntegralForm at a share of the interval, of any order; at the phase's order it is the
+  /// polynomial itself.
+  PolynomialForm InterpolantForm(int phase, int interval, double share, int coordinate,
+                                 int order) const;
+  PolynomialForm ControlForm(int phase, int interval, double share, int control) const;
+  PolynomialForm FormAtShare(Variable variable, int phase, double share) const;
   PolynomialForm TimeForm(int phase, double share) const;
 
   const OptimalControlProblem& problem_;

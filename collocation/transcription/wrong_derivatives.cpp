@@ -55,14 +55,18 @@ class Check {
         CheckAlong(p, fmt::format("cost '{}'", cost.name), cost.function.get(), cost.arguments,
                    PointsOf(p, At::kEverywhere, false));
       }
+      for (const auto& integral : problem_.phase(p).integrals()) {
+        CheckAlong(p, fmt::format("integral '{}'", integral.name), integral.function.get(),
+                   integral.arguments, PointsOf(p, At::kEverywhere, false));
+      }
     }
     for (const auto& link : problem_.links()) {
       CheckAt(fmt::format("constraint '{}'", link.name), link.function.get(),
-              EndArguments(link.arguments));
+              InstantArguments(link.arguments));
     }
     for (const auto& cost : problem_.costs()) {
       CheckAt(fmt::format("cost '{}'", cost.name), cost.function.get(),
-              EndArguments(cost.arguments));
+              InstantArguments(cost.arguments));
     }
     return std::move(sentences_);
   }
@@ -112,12 +116,12 @@ class Check {
     }
   }
 
-  Arguments EndArguments(const std::vector<EndVariable>& ends) const {
+  Arguments InstantArguments(const std::vector<VariableAt>& instants) const {
     Arguments arguments;
-    for (const EndVariable& end : ends) {
-      arguments.names.push_back(problem_.NameOf(end.variable));
-      arguments.values.push_back(layout_.EndForm(end).Value(x_));
-      arguments.sizes.push_back(SizeOf(end.variable));
+    for (const VariableAt& instant : instants) {
+      arguments.names.push_back(problem_.NameOf(instant.variable));
+      arguments.values.push_back(layout_.InstantForm(instant).Value(x_));
+      arguments.sizes.push_back(SizeOf(instant.variable));
     }
     return arguments;
   }

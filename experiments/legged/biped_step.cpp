@@ -115,7 +115,7 @@ void AddImpact(const Biped& biped, OptimalControlProblem* problem) {
                              problem->AddParameter("lifting vz", {-10, 10})};
   const Variables impulse = {problem->AddParameter("impulse x", {-100, 100}, 10),
                              problem->AddParameter("impulse z", {0, 100}, 10, 10)};
-  std::vector<EndVariable> arguments = EndsOf(biped.q, At::kEnd);
+  std::vector<VariableAt> arguments = EndsOf(biped.q, At::kEnd);
   Append(EndsOf(biped.v, At::kStart), &arguments);
   Append(EndsOf(lifting, At::kStart), &arguments);
   const int kept = static_cast<int>(arguments.size());
@@ -159,7 +159,7 @@ std::unique_ptr<OptimalControlProblem> FiveLinkStep(const BipedStep& step) {
   AddStance(biped, &phase);
   AddSwingFoot(biped, step.length, &phase);
   AddImpact(biped, problem.get());
-  std::vector<EndVariable> angles = EndsOf(biped.q, At::kStart);
+  std::vector<VariableAt> angles = EndsOf(biped.q, At::kStart);
   Append(EndsOf(biped.q, At::kEnd), &angles);
   problem->Link("same posture", Differentiated<2 * kAngles, kAngles>([](const auto& z, auto* y) {
                   (*y)[0] = z[0] - z[5] - z[6] - z[7] - z[8] - z[9];

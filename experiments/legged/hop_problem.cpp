@@ -106,7 +106,7 @@ void AddTouchdown(const RobotSystem& model, const HopPhase& flight, const HopPha
                   OptimalControlProblem* problem) {
   const Variables impulse = {problem->AddParameter("impulse x", {-100, 100}, 10),
                              problem->AddParameter("impulse z", {0, 100}, 10, 10)};
-  std::vector<EndVariable> arguments = EndsOf(flight.q, At::kEnd);
+  std::vector<VariableAt> arguments = EndsOf(flight.q, At::kEnd);
   Append(EndsOf(flight.v, At::kEnd), &arguments);
   Append(EndsOf(landing.v, At::kStart), &arguments);
   Append(EndsOf(impulse, At::kStart), &arguments);

@@ -22,13 +22,13 @@ Variables Joined(std::initializer_list<const Variables*> groups) {
   return all;
 }
 
-std::vector<EndVariable> EndsOf(const Variables& variables, At at) {
-  std::vector<EndVariable> ends;
+std::vector<VariableAt> EndsOf(const Variables& variables, At at) {
+  std::vector<VariableAt> ends;
   for (const Variable& variable : variables) ends.push_back({variable, at});
   return ends;
 }
 
-void Append(const std::vector<EndVariable>& more, std::vector<EndVariable>* all) {
+void Append(const std::vector<VariableAt>& more, std::vector<VariableAt>* all) {
   all->insert(all->end(), more.begin(), more.end());
 }
 

@@ -14,9 +14,9 @@ using Variables = std::vector<collocation::Variable>;
 
 Variables Joined(std::initializer_list<const Variables*> groups);
 
-std::vector<collocation::EndVariable> EndsOf(const Variables& variables, collocation::At at);
-void Append(const std::vector<collocation::EndVariable>& more,
-            std::vector<collocation::EndVariable>* all);
+std::vector<collocation::VariableAt> EndsOf(const Variables& variables, collocation::At at);
+void Append(const std::vector<collocation::VariableAt>& more,
+            std::vector<collocation::VariableAt>* all);
 
 /// A motor: typical size of its torque or force, and the weight of its square in the cost.
 struct Motor {

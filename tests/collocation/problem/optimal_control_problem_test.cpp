@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 
 #include "tests/message_of.h"
@@ -114,6 +115,34 @@ TEST(ForeignVariables, ThatNoProblemGaveAreRefused) {
             "ours: phase 'run': 'dynamics': argument 0 is coordinate 0 of no problem, which is not "
             "of this phase");
   EXPECT_EQ(ours.problem.NameOf(ours.fly.Rate(ours.y)), "fly: y'");
+}
+
+TEST(Integrals, ThatAreNoneAreRefusedByName) {
+  Twin ours("ours");
+  const auto two = Differentiated<1, 2>([](const auto& z, auto* y) { (*y)[0] = (*y)[1] = z[0]; });
+  const auto add = [&](const std::shared_ptr<Function>& f, Variable x, Bounds bounds,
+                       double scale) {
+    return MessageOf([&] { ours.run.ConstrainIntegral("area", f, {x}, bounds, scale); });
+  };
+  EXPECT_EQ(add(two, ours.x, {0, 1}, 1), "ours: phase 'run': integral 'area' has 2 outputs");
+  EXPECT_EQ(add(Same(), ours.w, {0, 1}, 1),
+            "ours: phase 'run': 'area': argument 0 is 'fly: w', which is not of this phase");
+  EXPECT_EQ(add(Same(), ours.x, {1, 0}, 1),
+            "ours: phase 'run': 'area': contradictory bounds [1, 0]");
+  EXPECT_EQ(add(Same(), ours.x, {0, 1}, 0),
+            "ours: phase 'run': 'area': expected a scale above 0, got 0");
+  EXPECT_EQ(add(Same(), ours.x, {0, 1}, 1), "no error");
+  EXPECT_EQ(add(Same(), ours.x, {0, 1}, 1), "ours: phase 'run': two constraints are named 'area'");
+}
+
+TEST(Instants, OutsideThePhaseAreRefusedByName) {
+  Twin ours("ours");
+  EXPECT_EQ(MessageOf([&] { ours.problem.AddCost("data", Same(), {AtShare(ours.x, 1.2)}); }),
+            "ours: 'data': 'run: x' at the share 1.2 of its phase, expected 0 to 1");
+  EXPECT_EQ(MessageOf([&] {
+              ours.problem.Link("gate", Same(), {AtShare(ours.x, std::nan(""))}, {{0, 1}});
+            }),
+            "ours: 'gate': 'run: x' at the share nan of its phase, expected 0 to 1");
 }
 
 }  // namespace

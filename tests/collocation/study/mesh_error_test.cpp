@@ -67,6 +67,33 @@ TEST(MeshErrors, SeeACostThatTheSchemesRuleMissesByHalf) {
   EXPECT_NEAR(fine.objective, 12, 0.01);
 }
 
+TEST(MeshErrors, SeeAnIntegralThatTheSchemesRuleMisses) {
+  // With at most 12 N^2 s the block can go 1 m in 1 s, no farther. The trapezoidal rule misses half
+  // of the effort, so on two intervals the block seems to go farther.
+  OptimalControlProblem farther("farther");
+  Phase& phase = farther.AddPhase("move", 2);
+  const Variable x = phase.AddCoordinate("x");
+  const Variable u = phase.AddControl("force");
+  phase.SetDynamics(Same(), {u});
+  for (const At end : {At::kStart, At::kEnd}) phase.Fix(phase.Rate(x), 0, end);
+  phase.Fix(x, 0, At::kStart);
+  phase.SetDuration(1);
+  phase.ConstrainIntegral("effort", Square(), {u}, {0, 12}, 12);
+  farther.AddCost({x, At::kEnd}, -1);
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  options.intervals = {2};
+  const OptimalControlResult coarse = SolveOptimalControl(farther, options);
+  ASSERT_TRUE(coarse.succeeded()) << coarse.message;
+  EXPECT_GT(std::abs(coarse.objective + 1), 0.1);
+  EXPECT_GT(coarse.mesh_errors.inequalities, 0.1);
+  options.mesh_tolerance = 1e-5;
+  options.max_refinements = 12;
+  const OptimalControlResult fine = SolveOptimalControl(farther, options);
+  EXPECT_LE(fine.mesh_error, 1e-5);
+  EXPECT_NEAR(fine.objective, -1, 1e-3);
+}
+
 TEST(MeshErrors, AreZeroWhereTheSchemeIsExact) {
   // The force is linear in time, its square quadratic: Simpson's rule is exact.
   const OptimalControlResult result = LeastEffort().Solve(HermiteSimpson(), 3);

@@ -56,12 +56,107 @@ double ErrorWith(const TranscriptionScheme& scheme, int intervals) {
 TEST(OptimalControlTest, SchemesHaveTheirOrdersOfConvergence) {
   for (const auto& [scheme, order] : {std::pair{Trapezoidal(), 2.0},
                                       {HermiteSimpson(), 4.0},
-                                      {CompressedHermiteSimpson(), 4.0}}) {
+                                      {CompressedHermiteSimpson(), 4.0},
+                                      {GaussLobatto(4), 6.0}}) {
     const double coarse = ErrorWith(scheme, 4);
     const double fine = ErrorWith(scheme, 8);
     EXPECT_NEAR(std::log2(coarse / fine), order, 0.2)
         << scheme.name << ": " << coarse << ", " << fine;
   }
+}
+
+std::shared_ptr<Function> Square() {
+  return FunctionOf([](auto u) { return u * u; });
+}
+
+/// Dido's problem for small slopes: the string of least energy above an area of 1 is a parabola,
+/// 6 t (1 - t), and the energy is 12.
+TEST(IntegralConstraint, TheStringOfLeastEnergyAboveAnAreaIsAParabola) {
+  OptimalControlProblem problem("string");
+  Phase& phase = problem.AddPhase("only");
+  const Variable x = phase.AddCoordinate("x");
+  phase.SetDuration(1);
+  phase.Fix(x, 0, At::kStart);
+  phase.Fix(x, 0, At::kEnd);
+  phase.AddIntegralCost("energy", Square(), {phase.Rate(x)});
+  phase.ConstrainIntegral("area", FunctionOf([](auto height) { return height; }), {x}, {1, 1});
+  const OptimalControlResult result = SolveOptimalControl(problem);
+  ASSERT_TRUE(result.succeeded()) << result.message;
+  EXPECT_NEAR(result.objective, 12, 1e-6);
+  for (const double t : {0.1, 0.35, 0.5, 0.8}) {
+    EXPECT_NEAR(result.Value(x, t), 6 * t * (1 - t), 1e-6) << t;
+  }
+}
+
+/// With its duration free, time costs as much as the energy saves: 12 / T^3 + T is least at T^4
+/// = 36.
+TEST(IntegralConstraint, HoldsInAPhaseOfFreeDuration) {
+  OptimalControlProblem problem("string");
+  Phase& phase = problem.AddPhase("only");
+  const Variable x = phase.AddCoordinate("x");
+  phase.SetDuration({0.5, 5});
+  phase.Fix(x, 0, At::kStart);
+  phase.Fix(x, 0, At::kEnd);
+  phase.AddIntegralCost("energy", Square(), {phase.Rate(x)});
+  phase.ConstrainIntegral("area", FunctionOf([](auto height) { return height; }), {x},
+                          {1, kInfinity});
+  problem.AddCost({phase.duration(), At::kEnd});
+  const OptimalControlResult result = SolveOptimalControl(problem);
+  ASSERT_TRUE(result.succeeded()) << result.message;
+  EXPECT_NEAR(result.trajectory.phases[0].duration, std::sqrt(6.0), 1e-5);
+}
+
+/// The energy of a clamped beam deflected by 1 in the middle is 192 EI / L^3 (twice the work).
+/// From one knot to the next its shape is a cubic, so it is exact where the middle is a knot.
+double BeamEnergy(int intervals) {
+  OptimalControlProblem problem("beam");
+  Phase& phase = problem.AddPhase("only", 2);
+  const Variable w = phase.AddCoordinate("w");
+  phase.SetDuration(1);
+  for (const At end : {At::kStart, At::kEnd}) {
+    phase.Fix(w, 0, end);
+    phase.Fix(phase.Rate(w), 0, end);
+  }
+  phase.AddIntegralCost("energy", Square(), {phase.Rate(w, 2)});
+  problem.Link("deflection", FunctionOf([](auto deflection) { return deflection; }),
+               {AtShare(w, 0.5)}, {{1, 1}});
+  OptimalControlOptions options;
+  options.intervals = {intervals};
+  const OptimalControlResult result = SolveOptimalControl(problem, options);
+  EXPECT_TRUE(result.succeeded()) << result.message;
+  EXPECT_NEAR(result.Value(w, 0.5), 1, 1e-9);
+  return result.objective;
+}
+
+TEST(Instants, ABeamIsDeflectedWhereNoKnotNeedBe) {
+  EXPECT_NEAR(BeamEnergy(4), 192, 1e-5);
+  // The middle of an interval: a smooth polynomial instead of the kink in the shear force.
+  EXPECT_GT(BeamEnergy(5), 192);
+  EXPECT_NEAR(BeamEnergy(41), 192, 0.5);
+}
+
+/// Decay with rate and start unknown, fitted to data between the knots.
+TEST(Instants, ParametersAreFittedToData) {
+  OptimalControlProblem problem("decay");
+  Phase& phase = problem.AddPhase("only");
+  const Variable x = phase.AddCoordinate("x");
+  const Variable rate = problem.AddParameter("rate", {0, 5}, 1, 2);
+  phase.SetDuration(3);
+  phase.SetDynamics(FunctionOf([](auto y, auto k) { return -k * y; }), {x, rate});
+  phase.Guess(x, 1);
+  for (const double t : {0.2, 0.7, 1.1, 1.9, 2.9}) {
+    const double datum = 4 * std::exp(-0.7 * t);
+    problem.AddCost("miss", FunctionOf([datum](auto y) { return (y - datum) * (y - datum); }),
+                    {AtShare(x, t / 3)});
+  }
+  OptimalControlOptions options;
+  options.scheme = GaussLobatto(4);
+  options.intervals = {10};
+  options.solver.tolerance = 1e-12;
+  const OptimalControlResult result = SolveOptimalControl(problem, options);
+  ASSERT_TRUE(result.succeeded()) << result.message;
+  EXPECT_NEAR(result.trajectory.parameters[0], 0.7, 1e-6);
+  EXPECT_NEAR(result.Value(x, 0), 4, 1e-6);
 }
 
 /// A pendulum swung to the side with least effort, as a second-order or a first-order system.

@@ -38,6 +38,10 @@ std::unique_ptr<OptimalControlProblem> Medley() {
   run.AddIntegralCost(
       "effort", Differentiated<2, 1>([](const auto& z, auto* f) { (*f)[0] = z[0] * z[0] * z[1]; }),
       {u, y}, 0.3);
+  run.ConstrainIntegral("work", Differentiated<3, 1>([](const auto& z, auto* f) {
+                          (*f)[0] = z[0] * z[1] + sin(z[2]);
+                        }),
+                        {u, x, run.time()}, {-1, 2}, 3);
   Phase& fly = problem->AddPhase("fly", 2);
   const Variable q = fly.AddCoordinate("q", {-4, 4});
   const Variable r = fly.AddCoordinate("r");
@@ -54,6 +58,17 @@ std::unique_ptr<OptimalControlProblem> Medley() {
                       }),
                       {fly.Rate(q, 2), fly.Rate(r)});
   problem->Continue({x, At::kEnd}, {q, At::kStart});
+  // At instants between the knots, of every kind of quantity.
+  problem->Link("through", Differentiated<5, 1>([](const auto& z, auto* g) {
+                  (*g)[0] = z[0] * z[1] + z[2] * z[2] * z[3] - z[4];
+                }),
+                {AtShare(q, 0.37), AtShare(fly.Rate(q), 0.71), AtShare(fly.Rate(r, 2), 0.9),
+                 AtShare(f, 0.15), AtShare(fly.time(), 0.6)},
+                {{-1, 3}});
+  problem->AddCost("data", Differentiated<2, 1>([](const auto& z, auto* c) {
+                     (*c)[0] = (z[0] - 0.4) * (z[0] - 0.4) * z[1];
+                   }),
+                   {AtShare(r, 0.5), AtShare(x, 1)}, 0.2);
   problem->Link("jump", Differentiated<3, 2>([](const auto& z, auto* g) {
                   (*g)[0] = z[0] * z[1] - z[2];
                   (*g)[1] = z[2] * z[2];
@@ -158,11 +173,10 @@ TEST_P(EveryScheme, APolynomialMotionIsTranscribedExactly) {
   EXPECT_LT(defects.cwiseAbs().maxCoeff(), 1e-13);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    TranscriptionTest, EveryScheme,
-    ::testing::Values(Trapezoidal(), HermiteSimpson(), CompressedHermiteSimpson(),
-                      SchemeOfNodes("lobatto_4", {0, 0.27639320225, 0.72360679775, 1}, true)),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(TranscriptionTest, EveryScheme,
+                         ::testing::Values(Trapezoidal(), HermiteSimpson(),
+                                           CompressedHermiteSimpson(), GaussLobatto(4)),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(TranscriptionTest, SchemesHaveThePublishedCoefficients) {
   const TranscriptionScheme simpson = HermiteSimpson();
@@ -175,6 +189,15 @@ TEST(TranscriptionTest, SchemesHaveThePublishedCoefficients) {
   EXPECT_LT((trapezoidal.integral[1].row(1) - Eigen::RowVector2d(1, 1) / 2).norm(), 1e-14);
   EXPECT_LT((trapezoidal.integral[2].row(1) - Eigen::RowVector2d(2, 1) / 6).norm(), 1e-14);
   EXPECT_THROW(SchemeOfNodes("bad", {0, 0.5}, true), std::invalid_argument);
+  // Abramowitz & Stegun 1964, table 25.6, moved from [-1, 1] to [0, 1].
+  EXPECT_EQ(GaussLobatto(2).nodes, Trapezoidal().nodes);
+  EXPECT_NEAR(GaussLobatto(3).nodes[1], 0.5, 1e-15);
+  const TranscriptionScheme six = GaussLobatto(6);
+  EXPECT_NEAR(six.nodes[1], (1 - 0.765055323929465) / 2, 1e-13);
+  EXPECT_NEAR(six.nodes[2], (1 - 0.285231516480645) / 2, 1e-13);
+  EXPECT_NEAR(six.weights()[0], 0.066666666666667 / 2, 1e-13);
+  EXPECT_NEAR(six.weights()[1], 0.378474956297847 / 2, 1e-13);
+  EXPECT_THROW(GaussLobatto(1), std::invalid_argument);
 }
 
 TEST(TranscriptionTest, CompressedHasNoStatesInside) {
