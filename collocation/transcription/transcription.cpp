@@ -82,6 +82,7 @@ CostTerm Transcription::IntegralTerm(int phase, int point,
                                      const std::vector<Variable>& variables, double weight) const {
   const PhaseLayout& layout = layout_.phase(phase);
   std::vector<PolynomialForm> arguments;
+  arguments.reserve(variables.size());
   for (const Variable& variable : variables) {
     arguments.push_back(layout_.FormOf(variable, phase, point));
   }
@@ -120,6 +121,7 @@ void Transcription::AddIntegrals(int phase_index, const CancellationToken& cance
 void Transcription::AddInstants() {
   const auto forms = [this](const std::vector<VariableAt>& instants) {
     std::vector<PolynomialForm> arguments;
+    arguments.reserve(instants.size());
     for (const VariableAt& instant : instants) arguments.push_back(layout_.InstantForm(instant));
     return arguments;
   };

@@ -22,8 +22,8 @@ namespace {
 constexpr double kForEver = 1e6;  // s
 
 /// With one thread, jobs that end at once end in the same cycle on every machine.
-PlanRequest Request(const Leap::RunJob& run_job, const Leap::MakeMotion& make_motion,
-                    double time_limit = 1000) {
+PlanRequest LeapRequest(const Leap::RunJob& run_job, const Leap::MakeMotion& make_motion,
+                        double time_limit = 1000) {
   PlanRequest request;
   request.time_limit = time_limit;  // sanitizers are slow, and no test is about speed
   request.manoeuvres = {LeapFactory(run_job, make_motion)};
@@ -45,7 +45,7 @@ void ExpectReason(const PlanResult& result, const std::string& reason) {
 }
 
 TEST(FaultInjectionTest, AJobThatThrowsLeavesTheWalkingPlan) {
-  const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), Request(Throws, Slides));
+  const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), LeapRequest(Throws, Slides));
   ExpectWalking(result);
   EXPECT_GE(result.plan.statistics.at("jobs failed"), 1);
   ExpectReason(result, "the job's fuse blew");
@@ -53,13 +53,13 @@ TEST(FaultInjectionTest, AJobThatThrowsLeavesTheWalkingPlan) {
 
 TEST(FaultInjectionTest, AJobWithoutAVerdictLeavesTheWalkingPlan) {
   const auto shrugs = [](graph::JobControl*) { return graph::JobVerdict::kUndecided; };
-  const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), Request(shrugs, Slides));
+  const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), LeapRequest(shrugs, Slides));
   ExpectWalking(result);
   EXPECT_GE(result.plan.statistics.at("jobs failed"), 1);
 }
 
 TEST(FaultInjectionTest, AJobThatNeverEndsLeavesTheWalkingPlan) {
-  PlanRequest request = Request(Sleeps(kForEver), Slides);
+  PlanRequest request = LeapRequest(Sleeps(kForEver), Slides);
   request.threads = 2;
   const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), request);
   ExpectWalking(result);
@@ -68,7 +68,8 @@ TEST(FaultInjectionTest, AJobThatNeverEndsLeavesTheWalkingPlan) {
 }
 
 TEST(FaultInjectionTest, AConfirmedMotionThatDoesNotVerifyLeavesTheWalkingPlan) {
-  const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), Request(Confirms, Slides));
+  const PlanResult result =
+      PlanTraversal(DrcHubo1(), PitScene(true), LeapRequest(Confirms, Slides));
   ExpectWalking(result);
   EXPECT_EQ(result.plan.statistics.at("routes refuted by verification"), 1);
   ExpectReason(result, "its motion does not verify");
@@ -120,10 +121,10 @@ TEST(FaultInjectionTest, InvalidMotionsAreRefusedWithAReason) {
 }
 
 TEST(FaultInjectionTest, AConfirmedMotionThatThrowsLeavesTheWalkingPlan) {
-  const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true),
-                                          Request(Confirms, [](const Leap&) -> std::vector<Phase> {
-                                            throw std::logic_error("the motion's fuse blew");
-                                          }));
+  const PlanResult result = PlanTraversal(
+      DrcHubo1(), PitScene(true), LeapRequest(Confirms, [](const Leap&) -> std::vector<Phase> {
+        throw std::logic_error("the motion's fuse blew");
+      }));
   ExpectWalking(result);
   EXPECT_EQ(result.plan.statistics.at("routes refuted by motion generation"), 1);
   ExpectReason(result, "the motion's fuse blew");
@@ -137,7 +138,7 @@ TEST(FaultInjectionTest, AConfirmedMotionOfInvalidStructureLeavesTheWalkingPlan)
   };
   for (const Spoil& spoil : spoils) {
     const PlanResult result =
-        PlanTraversal(DrcHubo1(), PitScene(true), Request(Confirms, Spoilt(spoil)));
+        PlanTraversal(DrcHubo1(), PitScene(true), LeapRequest(Confirms, Spoilt(spoil)));
     ExpectWalking(result);
     ExpectReason(result, "does not verify");
   }
@@ -147,7 +148,7 @@ TEST(FaultInjectionTest, AConfirmedMotionOfInvalidStructureLeavesTheWalkingPlan)
 TEST(FaultInjectionTest, AWalkingPlanDoesNotWaitForSlowJobs) {
   constexpr double kWork = 1;  // s
   constexpr double kSlowness = 10;
-  PlanRequest request = Request(Sleeps(kSlowness * kWork), Slides);
+  PlanRequest request = LeapRequest(Sleeps(kSlowness * kWork), Slides);
   request.threads = 2;
   const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(true), request);
   ExpectWalking(result);
@@ -159,10 +160,11 @@ TEST(FaultInjectionTest, AWalkingPlanDoesNotWaitForSlowJobs) {
 TEST(FaultInjectionTest, JobsThatNeverEndAreCancelledAtTheTimeLimit) {
   // Preparation counts towards the limit and takes longer under sanitizers.
   const double preparation_s =
-      PlanTraversal(DrcHubo1(), PitScene(true), Request(Throws, Slides)).plan.timings.preparation_s;
+      PlanTraversal(DrcHubo1(), PitScene(true), LeapRequest(Throws, Slides))
+          .plan.timings.preparation_s;
   const double limit = 1 + 3 * preparation_s;
   for (const int threads : {1, 3}) {
-    PlanRequest request = Request(Sleeps(kForEver), Slides, limit);
+    PlanRequest request = LeapRequest(Sleeps(kForEver), Slides, limit);
     request.threads = threads;
     const auto begin = std::chrono::steady_clock::now();
     const PlanResult result = PlanTraversal(DrcHubo1(), PitScene(false), request);
@@ -182,7 +184,7 @@ TEST(FaultInjectionTest, AConditionThatThrowsIsNamedWithActionFunctionAndPose) {
   for (const std::string function : {"CN", "Explorable", "ExtendTowards", "FindLaunchPoint",
                                      "ExpectedDuration", "SpawnConfirmationJob"}) {
     for (const int threads : {1, 2}) {
-      PlanRequest request = Request(Confirms, Slides);
+      PlanRequest request = LeapRequest(Confirms, Slides);
       request.threads = threads;
       const auto on_asked = [&](const std::string& asked) {
         if (asked == function) throw std::logic_error("the condition's\nfuse blew");
@@ -212,7 +214,7 @@ TEST(FaultInjectionTest, AConditionThatThrowsBesideARunningJobEndsPlanning) {
     is_running = true;
     return Sleeps(kForEver)(control);
   };
-  PlanRequest request = Request(sleeps, Slides);
+  PlanRequest request = LeapRequest(sleeps, Slides);
   request.threads = 2;
   const auto on_asked = [&](const std::string&) {
     if (is_running) throw std::logic_error("the condition's fuse blew");
@@ -229,7 +231,7 @@ std::string ExplainedFailure(const Leap::MakeMotion& make_motion, const std::str
   std::string explanation;
   for (const double time_limit : {3.0, 20.0, 200.0}) {
     const PlanResult result =
-        PlanTraversal(DrcHubo1(), PitScene(false), Request(Confirms, make_motion, time_limit));
+        PlanTraversal(DrcHubo1(), PitScene(false), LeapRequest(Confirms, make_motion, time_limit));
     EXPECT_EQ(result.status, PlanStatus::kTimeLimit);
     explanation = result.explanation;
     if (explanation.find(expected) != std::string::npos) break;
@@ -264,9 +266,9 @@ TEST(FaultInjectionTest, TheTimeLimitNamesTheLegThatHasNoMotionAndWhy) {
 TEST(FaultInjectionTest, AManoeuvreWithoutBoundsIsNotExhausted) {
   const auto refutes = [](graph::JobControl*) { return graph::JobVerdict::kRefuted; };
   const PlanResult result =
-      PlanTraversal(DrcHubo1(), PitScene(false), Request(refutes, Slides, 2.0));
+      PlanTraversal(DrcHubo1(), PitScene(false), LeapRequest(refutes, Slides, 2.0));
   EXPECT_EQ(result.status, PlanStatus::kTimeLimit) << result.explanation;
-  PlanRequest walking = Request(refutes, Slides);
+  PlanRequest walking = LeapRequest(refutes, Slides);
   walking.actions = {"walk"};
   EXPECT_EQ(PlanTraversal(DrcHubo1(), PitScene(false), walking).status, PlanStatus::kExhausted);
 }

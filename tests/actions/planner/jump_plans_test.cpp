@@ -9,7 +9,7 @@
 namespace possibility::actions {
 namespace {
 
-PlanRequest Request(std::uint64_t seed, int threads) {
+PlanRequest JumpRequest(std::uint64_t seed, int threads) {
   PlanRequest request;
   request.seed = seed;
   request.threads = threads;
@@ -28,7 +28,7 @@ void ExpectVerifiedPlans(const std::string& name, std::uint64_t seeds, bool jump
                          int threads = 1, PlannerPreset preset = PlannerPreset::kDefault) {
   const models::Scenario scenario = ShippedScenario(name);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    PlanRequest request = Request(seed, threads);
+    PlanRequest request = JumpRequest(seed, threads);
     request.preset = preset;
     const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
     ASSERT_EQ(result.status, PlanStatus::kFound) << "seed " << seed << ": " << result.explanation;
@@ -46,7 +46,7 @@ void ExpectRandomPlans(const std::string& name, bool jump_needed) {
 void ExpectNo(const std::string& name, std::uint64_t runs) {
   const models::Scenario scenario = ShippedScenario(name);
   for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, Request(seed, 1));
+    const PlanResult result = PlanTraversal(DrcHubo1(), scenario, JumpRequest(seed, 1));
     EXPECT_TRUE(result.status == PlanStatus::kExhausted ||
                 result.status == PlanStatus::kProvenInfeasible)
         << "seed " << seed << ": " << result.explanation;
@@ -64,7 +64,7 @@ TEST(JumpPlans, AWiderGapOfTheHallwayIsLeaptOnFeet) {
     obstacle.shape.size.x() -= 0.15;
     obstacle.X_WO.translation().x() -= 0.075;
   }
-  PlanRequest request = Request(1, 1);
+  PlanRequest request = JumpRequest(1, 1);
   request.actions = {"walk", "crawl", "leap"};
   const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
