@@ -81,7 +81,7 @@ RolloutStance RolloutEvents::PassContactEvent(double time, const std::vector<int
   std::vector<int> touching;
   std::set_union(held.begin(), held.end(), touched.begin(), touched.end(),
                  std::back_inserter(touching));
-  if (touching.empty()) return MakeStance({}, {});
+  if (touching.empty()) return MakeStance({}, {}, *state);
   RobotContactEvent event;
   event.time = time;
   event.touched = touched;
@@ -92,7 +92,7 @@ RolloutStance RolloutEvents::PassContactEvent(double time, const std::vector<int
   event.released = Without(held, event.held);
   event.v_after = state->tail(robot_->nv());
   rollout_->events.push_back(event);
-  return MakeStance(event.held, event.jammed);
+  return MakeStance(event.held, event.jammed, *state);
 }
 
 /// Returns the points that are at rest afterwards.
@@ -139,7 +139,7 @@ void RolloutEvents::SelectHeld(const std::vector<int>& touching, const VectorXd&
 }
 
 RolloutStance RolloutEvents::MakeStance(const std::vector<int>& held,
-                                        const std::vector<int>& jammed) {
+                                        const std::vector<int>& jammed, const VectorXd& state) {
   RolloutStance stance;
   stance.held = held;
   stance.jammed = jammed;
@@ -147,11 +147,15 @@ RolloutStance RolloutEvents::MakeStance(const std::vector<int>& held,
   stance.points = robot_->HeldWhereTheyAre(held);
   stance.patches = robot_->PatchesOf(held);
   stance.slack.assign(robot_->num_contacts(), 0.0);
+  stance.passes.assign(robot_->num_contacts(), false);
   for (int i = 0; i < robot_->num_contacts(); ++i) {
     if (Contains(held, i)) continue;
     stance.free.push_back(i);
     const double gap = robot_->Gap(i);
-    if (robot_->contact(i).lands || gap > kContactSlack) continue;
+    // A point far below its plane has passed it beside the ground.
+    stance.passes[i] = robot_->contact(i).lands &&
+                       (std::abs(gap) > settings_.touching || !robot_->Lands(i, state));
+    if (stance.passes[i] || gap > kContactSlack) continue;
     stance.slack[i] = kContactSlack + std::max(0.0, -gap);
   }
   return stance;

@@ -38,7 +38,8 @@ class RolloutEvents {
                       RobotContactEvent* event);
   void SelectHeld(const std::vector<int>& touching, const Eigen::VectorXd& state,
                   RobotContactEvent* event);
-  RolloutStance MakeStance(const std::vector<int>& held, const std::vector<int>& jammed);
+  RolloutStance MakeStance(const std::vector<int>& held, const std::vector<int>& jammed,
+                           const Eigen::VectorXd& state);
   void CheckSlip(double time, const Eigen::VectorXd& state, const RolloutStance& stance);
   bool IsCalm(const Eigen::VectorXd& state);
 

@@ -48,8 +48,7 @@ RolloutGuards::RolloutGuards(std::shared_ptr<const RolloutStance> stance,
 
 OdeGuard RolloutGuards::Watched(int index) const {
   const RolloutGuard& guard = guards_[index];
-  const bool passes =
-      guard.kind == Kind::kTouchdown && robot_->contact(guard.contact).lands != nullptr;
+  const bool passes = guard.kind == Kind::kTouchdown && stance_->passes[guard.contact];
   const bool rises =
       guard.kind == Kind::kUnjamming || (guard.kind == Kind::kCalm && stance_->calm_since);
   OdeGuard watched{rises ? GuardDirection::kRising : GuardDirection::kFalling, !passes};

@@ -25,6 +25,8 @@ struct RolloutStance {
   /// side, the depth below the plane at which it comes down unless it has been above the plane by
   /// as much.
   std::vector<double> slack;
+  /// By contact: whether it passes through its plane, beside the ground, if it is below it.
+  std::vector<bool> passes;
   std::optional<double> calm_since;  ///< s: time since which the kinetic energy is below the bound
 };
 

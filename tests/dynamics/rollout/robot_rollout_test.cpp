@@ -355,6 +355,25 @@ TEST(RobotRollout, BoxDroppedOnACornerComesToRest) {
   EXPECT_NEAR(lost, kGravity * 0.2, 1e-6) << rollout.events.size() << " events";
 }
 
+/// Ground of which somebody says that it is everywhere is no other ground.
+TEST(RobotRollout, BoxComesToRestOnALevelThatItAsksFor) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> tilt(-0.02, 0.02);
+  const auto model = MultibodyModel::Spatial(Box());
+  std::vector<RolloutContact> asking = Corners(Vector3d::UnitZ());
+  for (RolloutContact& corner : asking) corner.lands = [](const VectorXd&) { return true; };
+  RobotRolloutSettings settings = AccurateRollout(1e-9);
+  settings.hybrid.end_at_zeno = true;
+  settings.hybrid.zeno_events = 1000;
+  for (int trial = 0; trial < 20; ++trial) {
+    const VectorXd start = BoxAt(0.1 + 0.008 + 0.0005 * trial, tilt(random), tilt(random));
+    RobotSimulator simulator(model, asking, {}, settings);
+    const RobotRollout rollout = simulator.Run(start, VectorXd::Zero(6), 0, 1.5);
+    EXPECT_NEAR(rollout.q[6], 0.1, 1e-6) << "trial " << trial;
+    EXPECT_LT(rollout.v.norm(), 1e-4) << "trial " << trial;
+  }
+}
+
 TEST(RobotRollout, BoxOnASlopeStaysSlipsOrTips) {
   // Friction 0.7: the box slips above atan 0.7 = 35 degrees and tips above atan 2 = 63 degrees.
   const auto model = MultibodyModel::Spatial(Box());
