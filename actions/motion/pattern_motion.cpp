@@ -10,10 +10,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "actions/motion/limb_reach.h"
 #include "actions/motion/pendulum_spline.h"
 #include "actions/motion/planar_pose.h"
 #include "actions/motion/required_zero_moment_point.h"
+#include "actions/motion/smooth_under.h"
 #include "actions/motion/support_polygon.h"
+#include "actions/motion/swing_path.h"
 #include "actions/motion/whole_body_task.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
@@ -51,14 +54,26 @@ void RequireSchedule(const models::RobotModel& robot, const NominalStance& stanc
   }
 }
 
+/// Longest distance of the joints next to a knee or elbow, as a share of the stretched limb: a
+/// straight limb cannot follow.
+constexpr double kStretch = 0.98;
+constexpr double kGuessedStretch = 0.94;  // while the root's place is only guessed
+
 /// What the tasks of an interval need, besides the centre of mass.
 struct Interval {
   double start = 0;  ///< s
   double duration = 0;
   double yaw_from = 0;  ///< of the root
   double yaw_to = 0;
-  Vector2d zmp_from = Vector2d::Zero();
-  Vector2d zmp_to = Vector2d::Zero();
+  Vector3d zmp_from = Vector3d::Zero();  ///< on the ground
+  Vector3d zmp_to = Vector3d::Zero();
+};
+
+/// The support's change from one swing to the next: the root rises with it.
+struct Climb {
+  double start = 0;  ///< s
+  double duration = 0;
+  double height = 0;  ///< m
 };
 
 /// The pattern of one schedule; shared by the tasks of its phases.
@@ -68,11 +83,11 @@ class Pattern {
           const models::ContactSchedule& schedule, const PatternSettings& settings)
       : robot_(robot), stance_(stance), schedule_(schedule), settings_(settings) {
     RequireSchedule(robot_, stance_, schedule_);
-    ground_ = schedule_.intervals.front().bearing.front()->translation().z();
     if (settings_.end_joints.size() == 0)
       settings_.end_joints = stance_.q.tail(robot_.num_joints());
     LayOutIntervals();
     LayOutZmp();
+    LayOutClimbs();
     duration_ = schedule_.duration();
     steps_ = std::max(static_cast<int>(std::ceil(duration_ / settings_.grid)), 2);
     h_ = duration_ / steps_;
@@ -83,10 +98,13 @@ class Pattern {
   void Solve(const CancellationToken& cancellation) {
     stiffness_ = dynamics::kGravity / CentreOfMassHeight();
     SolveCentreOfMass();
+    GuessRoots();
     for (int pass = 0; pass < settings_.filter_passes; ++pass) {
+      if (IsUneven()) KeepReach(pass == 0 ? kGuessedStretch : kStretch);
       Filter(cancellation);
       SolveCentreOfMass();
     }
+    if (IsUneven()) KeepReach(kStretch);
   }
 
   int num_intervals() const { return static_cast<int>(intervals_.size()); }
@@ -106,7 +124,7 @@ class Pattern {
   WholeBodyTask Task(int k, double t) const {
     const Interval& interval = intervals_[k];
     WholeBodyTask task;
-    task.root_yaw = Blend(interval.yaw_from, interval.yaw_to, RestToRest(t, interval.duration));
+    task.root_yaw = RootYaw(interval.start + t);
     task.root_pitch = Constant(stance_.gait->posture.root_pitch);
     task.root_height = RootHeight(interval.start + t);
     task.centre_of_mass = CentreOfMass(interval.start + t);
@@ -185,7 +203,7 @@ class Pattern {
   }
 
   /// The point of the support of interval `k` closest to Balanced, within the margin.
-  Vector2d SupportedZmp(int k) const {
+  Vector3d SupportedZmp(int k) const {
     std::vector<Vector2d> points;
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
       const auto& bearing = schedule_.intervals[k].bearing[limb];
@@ -193,7 +211,19 @@ class Pattern {
       const PlanarPose at = StanceOf(static_cast<int>(limb), *bearing);
       for (const Vector2d& p : stance_.bearing_points[limb]) points.push_back(at * p);
     }
-    return SupportPolygon(points).Nearest(Balanced(k), settings_.zmp_margin);
+    return OnGround(k, SupportPolygon(points).Nearest(Balanced(k), settings_.zmp_margin));
+  }
+
+  /// At the mean height of the limbs that bear in interval `k`.
+  Vector3d OnGround(int k, const Vector2d& p) const {
+    double sum = 0;
+    int count = 0;
+    for (const auto& bearing : schedule_.intervals[k].bearing) {
+      if (!bearing) continue;
+      sum += bearing->translation().z();
+      ++count;
+    }
+    return {p.x(), p.y(), sum / count};
   }
 
   bool AllBear(int k) const { return Contacts(k).size() == NumLimbs(); }
@@ -207,9 +237,32 @@ class Pattern {
         interval.zmp_from = interval.zmp_to = SupportedZmp(k);
         continue;
       }
-      interval.zmp_from = k == 0 ? Balanced(k) : SupportedZmp(k - 1);
-      interval.zmp_to = k == last ? Balanced(k, CentreOfMassAtEnd()) : SupportedZmp(k + 1);
+      interval.zmp_from = k == 0 ? OnGround(k, Balanced(k)) : SupportedZmp(k - 1);
+      interval.zmp_to =
+          k == last ? OnGround(k, Balanced(k, CentreOfMassAtEnd())) : SupportedZmp(k + 1);
     }
+  }
+
+  /// From the beginning of a swing to the end of the next one, so that climbs of equal steps add up
+  /// to an almost steady one.
+  void LayOutClimbs() {
+    int last = -1;
+    for (int k = 0; k < num_intervals(); ++k) {
+      if (AllBear(k)) continue;
+      const double height =
+          last < 0 ? 0 : intervals_[k].zmp_from.z() - intervals_[last].zmp_from.z();
+      if (height != 0) {
+        const double start = intervals_[last].start;
+        climbs_.push_back({start, intervals_[k].start + intervals_[k].duration - start, height});
+      }
+      last = k;
+    }
+  }
+
+  ScalarSignal RootYaw(double t) const {
+    const Interval& interval = intervals_[IntervalAt(t)];
+    return Blend(interval.yaw_from, interval.yaw_to,
+                 RestToRest(t - interval.start, interval.duration));
   }
 
   int IntervalAt(double t) const {
@@ -218,7 +271,8 @@ class Pattern {
     return k;
   }
 
-  Vector2d ReferenceZmp(double t) const {
+  /// On the ground: between supports of different heights, on the line that joins them.
+  Vector3d ReferenceZmp(double t) const {
     const Interval& interval = intervals_[IntervalAt(t)];
     const ScalarSignal s = RestToRest(t - interval.start, interval.duration);
     return interval.zmp_from + s.value * (interval.zmp_to - interval.zmp_from);
@@ -231,12 +285,12 @@ class Pattern {
     const Interval& stop = intervals_.back();
     for (int i = 0; i <= steps_; ++i) {
       const double t = i * h_;
-      zmp.col(i) = ReferenceZmp(t) - error_.col(i);
+      zmp.col(i) = ReferenceZmp(t).head<2>() - error_.col(i);
       first[i] = t < start.duration ? Bump(t, start.duration).value : 0;
       last[i] = t > stop.start ? Bump(t - stop.start, stop.duration).value : 0;
     }
-    const Vector2d from = start.zmp_from;
-    const Vector2d to = stop.zmp_to;
+    const Vector2d from = start.zmp_from.head<2>();
+    const Vector2d to = stop.zmp_to.head<2>();
     x_.emplace(zmp.row(0), from.x(), to.x(), h_, stiffness_, first, last);
     y_.emplace(zmp.row(1), from.y(), to.y(), h_, stiffness_, first, last);
   }
@@ -247,8 +301,62 @@ class Pattern {
     return {{x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration}};
   }
 
-  ScalarSignal RootHeight(double t) const {
-    const double stand = stance_.gait->posture.root_height + ground_;
+  bool IsUneven() const {
+    return !climbs_.empty() || std::any_of(settings_.lifts.begin(), settings_.lifts.end(),
+                                           [](double lift) { return lift > 0; });
+  }
+
+  ScalarSignal RootHeight(double t) const { return low_ ? low_->At(t) : WantedRootHeight(t); }
+
+  /// Lowers the root as far as the limbs need to reach their places.
+  /// @throws MotionError if one is too far from the root, seen from above.
+  void KeepReach(double stretch) {
+    const std::vector<std::optional<LimbReach>> reaches = ReachesOf(robot_, stance_, stretch);
+    VectorXd bound(steps_ + 1);
+    for (int i = 0; i <= steps_; ++i) bound[i] = HighestRoot(reaches, i);
+    low_.emplace(bound, h_, settings_.height_spacing);
+  }
+
+  double HighestRoot(const std::vector<std::optional<LimbReach>>& reaches, int knot) const {
+    const double t = std::min(knot * h_, duration_);
+    const int k = IntervalAt(t);
+    const Vector2d p = CentreOfMass(t).value + to_root_.col(knot);
+    const PlanarPose root{p.x(), p.y(), RootYaw(t).value};
+    double highest = WantedRootHeight(t).value;
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      if (!reaches[limb]) continue;
+      const LimbTask task = TaskOf(k, static_cast<int>(limb), t - intervals_[k].start);
+      const std::optional<double> reach =
+          reaches[limb]->HighestRoot(root, task.position.value, task.yaw.value);
+      if (!reach) {
+        throw MotionError(fmt::format("{} does not reach its place", schedule_.contacts[limb]), k);
+      }
+      highest = std::min(highest, *reach);
+    }
+    return highest;
+  }
+
+  /// Root minus centre of mass, seen from above, as in the nominal posture; Filter knows better.
+  void GuessRoots() {
+    const Vector2d in_stance =
+        Vector2d(stance_.X_SR.translation().head<2>()) - stance_.centre_of_mass;
+    to_root_.resize(2, steps_ + 1);
+    for (int i = 0; i <= steps_; ++i) {
+      to_root_.col(i) = Eigen::Rotation2Dd(RootYaw(i * h_).value) * in_stance;
+    }
+  }
+
+  ScalarSignal WantedRootHeight(double t) const {
+    ScalarSignal height = HeightAboveGround(t);
+    height.value += intervals_.front().zmp_from.z();
+    for (const Climb& climb : climbs_) {
+      height = height + Blend(0, climb.height, RestToRest(t - climb.start, climb.duration));
+    }
+    return height;
+  }
+
+  ScalarSignal HeightAboveGround(double t) const {
+    const double stand = stance_.gait->posture.root_height;
     const double time = std::min(settings_.rise_time, duration_ / 2);
     const double left = duration_ - t;
     if (t < time) return Blend(stand, stand + settings_.rise, RestToRest(t, time));
@@ -276,16 +384,17 @@ class Pattern {
     WholeBodySolver solver(robot_);
     dynamics::MultibodyDynamics dynamics(UncoupledModel(robot_));
     VectorXd q = stance_.q;
-    q.segment<2>(4) = intervals_.front().zmp_from;
+    q.segment<2>(4) = intervals_.front().zmp_from.head<2>();
     for (int i = 0; i <= steps_; ++i) {
       cancellation.ThrowIfCancelled();
       const double t = std::min(i * h_, duration_);
       const int k = IntervalAt(t);
       const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
+      to_root_.col(i) = state.q.segment<2>(4) - CentreOfMass(t).value;
       q = GuessAfter(state, h_);
       dynamics.SetState(state.q, state.v, state.a);
-      error_.col(i) =
-          RequiredZeroMomentPoint(&dynamics, ground_) - Vector2d(x_->Zmp(i), y_->Zmp(i));
+      error_.col(i) = RequiredZeroMomentPoint(&dynamics, ReferenceZmp(t).z()) -
+                      Vector2d(x_->Zmp(i), y_->Zmp(i));
     }
   }
 
@@ -310,12 +419,10 @@ class Pattern {
     const double begin = intervals_[first].start;
     const double duration = intervals_[last].start + intervals_[last].duration - begin;
     const double swung = intervals_[k].start + t - begin;
-    const ScalarSignal s = RestToRest(swung, duration);
-    const ScalarSignal lift = Bump(swung, duration);
-    task->position = BlendVector<Vector3d>(from.translation(), to.translation(), s);
-    task->position.value.z() += settings_.clearance * lift.value;
-    task->position.rate.z() += settings_.clearance * lift.rate;
-    task->position.acceleration.z() += settings_.clearance * lift.acceleration;
+    const double lift = settings_.lifts.empty() ? 0 : settings_.lifts[first];
+    const SwingPath path{from.translation(), to.translation(), settings_.clearance, lift, duration};
+    task->position = path.At(swung);
+    const ScalarSignal s = path.Progress(swung);
     const double yaw = StanceYaw(limb, from);
     task->yaw = Blend(yaw, yaw + WrapAngle(Heading(to) - Heading(from)), s);
   }
@@ -324,9 +431,11 @@ class Pattern {
   NominalStance stance_;
   models::ContactSchedule schedule_;
   PatternSettings settings_;
-  double ground_ = 0;  ///< m
   std::vector<Interval> intervals_;
-  double duration_ = 0;  ///< s
+  std::vector<Climb> climbs_;
+  Eigen::Matrix2Xd to_root_;
+  std::optional<SmoothUnder> low_;  ///< the root's height on uneven ground
+  double duration_ = 0;             ///< s
   int steps_ = 0;
   double h_ = 0;          ///< s
   double stiffness_ = 0;  ///< 1/s^2

@@ -12,24 +12,30 @@ namespace possibility::actions {
 
 struct PatternSettings {
   double clearance = 0.05;  ///< height of a swing in its middle, m
+  /// By interval of the schedule, m: how far swings that begin there pass above the higher of their
+  /// ends; 0: as `clearance` says. Empty: all 0.
+  std::vector<double> lifts;
   double zmp_margin =
       0.05;                 ///< wanted distance of the zero moment point from the support's edge, m
   double grid = 0.02;       ///< s, at most, between knots of the centre of mass
   int filter_passes = 2;    ///< corrections of the pendulum by the whole robot's dynamics
   double rise = 0;          ///< m: height of the root above the stance's, between start and end
   double rise_time = 0.35;  ///< s: to get there from the start, and back to the end; at most half
+  /// s, between the coefficients of the root's height where the ground is uneven or swings are high
+  /// (SmoothUnder). More is gentler, less follows the limbs' reach more closely.
+  double height_spacing = 0.12;
   /// num_joints, at the end; those of limbs as in the nominal posture. Empty: that posture.
   Eigen::VectorXd end_joints;
   double turning_time = 1;  ///< s: for the joints to get there; at most the whole motion
 };
 
-/// The whole body's motion of a contact schedule on level ground, without an optimiser: the centre
-/// of mass follows the linear inverted pendulum over a zero moment point inside the support, and a
-/// dynamic filter (Kajita et al. 2003) replaces the pendulum's error by that of the whole robot.
-/// From rest to rest in the nominal posture, or with `end_joints` at the end; in between the root
-/// may be higher. docs/gaits.md has the formulas. `stance`: posture, and the limbs that are
-/// `schedule`'s contacts, in the same order. The result keeps copies of all it needs but `stance`'s
-/// gait.
+/// The whole body's motion of a contact schedule on level surfaces, which may differ in height,
+/// without an optimiser: the centre of mass follows the linear inverted pendulum over a zero moment
+/// point inside the support, and a dynamic filter (Kajita et al. 2003) replaces the pendulum's
+/// error by that of the whole robot. From rest to rest in the nominal posture, or with `end_joints`
+/// at the end; in between the root may be higher, and it rises and falls with the supports.
+/// docs/gaits.md has the formulas. `stance`: posture, and the limbs that are `schedule`'s contacts,
+/// in the same order. The result keeps copies of all it needs but `stance`'s gait.
 /// @throws std::invalid_argument if the schedule is none (models::CheckContactSchedule), is of
 /// other contacts, has fewer than two intervals, or a limb swings in the first or the last;
 /// MotionError if a task is out of reach; Cancelled.

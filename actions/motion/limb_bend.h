@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// The knee or elbow of a limb: the joint between its two longest parts.
+struct LimbBend {
+  std::string name;
+  int before = -1;    ///< link that begins at the joint before it; its origin is that joint
+  int after = -1;     ///< likewise at the joint after it
+  double length = 0;  ///< m, from one to the other if stretched
+};
+
+/// None if the limb has no joint between two parts.
+std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::GaitLimb& limb);
+
+}  // namespace possibility::actions
