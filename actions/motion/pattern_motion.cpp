@@ -100,11 +100,11 @@ class Pattern {
     SolveCentreOfMass();
     GuessRoots();
     for (int pass = 0; pass < settings_.filter_passes; ++pass) {
-      if (IsUneven()) KeepReach(pass == 0 ? kGuessedStretch : kStretch);
+      if (KeepsReach()) KeepReach(pass == 0 ? kGuessedStretch : kStretch);
       Filter(cancellation);
       SolveCentreOfMass();
     }
-    if (IsUneven()) KeepReach(kStretch);
+    if (KeepsReach()) KeepReach(kStretch);
   }
 
   int num_intervals() const { return static_cast<int>(intervals_.size()); }
@@ -125,7 +125,9 @@ class Pattern {
     const Interval& interval = intervals_[k];
     WholeBodyTask task;
     task.root_yaw = RootYaw(interval.start + t);
-    task.root_pitch = Constant(stance_.gait->posture.root_pitch);
+    task.root_pitch =
+        Blend(stance_.gait->posture.root_pitch, stance_.gait->posture.root_pitch + settings_.lean,
+              Raised(interval.start + t));
     task.root_height = RootHeight(interval.start + t);
     task.centre_of_mass = CentreOfMass(interval.start + t);
     task.joints = Joints(interval.start + t);
@@ -301,9 +303,10 @@ class Pattern {
     return {{x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration}};
   }
 
-  bool IsUneven() const {
-    return !climbs_.empty() || std::any_of(settings_.lifts.begin(), settings_.lifts.end(),
-                                           [](double lift) { return lift > 0; });
+  bool KeepsReach() const {
+    return settings_.keeps_reach || !climbs_.empty() ||
+           std::any_of(settings_.lifts.begin(), settings_.lifts.end(),
+                       [](double lift) { return lift > 0; });
   }
 
   ScalarSignal RootHeight(double t) const { return low_ ? low_->At(t) : WantedRootHeight(t); }
@@ -311,7 +314,11 @@ class Pattern {
   /// Lowers the root as far as the limbs need to reach their places.
   /// @throws MotionError if one is too far from the root, seen from above.
   void KeepReach(double stretch) {
-    const std::vector<std::optional<LimbReach>> reaches = ReachesOf(robot_, stance_, stretch);
+    std::vector<std::optional<LimbReach>> reaches = ReachesOf(robot_, stance_, stretch);
+    const Eigen::AngleAxisd lean(settings_.lean, Vector3d::UnitY());
+    for (std::optional<LimbReach>& reach : reaches) {
+      if (reach) reach->hip = lean * reach->hip;
+    }
     VectorXd bound(steps_ + 1);
     for (int i = 0; i <= steps_; ++i) bound[i] = HighestRoot(reaches, i);
     low_.emplace(bound, h_, settings_.height_spacing);
@@ -357,11 +364,16 @@ class Pattern {
 
   ScalarSignal HeightAboveGround(double t) const {
     const double stand = stance_.gait->posture.root_height;
+    return Blend(stand, stand + settings_.rise, Raised(t));
+  }
+
+  /// 0 at both ends, 1 while the root is carried as in motion.
+  ScalarSignal Raised(double t) const {
     const double time = std::min(settings_.rise_time, duration_ / 2);
     const double left = duration_ - t;
-    if (t < time) return Blend(stand, stand + settings_.rise, RestToRest(t, time));
-    if (left >= time) return Constant(stand + settings_.rise);
-    return Blend(stand + settings_.rise, stand, RestToRest(time - left, time));
+    if (t < time) return RestToRest(t, time);
+    if (left >= time) return Constant(1);
+    return Blend(1, 0, RestToRest(time - left, time));
   }
 
   /// The joints of limbs do not matter: their tasks determine them.
@@ -389,12 +401,20 @@ class Pattern {
       cancellation.ThrowIfCancelled();
       const double t = std::min(i * h_, duration_);
       const int k = IntervalAt(t);
-      const WholeBodyState state = solver.Solve(Task(k, t - intervals_[k].start), q);
+      const WholeBodyState state = SolveAt(k, t, q, &solver);
       to_root_.col(i) = state.q.segment<2>(4) - CentreOfMass(t).value;
       q = GuessAfter(state, h_);
       dynamics.SetState(state.q, state.v, state.a);
       error_.col(i) = RequiredZeroMomentPoint(&dynamics, ReferenceZmp(t).z()) -
                       Vector2d(x_->Zmp(i), y_->Zmp(i));
+    }
+  }
+
+  WholeBodyState SolveAt(int k, double t, const VectorXd& guess, WholeBodySolver* solver) const {
+    try {
+      return solver->Solve(Task(k, t - intervals_[k].start), guess);
+    } catch (const MotionError& error) {
+      throw MotionError(error.what(), k);
     }
   }
 

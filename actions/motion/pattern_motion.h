@@ -16,10 +16,14 @@ struct PatternSettings {
   /// ends; 0: as `clearance` says. Empty: all 0.
   std::vector<double> lifts;
   double zmp_margin =
-      0.05;                 ///< wanted distance of the zero moment point from the support's edge, m
-  double grid = 0.02;       ///< s, at most, between knots of the centre of mass
-  int filter_passes = 2;    ///< corrections of the pendulum by the whole robot's dynamics
-  double rise = 0;          ///< m: height of the root above the stance's, between start and end
+      0.05;               ///< wanted distance of the zero moment point from the support's edge, m
+  double grid = 0.02;     ///< s, at most, between knots of the centre of mass
+  int filter_passes = 2;  ///< corrections of the pendulum by the whole robot's dynamics
+  double rise = 0;        ///< m: height of the root above the stance's, between start and end
+  /// The root is lowered where the limbs need it to reach their places; `rise` is then the most
+  /// that it is higher. Always so on uneven ground, and with `lifts`.
+  bool keeps_reach = false;
+  double lean = 0;          ///< rad: pitch of the root beyond the stance's, forward, like `rise`
   double rise_time = 0.35;  ///< s: to get there from the start, and back to the end; at most half
   /// s, between the coefficients of the root's height where the ground is uneven or swings are high
   /// (SmoothUnder). More is gentler, less follows the limbs' reach more closely.
