@@ -50,15 +50,6 @@ class DynamicsResidual : public Function {
   std::shared_ptr<Function> f_;
 };
 
-bool Contradict(const Bounds& bounds) {
-  return std::isnan(bounds.lower) || std::isnan(bounds.upper) || bounds.lower > bounds.upper ||
-         bounds.lower == kInfinity || bounds.upper == -kInfinity;
-}
-
-std::string Describe(const Bounds& bounds) {
-  return fmt::format("[{}, {}]", bounds.lower, bounds.upper);
-}
-
 const char* Describe(VariableKind kind) {
   switch (kind) {
     case VariableKind::kCoordinate:
@@ -366,8 +357,13 @@ void OptimalControlProblem::Continue(VariableAt from, VariableAt to) {
     return end.variable.kind == VariableKind::kCoordinate &&
            end.variable.order < phases_[end.variable.phase].order();
   };
-  if (!is_state(from) || !is_state(to)) {
-    Fail(fmt::format("{} do not continue: only coordinates below the highest order do", name));
+  const auto is_control = [](const VariableAt& end) {
+    return end.variable.kind == VariableKind::kControl;
+  };
+  if (!(is_state(from) && is_state(to)) && !(is_control(from) && is_control(to))) {
+    Fail(fmt::format(
+        "{} do not continue: only coordinates below the highest order do, and controls as controls",
+        name));
   }
   if (from.at != At::kEnd || to.at != At::kStart || from.variable.phase >= to.variable.phase) {
     Fail(fmt::format("{} continue from the end of a phase to the start of a later one", name));

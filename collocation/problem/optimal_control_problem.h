@@ -3,17 +3,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "collocation/problem/bounds.h"
 #include "collocation/problem/function.h"
 
 namespace possibility::collocation {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime, kShare };
 
@@ -50,11 +48,6 @@ struct VariableAt {
 /// A quantity at a share of its phase's duration: on the polynomial that is transcribed, wherever
 /// the mesh has its knots.
 VariableAt AtShare(Variable variable, double share);
-
-struct Bounds {
-  double lower = -kInfinity;
-  double upper = kInfinity;
-};
 
 /// The names of a phase's parts, to display or store its motions.
 struct PhaseNames {
@@ -106,6 +99,18 @@ class Phase {
     double scale;
   };
 
+  /// Of the time integral of the squared rate of a control.
+  struct RateCost {
+    int control;  ///< among `controls()`
+    double weight;
+  };
+
+  struct RateBound {
+    int control;  ///< among `controls()`
+    Bounds bounds;
+    double scale;  ///< of the rate
+  };
+
   const std::string& name() const { return name_; }
   int order() const { return order_; }
   PhaseNames Names() const;
@@ -152,6 +157,14 @@ class Phase {
   void ConstrainIntegral(const std::string& name, std::shared_ptr<Function> f,
                          std::vector<Variable> arguments, Bounds bounds, double scale = 1);
 
+  /// Adds weight * the time integral of the squared rate of a control. A control is a polynomial
+  /// from one knot to the next, and this is the exact integral of its slope squared, per second.
+  void AddRateCost(Variable control, double weight = 1);
+  /// Bounds the rate of a control from knot to knot, in its unit per second; a jump between phases
+  /// is no rate. Bounds of several calls intersect. Exact for controls of degree 1 and 2;
+  /// polynomials of a higher degree are bounded at as many points as their slope has coefficients.
+  void BoundRate(Variable control, Bounds bounds);
+
   /// The solver's starting point: value at s in [0, 1], the share of the phase's duration. Without
   /// a guess: the line between the values fixed at the ends, or a value within the bounds.
   void Guess(Variable variable, std::function<double(double)> value);
@@ -164,6 +177,8 @@ class Phase {
   const std::vector<PathConstraint>& constraints() const { return constraints_; }
   const std::vector<IntegralCost>& costs() const { return costs_; }
   const std::vector<IntegralConstraint>& integrals() const { return integrals_; }
+  const std::vector<RateCost>& rate_costs() const { return rate_costs_; }
+  const std::vector<RateBound>& rate_bounds() const { return rate_bounds_; }  ///< one per control
   const Bounds& duration_bounds() const { return duration_; }
   /// Of no argument that matters; may be empty.
   const std::function<double(double)>& duration_guess() const { return duration_guess_; }
@@ -192,6 +207,8 @@ class Phase {
   void CheckArguments(const std::string& name, const Function* f,
                       const std::vector<Variable>& arguments) const;
   void CheckNameOfConstraint(const std::string& name) const;
+  /// Refuses what is no control.
+  const Quantity& FindControl(Variable variable) const;
 
   OptimalControlProblem* problem_;
   int index_;
@@ -204,6 +221,8 @@ class Phase {
   std::vector<PathConstraint> constraints_;
   std::vector<IntegralCost> costs_;
   std::vector<IntegralConstraint> integrals_;
+  std::vector<RateCost> rate_costs_;
+  std::vector<RateBound> rate_bounds_;
 };
 
 /// An optimal-control problem of one or more phases in its continuous form; Transcription makes a
@@ -246,8 +265,9 @@ class OptimalControlProblem {
                         double guess = 0);
   std::vector<std::string> ParameterNames() const;
 
-  /// Makes the quantity at the end of one phase and the one at the start of the next the same
-  /// variable. Bounds intersect.
+  /// Makes the quantity at the end of one phase and the one at the start of a later one the same
+  /// variable. Bounds intersect. Quantities: coordinates and their derivatives below the phase's
+  /// order, or two controls, which may jump between phases otherwise.
   void Continue(VariableAt from, VariableAt to);
   /// lower <= f(arguments) <= upper. Arguments are quantities at instants of any phases, durations
   /// and parameters.

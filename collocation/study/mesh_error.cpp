@@ -2,37 +2,16 @@
 #include "collocation/study/mesh_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "collocation/transcription/quadrature.h"
 
 namespace possibility::collocation {
 
 namespace {
 
 using Eigen::VectorXd;
-
-/// One point of a quadrature over [0, 1].
-struct QuadraturePoint {
-  double share;
-  double weight;
-};
-
-/// Gauss and Legendre's rule of five points: exact for polynomials of degree 9.
-const std::array<QuadraturePoint, 5>& GaussPoints() {
-  static const std::array<QuadraturePoint, 5> points = [] {
-    const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3;
-    const double outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
-    const double inner_weight = (322 + 13 * std::sqrt(70.0)) / 1800;
-    const double outer_weight = (322 - 13 * std::sqrt(70.0)) / 1800;
-    return std::array<QuadraturePoint, 5>{{{(1 - outer) / 2, outer_weight},
-                                           {(1 - inner) / 2, inner_weight},
-                                           {0.5, 64.0 / 225},
-                                           {(1 + inner) / 2, inner_weight},
-                                           {(1 + outer) / 2, outer_weight}}};
-  }();
-  return points;
-}
 
 double Excess(double value, const Bounds& bounds) {
   return std::max({0.0, bounds.lower - value, value - bounds.upper});
@@ -100,7 +79,7 @@ class PhaseBetweenKnots {
   template <typename Integrand>
   double Integral(int interval, const Integrand& integrand) const {
     double sum = 0;
-    for (const QuadraturePoint& point : GaussPoints()) {
+    for (const QuadraturePoint& point : rule_) {
       sum += point.weight * integrand(ShareAt(interval, point.share));
     }
     return sum * LengthOf(interval);
@@ -144,6 +123,20 @@ class PhaseBetweenKnots {
       const VectorXd values = motion_.Controls(s);
       for (Eigen::Index i = 0; i < sums.size(); ++i) {
         sums[i] += h * ExcessOf(phase_.controls()[i], values[i]);
+      }
+    });
+    Raise(sums, &error->inequalities);
+    AddRateBounds(interval, error);
+  }
+
+  void AddRateBounds(int interval, MeshError* error) const {
+    VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.rate_bounds().size()));
+    if (sums.size() == 0) return;
+    ForSamples(interval, [&](double s, double h) {
+      const VectorXd rates = motion_.ControlRates(s);
+      for (Eigen::Index i = 0; i < sums.size(); ++i) {
+        const Phase::RateBound& bound = phase_.rate_bounds()[i];
+        sums[i] += h * Excess(rates[bound.control], bound.bounds) / bound.scale;
       }
     });
     Raise(sums, &error->inequalities);
@@ -221,6 +214,7 @@ class PhaseBetweenKnots {
   const Phase& phase_;
   const PhaseTrajectory& motion_;
   const VectorXd& parameters_;
+  const std::vector<QuadraturePoint> rule_ = GaussLegendre(5);  // exact for degree 9
 };
 
 }  // namespace

@@ -58,6 +58,13 @@ Eigen::VectorXd PhaseTrajectory::Controls(double s) const {
   return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeIntegrals(c, 0);
 }
 
+Eigen::VectorXd PhaseTrajectory::ControlRates(double s) const {
+  const auto [interval, c] = Locate(mesh, s);
+  const int inside = scheme.num_nodes() - 1;
+  const double h = (mesh[interval + 1] - mesh[interval]) * duration;
+  return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeSlopes(c) / h;
+}
+
 double Trajectory::Value(const Variable& variable, double time) const {
   const auto check = [](bool fits) {
     if (!fits) throw std::invalid_argument("Trajectory: a variable of another problem");

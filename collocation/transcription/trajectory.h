@@ -30,6 +30,8 @@ struct PhaseTrajectory {
   /// that were transcribed, so each is the exact derivative of the one below.
   Eigen::VectorXd Coordinates(double s, int order = 0) const;
   Eigen::VectorXd Controls(double s) const;
+  /// Per second; at a knot, those of the interval that begins there.
+  Eigen::VectorXd ControlRates(double s) const;
 };
 
 struct Trajectory {

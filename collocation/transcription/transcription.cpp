@@ -3,6 +3,7 @@
 #include "collocation/problem/unused_quantities.h"
 #include "collocation/transcription/initial_guess.h"
 #include "collocation/transcription/multiplier_transfer.h"
+#include "collocation/transcription/quadrature.h"
 #include "collocation/transcription/trajectory_transfer.h"
 #include "collocation/transcription/wrong_derivatives.h"
 
@@ -14,6 +15,7 @@ Transcription::Transcription(const OptimalControlProblem& problem,
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
   CheckEverythingIsUsed(problem);
   for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
+  for (int p = 0; p < problem.num_phases(); ++p) AddControlRates(p);
   for (int p = 0; p < problem.num_phases(); ++p) {
     AddPathConstraints(p, cancellation);
     AddIntegrals(p, cancellation);
@@ -58,6 +60,39 @@ void Transcription::AddDefects(int phase_index, const CancellationToken& cancell
   }
 }
 
+void Transcription::AddControlRates(int phase_index) {
+  const Phase& phase = layout_.problem().phase(phase_index);
+  const Mesh& mesh = layout_.phase(phase_index).mesh;
+  const int degree = layout_.scheme().num_nodes() - 1;
+  // Bounds hold between two points if they hold at both: a slope of degree 1 is bounded by its
+  // ends.
+  const std::vector<double> bounded =
+      degree == 1 ? std::vector<double>{0.5} : GaussLobatto(degree).nodes;
+  const std::vector<QuadraturePoint> rule = GaussLegendre(degree);
+  const std::shared_ptr<Function> square = FunctionOf([](auto rate) { return rate * rate; });
+  for (int interval = 0; interval + 1 < static_cast<int>(mesh.size()); ++interval) {
+    const int first = interval * degree;
+    for (const Phase::RateBound& rate : phase.rate_bounds()) {
+      const std::string name = "rate of " + phase.controls()[rate.control].name;
+      for (int i = 0; i < degree; ++i) {
+        functions_.AddFormRow(
+            layout_.ControlRateForm(phase_index, interval, bounded[i], rate.control), rate.scale,
+            rate.bounds, {phase_index, first + i, name, -1});
+      }
+    }
+    const double length = mesh[interval + 1] - mesh[interval];
+    for (const Phase::RateCost& cost : phase.rate_costs()) {
+      for (const QuadraturePoint& point : rule) {
+        functions_.AddCost(
+            CostTerm(square,
+                     {layout_.ControlRateForm(phase_index, interval, point.share, cost.control)},
+                     layout_.DurationForm(phase_index, cost.weight * point.weight * length)),
+            {phase_index, first, "rate of " + phase.controls()[cost.control].name, -1});
+      }
+    }
+  }
+}
+
 void Transcription::AddPathConstraints(int phase_index, const CancellationToken& cancellation) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const int n = static_cast<int>(layout_.phase(phase_index).points.size());
@@ -80,17 +115,12 @@ void Transcription::AddPathConstraints(int phase_index, const CancellationToken&
 CostTerm Transcription::IntegralTerm(int phase, int point,
                                      const std::shared_ptr<Function>& function,
                                      const std::vector<Variable>& variables, double weight) const {
-  const PhaseLayout& layout = layout_.phase(phase);
   std::vector<PolynomialForm> arguments;
   arguments.reserve(variables.size());
   for (const Variable& variable : variables) {
     arguments.push_back(layout_.FormOf(variable, phase, point));
   }
-  PolynomialForm factor;
-  factor.duration = layout.duration;
-  factor.monomials.push_back(layout.duration < 0 ? Monomial{-1, weight * layout.fixed_duration, 0}
-                                                 : Monomial{-1, weight, 1});
-  return CostTerm(function, std::move(arguments), std::move(factor));
+  return CostTerm(function, std::move(arguments), layout_.DurationForm(phase, weight));
 }
 
 void Transcription::AddIntegrals(int phase_index, const CancellationToken& cancellation) {

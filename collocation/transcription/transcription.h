@@ -82,6 +82,7 @@ class Transcription : public NonlinearProgram {
 
  private:
   void AddDefects(int phase, const CancellationToken& cancellation);
+  void AddControlRates(int phase);
   void AddPathConstraints(int phase, const CancellationToken& cancellation);
   void AddIntegrals(int phase, const CancellationToken& cancellation);
   /// What a point of a phase adds to an integral.

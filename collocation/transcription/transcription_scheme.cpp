@@ -19,6 +19,12 @@ Eigen::VectorXd TranscriptionScheme::LagrangeIntegrals(double c, int k) const {
   return lagrange.transpose() * powers;
 }
 
+Eigen::VectorXd TranscriptionScheme::LagrangeSlopes(double c) const {
+  Eigen::VectorXd powers = Eigen::VectorXd::Zero(num_nodes());
+  for (int p = 1; p < num_nodes(); ++p) powers[p] = p * std::pow(c, p - 1);
+  return lagrange.transpose() * powers;
+}
+
 TranscriptionScheme SchemeOfNodes(const std::string& name, const std::vector<double>& nodes,
                                   bool separated) {
   bool ascends = nodes.size() >= 2 && nodes.front() == 0 && nodes.back() == 1;

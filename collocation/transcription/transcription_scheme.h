@@ -28,6 +28,8 @@ struct TranscriptionScheme {
   int num_nodes() const { return static_cast<int>(nodes.size()); }
   /// The k-th repeated integrals from 0 to c of the Lagrange polynomials; k = 0: the polynomials.
   Eigen::VectorXd LagrangeIntegrals(double c, int k) const;
+  /// The derivatives by c of the Lagrange polynomials.
+  Eigen::VectorXd LagrangeSlopes(double c) const;
 };
 
 TranscriptionScheme Trapezoidal();

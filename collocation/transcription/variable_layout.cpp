@@ -92,35 +92,38 @@ void VariableLayout::LayOutPoint(int phase_index, int point) {
       const bool derived =
           !scheme_.separated && !layout.points[point].is_knot && order < phase.order();
       if (derived) continue;
-      const Phase::Quantity& quantity = phase.coordinates()[c][order];
-      const Bounds bounds = BoundsAt(quantity, phase_index, point);
-      // A state that continues an earlier phase is that phase's variable.
-      for (const auto& [from, to] : problem_.continued()) {
-        const Variable here = phase.Coordinate(static_cast<int>(c), order);
-        if (point != 0 || to.variable != here) continue;
-        const PhaseLayout& earlier = phases_[from.variable.phase];
-        orders[order] = earlier.coordinates.back()[from.variable.index][from.variable.order];
-      }
-      if (orders[order] < 0) {
-        orders[order] =
-            AddVariable(quantity.scale, bounds, {phase_index, point, quantity.name, -1});
-        continue;
-      }
-      double& lower = lowers_[orders[order]];
-      double& upper = uppers_[orders[order]];
-      lower = std::max(lower, bounds.lower);
-      upper = std::min(upper, bounds.upper);
-      if (lower > upper) {
-        problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet",
-                                  PointName(phase_index, point), quantity.name, lower, upper));
-      }
+      orders[order] = AddContinuing(phase.Coordinate(static_cast<int>(c), order), point);
     }
   }
   auto& controls = layout.controls.emplace_back();
-  for (const Phase::Quantity& quantity : phase.controls()) {
-    controls.push_back(AddVariable(quantity.scale, BoundsAt(quantity, phase_index, point),
-                                   {phase_index, point, quantity.name, -1}));
+  for (std::size_t c = 0; c < phase.controls().size(); ++c) {
+    controls.push_back(AddContinuing(phase.Control(static_cast<int>(c)), point));
   }
+}
+
+int VariableLayout::AddContinuing(Variable variable, int point) {
+  const Phase::Quantity& quantity = problem_.phase(variable.phase).Find(variable);
+  const Bounds bounds = BoundsAt(quantity, variable.phase, point);
+  int index = -1;
+  for (const auto& [from, to] : problem_.continued()) {
+    if (point != 0 || to.variable != variable) continue;
+    const PhaseLayout& earlier = phases_[from.variable.phase];
+    index = variable.kind == VariableKind::kControl
+                ? earlier.controls.back()[from.variable.index]
+                : earlier.coordinates.back()[from.variable.index][from.variable.order];
+  }
+  if (index < 0) {
+    return AddVariable(quantity.scale, bounds, {variable.phase, point, quantity.name, -1});
+  }
+  double& lower = lowers_[index];
+  double& upper = uppers_[index];
+  lower = std::max(lower, bounds.lower);
+  upper = std::min(upper, bounds.upper);
+  if (lower > upper) {
+    problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet",
+                              PointName(variable.phase, point), quantity.name, lower, upper));
+  }
+  return index;
 }
 
 bool HoldsAt(At at, int point, int num_points) {
@@ -213,6 +216,28 @@ PolynomialForm VariableLayout::ControlForm(int phase, int interval, double share
     form.monomials.push_back({phases_[phase].controls[first + j][control], lagrange[j], 0});
   }
   return form;
+}
+
+PolynomialForm VariableLayout::ControlRateForm(int phase, int interval, double share,
+                                               int control) const {
+  const PhaseLayout& layout = phases_[phase];
+  const double length = layout.mesh[interval + 1] - layout.mesh[interval];
+  const bool is_free = layout.duration >= 0;
+  const double seconds = is_free ? length : length * layout.fixed_duration;
+  const int first = interval * (scheme_.num_nodes() - 1);
+  const Eigen::VectorXd slopes = scheme_.LagrangeSlopes(share);
+  PolynomialForm form{layout.duration, {}};
+  for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    form.monomials.push_back(
+        {layout.controls[first + j][control], slopes[j] / seconds, is_free ? -1 : 0});
+  }
+  return form;
+}
+
+PolynomialForm VariableLayout::DurationForm(int phase, double factor) const {
+  const PhaseLayout& layout = phases_[phase];
+  if (layout.duration < 0) return {-1, {{-1, factor * layout.fixed_duration, 0}}};
+  return {layout.duration, {{-1, factor, 1}}};
 }
 
 PolynomialForm VariableLayout::FormAtShare(Variable variable, int phase, double share) const {

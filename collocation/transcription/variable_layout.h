@@ -72,6 +72,10 @@ class VariableLayout {
   /// integration from the interval's first knot.
   PolynomialForm IntegralForm(int phase, int interval, int node, int coordinate, int order) const;
   PolynomialForm InstantForm(const VariableAt& instant) const;
+  /// The slope of a control, per second, at a share of an interval.
+  PolynomialForm ControlRateForm(int phase, int interval, double share, int control) const;
+  /// An integral over a phase has the phase's duration times this as its weight.
+  PolynomialForm DurationForm(int phase, double factor) const;
 
   Bounds BoundsAt(const Phase::Quantity& quantity, int phase, int point) const;
   /// s; `x` in the problem's own units.
@@ -89,6 +93,9 @@ class VariableLayout {
   int AddVariable(double scale, Bounds bounds, PlacedName name);
   void LayOut(int phase);
   void LayOutPoint(int phase, int point);
+  /// The variable of the earlier phase that the quantity at the start of this one continues, with
+  /// its bounds intersected; a new variable if it continues none.
+  int AddContinuing(Variable variable, int point);
   std::string PointName(int phase, int point) const;
   /// IntegralForm at a share of the interval, of any order; at the phase's order it is the
   /// polynomial itself.

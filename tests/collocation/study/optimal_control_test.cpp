@@ -65,7 +65,7 @@ TEST(OptimalControlTest, SchemesHaveTheirOrdersOfConvergence) {
   }
 }
 
-std::shared_ptr<Function> Square() {
+std::shared_ptr<Function> Squared() {
   return FunctionOf([](auto u) { return u * u; });
 }
 
@@ -78,7 +78,7 @@ TEST(IntegralConstraint, TheStringOfLeastEnergyAboveAnAreaIsAParabola) {
   phase.SetDuration(1);
   phase.Fix(x, 0, At::kStart);
   phase.Fix(x, 0, At::kEnd);
-  phase.AddIntegralCost("energy", Square(), {phase.Rate(x)});
+  phase.AddIntegralCost("energy", Squared(), {phase.Rate(x)});
   phase.ConstrainIntegral("area", FunctionOf([](auto height) { return height; }), {x}, {1, 1});
   const OptimalControlResult result = SolveOptimalControl(problem);
   ASSERT_TRUE(result.succeeded()) << result.message;
@@ -97,7 +97,7 @@ TEST(IntegralConstraint, HoldsInAPhaseOfFreeDuration) {
   phase.SetDuration({0.5, 5});
   phase.Fix(x, 0, At::kStart);
   phase.Fix(x, 0, At::kEnd);
-  phase.AddIntegralCost("energy", Square(), {phase.Rate(x)});
+  phase.AddIntegralCost("energy", Squared(), {phase.Rate(x)});
   phase.ConstrainIntegral("area", FunctionOf([](auto height) { return height; }), {x},
                           {1, kInfinity});
   problem.AddCost({phase.duration(), At::kEnd});
@@ -117,7 +117,7 @@ double BeamEnergy(int intervals) {
     phase.Fix(w, 0, end);
     phase.Fix(phase.Rate(w), 0, end);
   }
-  phase.AddIntegralCost("energy", Square(), {phase.Rate(w, 2)});
+  phase.AddIntegralCost("energy", Squared(), {phase.Rate(w, 2)});
   problem.Link("deflection", FunctionOf([](auto deflection) { return deflection; }),
                {AtShare(w, 0.5)}, {{1, 1}});
   OptimalControlOptions options;

@@ -42,6 +42,8 @@ std::unique_ptr<OptimalControlProblem> Medley() {
                           (*f)[0] = z[0] * z[1] + sin(z[2]);
                         }),
                         {u, x, run.time()}, {-1, 2}, 3);
+  run.AddRateCost(u, 0.2);
+  run.BoundRate(u, {-4, 5});
   Phase& fly = problem->AddPhase("fly", 2);
   const Variable q = fly.AddCoordinate("q", {-4, 4});
   const Variable r = fly.AddCoordinate("r");
@@ -57,7 +59,9 @@ std::unique_ptr<OptimalControlProblem> Medley() {
                         (*c)[0] = z[0] * z[0] + z[1] * z[1];
                       }),
                       {fly.Rate(q, 2), fly.Rate(r)});
+  fly.AddRateCost(f, 0.4);
   problem->Continue({x, At::kEnd}, {q, At::kStart});
+  problem->Continue({u, At::kEnd}, {f, At::kStart});
   // At instants between the knots, of every kind of quantity.
   problem->Link("through", Differentiated<5, 1>([](const auto& z, auto* g) {
                   (*g)[0] = z[0] * z[1] + z[2] * z[2] * z[3] - z[4];
@@ -104,6 +108,7 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
   Transcription program(*problem, GetParam(), {{0, 0.3, 1}, {0, 0.5, 0.6, 1}});
   std::mt19937 random(1);
   const int n = program.num_variables();
+  const double step = 0.01;  // durations are as short as 0.2, and rates have their inverses
   for (int trial = 0; trial < 5; ++trial) {
     const VectorXd x = RandomPoint(&random, program);
     const VectorXd multipliers = VectorXd::Random(program.num_constraints());
@@ -118,7 +123,8 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
     H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
 
     const MatrixXd objective_differences = RichardsonJacobian(
-        [&](const VectorXd& d) { return VectorXd::Constant(1, program.Objective(x + d)); }, n);
+        [&](const VectorXd& d) { return VectorXd::Constant(1, program.Objective(x + d)); }, n,
+        step);
     EXPECT_LT(RelativeError(gradient.transpose(), objective_differences), 1e-8);
     const MatrixXd constraint_differences = RichardsonJacobian(
         [&](const VectorXd& d) {
@@ -126,7 +132,7 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
           program.Constraints(x + d, &g);
           return g;
         },
-        n);
+        n, step);
     EXPECT_LT(RelativeError(J, constraint_differences), 1e-8);
     const MatrixXd gradient_differences = RichardsonJacobian(
         [&](const VectorXd& d) {
@@ -137,7 +143,7 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
               Dense(program.jacobian_pattern(), values, program.num_constraints(), n);
           return VectorXd(0.7 * g + at.transpose() * multipliers);
         },
-        n);
+        n, step);
     EXPECT_LT(RelativeError(H, gradient_differences), 1e-8);
   }
 }
