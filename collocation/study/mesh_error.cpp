@@ -257,24 +257,4 @@ MeshError Worst(const std::vector<std::vector<MeshError>>& errors) {
   return worst;
 }
 
-Mesh Refined(const Mesh& mesh, const std::vector<MeshError>& errors, double tolerance, int order) {
-  constexpr int kMostParts = 4;
-  Mesh refined = {mesh.front()};
-  for (std::size_t i = 0; i + 1 < mesh.size(); ++i) {
-    int parts = 1;
-    const double error = errors[i].Greatest();
-    if (error > tolerance) {
-      // The error of an interval is proportional to its length to the power order + 1.
-      const double wanted = std::ceil(std::pow(error / tolerance, 1.0 / (order + 1)));
-      parts =
-          std::isfinite(wanted) ? std::clamp(static_cast<int>(wanted), 2, kMostParts) : kMostParts;
-    }
-    for (int part = 1; part < parts; ++part) {
-      refined.push_back(mesh[i] + (mesh[i + 1] - mesh[i]) * part / parts);
-    }
-    refined.push_back(mesh[i + 1]);
-  }
-  return refined;
-}
-
 }  // namespace possibility::collocation
