@@ -90,14 +90,14 @@ PhaseNames Phase::Names() const {
   return names;
 }
 
-Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, double scale) {
+Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, std::optional<double> scale) {
   std::vector<Quantity> orders(order_ + 1);
   for (int order = 0; order <= order_; ++order) {
     orders[order].name = name + std::string(order, '\'');
   }
   coordinates_.push_back(std::move(orders));
   const Variable variable = Coordinate(static_cast<int>(coordinates_.size()) - 1);
-  SetScale(variable, scale);
+  if (scale) SetScale(variable, *scale);
   Bound(variable, bounds);
   return variable;
 }
@@ -112,11 +112,11 @@ Variable Phase::Rate(Variable coordinate, int times) const {
   return coordinate;
 }
 
-Variable Phase::AddControl(const std::string& name, Bounds bounds, double scale) {
+Variable Phase::AddControl(const std::string& name, Bounds bounds, std::optional<double> scale) {
   controls_.push_back({});
   controls_.back().name = name;
   const Variable variable = Control(static_cast<int>(controls_.size()) - 1);
-  SetScale(variable, scale);
+  if (scale) SetScale(variable, *scale);
   Bound(variable, bounds);
   return variable;
 }
@@ -171,6 +171,19 @@ void Phase::SetScale(Variable variable, double scale) {
     Fail(fmt::format("'{}': expected a scale above 0, got {}", quantity.name, scale));
   }
   quantity.scale = scale;
+  quantity.has_own_scale = true;
+}
+
+void Phase::SuggestScale(Variable variable, double scale) {
+  Quantity& quantity = FindMutable(variable);
+  if (quantity.has_own_scale) return;
+  SetScale(variable, scale);
+  quantity.has_own_scale = false;
+}
+
+void Phase::SuggestRowScales(int constraint, const Eigen::VectorXd& scales) {
+  PathConstraint& of = constraints_.at(constraint);
+  if (!of.has_own_scales) of.scales = scales;
 }
 
 void Phase::SetDuration(Bounds bounds) {
@@ -215,6 +228,8 @@ void Phase::SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> argum
   }
   Constrain("dynamics", std::make_shared<DynamicsResidual>(std::move(f)), std::move(arguments),
             {{0, 0}}, At::kEverywhere, std::move(scales));
+  constraints_.back().is_dynamics = true;
+  constraints_.back().has_own_scales = false;
 }
 
 void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
@@ -230,6 +245,7 @@ void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
     if (Contradict(b)) Fail(fmt::format("'{}': contradictory bounds {}", name, Describe(b)));
   }
   const std::size_t n = bounds.size();
+  const bool has_own_scales = !scales.empty();
   if (scales.empty()) scales = {1};
   if (scales.size() == 1) scales.resize(n, scales.front());
   if (scales.size() != n) {
@@ -241,7 +257,8 @@ void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
     }
   }
   constraints_.push_back({name, std::move(f), std::move(arguments), std::move(bounds), at,
-                          Eigen::Map<Eigen::VectorXd>(scales.data(), static_cast<int>(n))});
+                          Eigen::Map<Eigen::VectorXd>(scales.data(), static_cast<int>(n)),
+                          has_own_scales});
 }
 
 void Phase::ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
@@ -315,16 +332,21 @@ Phase& OptimalControlProblem::AddPhase(const std::string& name, int order) {
   return phases_.back();
 }
 
-Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bounds, double scale,
-                                             double guess) {
+Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bounds,
+                                             std::optional<double> scale, double guess) {
   if (Contradict(bounds)) {
     Fail(fmt::format("parameter '{}': contradictory bounds {}", name, Describe(bounds)));
   }
-  if (!(scale > 0 && std::isfinite(scale))) {
-    Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, scale));
+  if (scale && !(*scale > 0 && std::isfinite(*scale))) {
+    Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, *scale));
   }
-  parameters_.push_back({name, bounds, scale, guess});
+  parameters_.push_back({name, bounds, scale.value_or(1), guess, scale.has_value()});
   return ParameterVariable(static_cast<int>(parameters_.size()) - 1);
+}
+
+void OptimalControlProblem::SuggestScale(int parameter, double scale) {
+  Parameter& of = parameters_.at(parameter);
+  if (!of.has_own_scale) of.scale = scale;
 }
 
 std::vector<std::string> OptimalControlProblem::ParameterNames() const {

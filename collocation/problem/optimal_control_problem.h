@@ -70,6 +70,7 @@ class Phase {
   struct Quantity {
     std::string name;
     double scale = 1;
+    bool has_own_scale = false;  ///< that was given, not suggested
     std::vector<std::pair<At, Bounds>> bounds;
     std::function<double(double)> guess;  ///< of the share of the duration; may be empty
   };
@@ -80,8 +81,10 @@ class Phase {
     std::vector<Variable> arguments;
     std::vector<Bounds> bounds;
     At at;
-    Eigen::VectorXd scales;  ///< by output
+    Eigen::VectorXd scales;       ///< by output
+    bool has_own_scales = false;  ///< that were given, not suggested
     bool only_at_knots = false;
+    bool is_dynamics = false;  ///< of SetDynamics
   };
 
   struct IntegralCost {
@@ -115,11 +118,14 @@ class Phase {
   int order() const { return order_; }
   PhaseNames Names() const;
 
-  /// A coordinate; `scale`: its typical size, above 0.
-  Variable AddCoordinate(const std::string& name, Bounds bounds = {}, double scale = 1);
+  /// A coordinate; `scale`: its typical size, above 0. None: 1, unless SetAutomaticScales finds
+  /// another.
+  Variable AddCoordinate(const std::string& name, Bounds bounds = {},
+                         std::optional<double> scale = std::nullopt);
   /// The time derivative of a coordinate or of its derivative; it has its own bounds and scale.
   Variable Rate(Variable coordinate, int times = 1) const;
-  Variable AddControl(const std::string& name, Bounds bounds = {}, double scale = 1);
+  Variable AddControl(const std::string& name, Bounds bounds = {},
+                      std::optional<double> scale = std::nullopt);
   Variable duration() const { return Own(VariableKind::kDuration, 0); }
   /// Time since the beginning of the problem.
   Variable time() const { return Own(VariableKind::kTime, 0); }
@@ -130,6 +136,10 @@ class Phase {
   void SetDuration(Bounds bounds);
   void SetDuration(double fixed) { SetDuration({fixed, fixed}); }
   void SetScale(Variable variable, double scale);
+  /// The same, unless the variable or the constraint has scales of its own. `constraint`: among
+  /// constraints().
+  void SuggestScale(Variable variable, double scale);
+  void SuggestRowScales(int constraint, const Eigen::VectorXd& scales);
 
   /// Intersects the bounds of a coordinate, its derivative or a control.
   void Bound(Variable variable, Bounds bounds, At at = At::kEverywhere);
@@ -235,6 +245,7 @@ class OptimalControlProblem {
     Bounds bounds;
     double scale;
     double guess;
+    bool has_own_scale;  ///< that was given, not suggested
   };
 
   struct LinkConstraint {
@@ -260,9 +271,12 @@ class OptimalControlProblem {
   Phase& AddPhase(const std::string& name, int order = 1);
   int num_phases() const { return static_cast<int>(phases_.size()); }
   const Phase& phase(int index) const { return phases_.at(index); }
+  Phase& phase(int index) { return phases_.at(index); }
 
-  Variable AddParameter(const std::string& name, Bounds bounds = {}, double scale = 1,
-                        double guess = 0);
+  Variable AddParameter(const std::string& name, Bounds bounds = {},
+                        std::optional<double> scale = std::nullopt, double guess = 0);
+  /// The scale of a parameter, unless it has one of its own. `parameter`: among parameters().
+  void SuggestScale(int parameter, double scale);
   std::vector<std::string> ParameterNames() const;
 
   /// Makes the quantity at the end of one phase and the one at the start of a later one the same
