@@ -85,14 +85,28 @@ void Phase::Fail(const std::string& what) const {
 
 PhaseNames Phase::Names() const {
   PhaseNames names{name_, order_, {}, {}};
-  for (const auto& orders : coordinates_) names.coordinates.push_back(orders[0].name);
+  bool is_mixed = false;
+  for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
+    names.coordinates.push_back(coordinates_[i][0].name);
+    names.orders.push_back(OrderOf(i));
+    is_mixed = is_mixed || OrderOf(i) != order_;
+  }
+  if (!is_mixed) names.orders.clear();
   for (const Quantity& control : controls_) names.controls.push_back(control.name);
   return names;
 }
 
 Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, std::optional<double> scale) {
-  std::vector<Quantity> orders(order_ + 1);
-  for (int order = 0; order <= order_; ++order) {
+  return AddCoordinateOfOrder(order_, name, bounds, scale);
+}
+
+Variable Phase::AddCoordinateOfOrder(int highest, const std::string& name, Bounds bounds,
+                                     std::optional<double> scale) {
+  if (highest < 1 || highest > order_) {
+    Fail(fmt::format("'{}': expected an order from 1 to {}, got {}", name, order_, highest));
+  }
+  std::vector<Quantity> orders(highest + 1);
+  for (int order = 0; order <= highest; ++order) {
     orders[order].name = name + std::string(order, '\'');
   }
   coordinates_.push_back(std::move(orders));
@@ -104,8 +118,8 @@ Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, std::optio
 
 Variable Phase::Rate(Variable coordinate, int times) const {
   const Quantity& quantity = Find(coordinate);
-  if (coordinate.kind != VariableKind::kCoordinate || coordinate.order + times > order_ ||
-      times < 1) {
+  if (coordinate.kind != VariableKind::kCoordinate ||
+      coordinate.order + times > OrderOf(coordinate.index) || times < 1) {
     Fail(fmt::format("'{}' has no derivative of order {}", quantity.name, times));
   }
   coordinate.order += times;
@@ -134,7 +148,7 @@ const Phase::Quantity* Phase::FindOrNull(Variable variable) const {
     return &controls_[variable.index];
   }
   if (variable.kind == VariableKind::kCoordinate && in(variable.index, coordinates_.size()) &&
-      in(variable.order, order_ + 1)) {
+      in(variable.order, coordinates_[variable.index].size())) {
     return &coordinates_[variable.index][variable.order];
   }
   return nullptr;
@@ -223,8 +237,8 @@ void Phase::SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> argum
   }
   std::vector<double> scales;
   for (int i = 0; i < n; ++i) {
-    arguments.push_back(Coordinate(i, order_));
-    scales.push_back(coordinates_[i][order_].scale);
+    arguments.push_back(Coordinate(i, OrderOf(i)));
+    scales.push_back(coordinates_[i].back().scale);
   }
   Constrain("dynamics", std::make_shared<DynamicsResidual>(std::move(f)), std::move(arguments),
             {{0, 0}}, At::kEverywhere, std::move(scales));
@@ -377,7 +391,7 @@ void OptimalControlProblem::Continue(VariableAt from, VariableAt to) {
   const std::string name = NameOf(from.variable) + " and " + NameOf(to.variable);
   const auto is_state = [this](const VariableAt& end) {
     return end.variable.kind == VariableKind::kCoordinate &&
-           end.variable.order < phases_[end.variable.phase].order();
+           end.variable.order < phases_[end.variable.phase].OrderOf(end.variable.index);
   };
   const auto is_control = [](const VariableAt& end) {
     return end.variable.kind == VariableKind::kControl;

@@ -54,6 +54,7 @@ struct PhaseNames {
   std::string phase;
   int order = 1;
   std::vector<std::string> coordinates, controls;
+  std::vector<int> orders = {};  ///< by coordinate; empty: all have that of the phase
 
   bool operator==(const PhaseNames&) const = default;
 };
@@ -61,9 +62,9 @@ struct PhaseNames {
 class OptimalControlProblem;
 
 /// A time interval with one system. Its coordinates y come with their derivatives up to the phase's
-/// order. Order 1 is for x' = f(x, u), where x' is a variable beside x; order 2 is for mechanical
-/// systems in q, v and a. Transcription ties the derivatives together; dynamics are one more
-/// constraint.
+/// order, or up to a lower order of their own. Order 1 is for x' = f(x, u), where x' is a variable
+/// beside x; order 2 is for mechanical systems in q, v and a. Transcription ties the derivatives
+/// together; dynamics are one more constraint.
 class Phase {
  public:
   /// A coordinate, one of its derivatives, or a control.
@@ -115,13 +116,20 @@ class Phase {
   };
 
   const std::string& name() const { return name_; }
+  /// The greatest order of a coordinate.
   int order() const { return order_; }
+  int OrderOf(int coordinate) const {
+    return static_cast<int>(coordinates_.at(coordinate).size()) - 1;
+  }
   PhaseNames Names() const;
 
   /// A coordinate; `scale`: its typical size, above 0. None: 1, unless SetAutomaticScales finds
   /// another.
   Variable AddCoordinate(const std::string& name, Bounds bounds = {},
                          std::optional<double> scale = std::nullopt);
+  /// A coordinate of an order from 1 to the phase's: the state of a motor beside positions.
+  Variable AddCoordinateOfOrder(int order, const std::string& name, Bounds bounds = {},
+                                std::optional<double> scale = std::nullopt);
   /// The time derivative of a coordinate or of its derivative; it has its own bounds and scale.
   Variable Rate(Variable coordinate, int times = 1) const;
   Variable AddControl(const std::string& name, Bounds bounds = {},
@@ -145,7 +153,7 @@ class Phase {
   void Bound(Variable variable, Bounds bounds, At at = At::kEverywhere);
   void Fix(Variable variable, double value, At at) { Bound(variable, {value, value}, at); }
 
-  /// y^(order) = f(arguments), one output per coordinate.
+  /// y^(order) = f(arguments), one output per coordinate, each for the coordinate's order.
   void SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> arguments);
   /// lower <= f(arguments) <= upper, with one Bounds per output or one for all. Dynamics in
   /// implicit form are constraints with bounds 0. `scales`: typical sizes of the outputs, one per
@@ -267,7 +275,7 @@ class OptimalControlProblem {
   OptimalControlProblem& operator=(const OptimalControlProblem&) = delete;
 
   const std::string& name() const { return name_; }
-  /// `order`: 1 or 2. The reference stays valid.
+  /// `order`: 1 or 2, of coordinates that are given no other. The reference stays valid.
   Phase& AddPhase(const std::string& name, int order = 1);
   int num_phases() const { return static_cast<int>(phases_.size()); }
   const Phase& phase(int index) const { return phases_.at(index); }

@@ -113,6 +113,7 @@ class PhaseBetweenKnots {
       ForSamples(interval, [&](double s, double h) {
         const VectorXd values = motion_.Coordinates(s, static_cast<int>(order));
         for (Eigen::Index i = 0; i < sums.size(); ++i) {
+          if (static_cast<int>(order) > phase_.OrderOf(static_cast<int>(i))) continue;
           sums[i] += h * ExcessOf(phase_.coordinates()[i][order], values[i]);
         }
       });

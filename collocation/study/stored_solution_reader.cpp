@@ -75,7 +75,8 @@ TranscriptionScheme ReadScheme(const JsonCursor& place) {
 
 void ReadPhase(const JsonCursor& place, StoredSolution* solution) {
   place.ExpectKeys({"name", "coordinates", "controls", "begin", "duration", "scheme", "mesh",
-                    "coordinate_values", "control_values"});
+                    "coordinate_values", "control_values"},
+                   {"orders"});
   PhaseNames names;
   names.phase = place["name"].String();
   names.coordinates = Strings(place["coordinates"]);
@@ -92,6 +93,14 @@ void ReadPhase(const JsonCursor& place, StoredSolution* solution) {
     values.Fail("expected coordinates and one or two derivatives");
   }
   names.order = static_cast<int>(values.ArraySize()) - 1;
+  if (place.Has("orders")) {
+    const JsonCursor orders = place["orders"];
+    ExpectSize(orders, names.coordinates.size(), "numbers");
+    for (std::size_t i = 0; i < orders.ArraySize(); ++i) {
+      names.orders.push_back(static_cast<int>(orders[i].Integer(1, names.order)));
+    }
+    motion.orders = names.orders;
+  }
   for (std::size_t order = 0; order < values.ArraySize(); ++order) {
     motion.coordinates.push_back(Matrix(values[order], names.coordinates.size(), points));
   }

@@ -39,6 +39,7 @@ Json ToJson(const PhaseNames& names, const PhaseTrajectory& motion) {
   Json json;
   json["name"] = names.phase;
   json["coordinates"] = names.coordinates;
+  if (!names.orders.empty()) json["orders"] = names.orders;
   json["controls"] = names.controls;
   json["begin"] = Finite(motion.begin);
   json["duration"] = Finite(motion.duration);

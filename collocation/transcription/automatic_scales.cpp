@@ -67,7 +67,7 @@ class Scaling {
 
   void SetCoordinate(int p, int index) {
     const Phase& phase = problem_.phase(p);
-    for (int order = 0; order <= phase.order(); ++order) {
+    for (int order = 0; order <= phase.OrderOf(index); ++order) {
       const Variable variable = phase.Coordinate(index, order);
       double size = KnownSize(p, variable);
       if (size == 0 && order > 0) {

@@ -23,6 +23,9 @@ struct PhaseTrajectory {
   TranscriptionScheme scheme;
   std::vector<Eigen::MatrixXd> coordinates;  ///< by order: coordinates x points
   Eigen::MatrixXd controls;                  ///< controls x points
+  /// By coordinate: the order of its highest derivative that was a variable; empty: for all that of
+  /// the last of `coordinates`. Derivatives beyond it are slopes of its polynomial.
+  std::vector<int> orders = {};
 
   int num_points() const { return static_cast<int>(controls.cols()); }
   double PointShare(int point) const;  ///< of the duration

@@ -39,7 +39,7 @@ void Transcription::AddDefects(int phase_index, const CancellationToken& cancell
     for (int node = 1; node <= inside; ++node) {
       const int point = interval * inside + node;
       for (int c = 0; c < n; ++c) {
-        for (int order = 0; order < phase.order(); ++order) {
+        for (int order = 0; order < phase.OrderOf(c); ++order) {
           const Phase::Quantity& quantity = phase.coordinates()[c][order];
           const int index = layout.coordinates[point][c][order];
           PolynomialForm form = layout_.IntegralForm(phase_index, interval, node, c, order);

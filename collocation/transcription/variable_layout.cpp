@@ -87,10 +87,10 @@ void VariableLayout::LayOutPoint(int phase_index, int point) {
   PhaseLayout& layout = phases_[phase_index];
   auto& coordinates = layout.coordinates.emplace_back();
   for (std::size_t c = 0; c < phase.coordinates().size(); ++c) {
-    std::vector<int>& orders = coordinates.emplace_back(phase.order() + 1, -1);
-    for (int order = 0; order <= phase.order(); ++order) {
-      const bool derived =
-          !scheme_.separated && !layout.points[point].is_knot && order < phase.order();
+    const int highest = phase.OrderOf(static_cast<int>(c));
+    std::vector<int>& orders = coordinates.emplace_back(highest + 1, -1);
+    for (int order = 0; order <= highest; ++order) {
+      const bool derived = !scheme_.separated && !layout.points[point].is_knot && order < highest;
       if (derived) continue;
       orders[order] = AddContinuing(phase.Coordinate(static_cast<int>(c), order), point);
     }
@@ -181,7 +181,7 @@ PolynomialForm VariableLayout::IntegralForm(int phase, int interval, int node, i
 PolynomialForm VariableLayout::InterpolantForm(int phase, int interval, double c, int coordinate,
                                                int order) const {
   const PhaseLayout& layout = phases_[phase];
-  const int highest = problem_.phase(phase).order();
+  const int highest = problem_.phase(phase).OrderOf(coordinate);
   const int first = interval * (scheme_.num_nodes() - 1);
   const double share = layout.mesh[interval + 1] - layout.mesh[interval];
   PolynomialForm form;
