@@ -192,7 +192,7 @@ std::vector<Mesh> NextMeshes(const std::vector<Mesh>& meshes,
                              const std::vector<std::vector<ControlJump>>& jumps,
                              const OptimalControlOptions& options) {
   MeshRule rule;
-  rule.order = 2 * options.scheme.num_nodes() - 2;
+  rule.order = options.scheme.order();
   if (options.mesh_tolerance > 0) {
     rule.tolerance = options.mesh_tolerance;
     rule.coarsen = options.coarsen;

@@ -58,7 +58,7 @@ Mesh ReadMesh(const JsonCursor& place) {
 
 TranscriptionScheme ReadScheme(const JsonCursor& place) {
   constexpr std::size_t kMostNodes = 20;  // polynomials of more nodes are unreliable
-  place.ExpectKeys({"name", "nodes", "separated"});
+  place.ExpectKeys({"name", "nodes", "separated"}, {"value_at_start", "value_at_end"});
   const JsonCursor nodes = place["nodes"];
   if (nodes.ArraySize() > kMostNodes) {
     nodes.Fail(fmt::format("{} nodes, expected at most {}", nodes.ArraySize(), kMostNodes));
@@ -66,8 +66,12 @@ TranscriptionScheme ReadScheme(const JsonCursor& place) {
   const std::string name = place["name"].String();
   const bool separated = place["separated"].Bool();
   const std::vector<double> numbers = Numbers(nodes);
+  const auto has_value = [&](const char* key) { return !place.Has(key) || place[key].Bool(); };
+  const bool at_start = has_value("value_at_start");
+  const bool at_end = has_value("value_at_end");
+  if (numbers.size() == 2 && !at_start && !at_end) nodes.Fail("expected a node with a value");
   try {
-    return SchemeOfNodes(name, numbers, separated);
+    return SchemeOfNodes(name, numbers, separated, at_start, at_end);
   } catch (const std::invalid_argument&) {
     nodes.Fail("expected numbers that ascend from 0 to 1");
   }

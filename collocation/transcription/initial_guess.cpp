@@ -68,7 +68,8 @@ Eigen::VectorXd InitialGuess(const VariableLayout& layout) {
         }
       }
       for (int c = 0; c < static_cast<int>(phase.controls().size()); ++c) {
-        x[phase_layout.controls[k][c]] = GuessOf(phase, phase.Control(c), share, duration);
+        const int index = phase_layout.controls[k][c];
+        if (index >= 0) x[index] = GuessOf(phase, phase.Control(c), share, duration);
       }
     }
   }

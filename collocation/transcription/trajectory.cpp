@@ -11,8 +11,9 @@ namespace possibility::collocation {
 namespace {
 
 /// Coordinates differentiated `order` times, as if all were of the order `highest`.
-Eigen::VectorXd OfOneOrder(const PhaseTrajectory& motion, double s, int order, int highest) {
-  const auto [interval, c] = Locate(motion.mesh, s);
+Eigen::VectorXd OfOneOrder(const PhaseTrajectory& motion, const MeshPlace& place, int order,
+                           int highest) {
+  const auto [interval, c] = place;
   const int inside = motion.scheme.num_nodes() - 1;
   const int first = interval * inside;
   const double h = (motion.mesh[interval + 1] - motion.mesh[interval]) * motion.duration;
@@ -58,10 +59,20 @@ double PhaseTrajectory::PointShare(int point) const {
 }
 
 Eigen::VectorXd PhaseTrajectory::Coordinates(double s, int order) const {
+  const auto [interval, share] = Locate(mesh, s);
+  return Coordinates(MeshPlace{interval, share}, order);
+}
+
+Eigen::VectorXd PhaseTrajectory::Controls(double s) const {
+  const auto [interval, share] = Locate(mesh, s);
+  return Controls(MeshPlace{interval, share});
+}
+
+Eigen::VectorXd PhaseTrajectory::Coordinates(const MeshPlace& place, int order) const {
   const int highest = static_cast<int>(coordinates.size()) - 1;
-  Eigen::VectorXd value = OfOneOrder(*this, s, order, highest);
+  Eigen::VectorXd value = OfOneOrder(*this, place, order, highest);
   for (int own = 1; own < highest && !orders.empty(); ++own) {
-    const Eigen::VectorXd lower = OfOneOrder(*this, s, order, own);
+    const Eigen::VectorXd lower = OfOneOrder(*this, place, order, own);
     for (std::size_t i = 0; i < orders.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       if (orders[i] == own) value[row] = lower[row];
@@ -70,8 +81,8 @@ Eigen::VectorXd PhaseTrajectory::Coordinates(double s, int order) const {
   return value;
 }
 
-Eigen::VectorXd PhaseTrajectory::Controls(double s) const {
-  const auto [interval, c] = Locate(mesh, s);
+Eigen::VectorXd PhaseTrajectory::Controls(const MeshPlace& place) const {
+  const auto [interval, c] = place;
   const int inside = scheme.num_nodes() - 1;
   return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeIntegrals(c, 0);
 }

@@ -73,7 +73,8 @@ Eigen::VectorXd VariablesOf(const VariableLayout& layout, const Trajectory& traj
       }
       const Eigen::VectorXd controls = phase.Controls(share);
       for (std::size_t c = 0; c < phase_layout.controls[k].size(); ++c) {
-        x[phase_layout.controls[k][c]] = controls[static_cast<Eigen::Index>(c)];
+        const int index = phase_layout.controls[k][c];
+        if (index >= 0) x[index] = controls[static_cast<Eigen::Index>(c)];
       }
     }
   }
@@ -112,7 +113,7 @@ Trajectory TrajectoryOf(const VariableLayout& layout, const Eigen::VectorXd& sca
         }
       }
       for (int c = 0; c < phase.controls.rows(); ++c) {
-        phase.controls(c, k) = x[phase_layout.controls[k][c]];
+        phase.controls(c, k) = layout.FormOf(problem_phase.Control(c), p, k).Value(x);
       }
     }
     AddSlopes(&phase);

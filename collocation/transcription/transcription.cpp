@@ -1,5 +1,7 @@
 #include "collocation/transcription/transcription.h"
 
+#include <algorithm>
+
 #include "collocation/problem/unused_quantities.h"
 #include "collocation/transcription/initial_guess.h"
 #include "collocation/transcription/multiplier_transfer.h"
@@ -14,8 +16,12 @@ Transcription::Transcription(const OptimalControlProblem& problem,
                              const CancellationToken& cancellation)
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
   CheckEverythingIsUsed(problem);
+  CheckControls();
   for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
-  for (int p = 0; p < problem.num_phases(); ++p) AddControlRates(p);
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    AddBoundsOfEnds(p);
+    AddControlRates(p);
+  }
   for (int p = 0; p < problem.num_phases(); ++p) {
     AddPathConstraints(p, cancellation);
     AddIntegrals(p, cancellation);
@@ -60,6 +66,47 @@ void Transcription::AddDefects(int phase_index, const CancellationToken& cancell
   }
 }
 
+void Transcription::CheckControls() const {
+  if (layout_.scheme().IsClosed()) return;
+  const OptimalControlProblem& problem = layout_.problem();
+  const std::string why =
+      " does not go with the scheme '" + layout_.scheme().name + "', whose controls jump at knots";
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    const Phase& phase = problem.phase(p);
+    if (!phase.rate_costs().empty() || !phase.rate_bounds().empty()) {
+      phase.Fail("a cost or bound of a control's rate" + why);
+    }
+  }
+  for (const auto& [from, to] : problem.continued()) {
+    if (to.variable.kind != VariableKind::kControl) continue;
+    problem.Fail(problem.NameOf(to.variable) + ": that a control continues" + why);
+  }
+}
+
+void Transcription::AddBoundsOfEnds(int phase_index) {
+  const Phase& phase = layout_.problem().phase(phase_index);
+  const std::vector<LayoutPoint>& points = layout_.phase(phase_index).points;
+  const auto add = [&](Variable variable, int point, At end) {
+    const Phase::Quantity& quantity = phase.Find(variable);
+    const bool is_asked = std::any_of(quantity.bounds.begin(), quantity.bounds.end(),
+                                      [&](const auto& bound) { return bound.first == end; });
+    if (!is_asked) return;
+    functions_.AddFormRow(layout_.FormOf(variable, phase_index, point), quantity.scale,
+                          layout_.BoundsAt(quantity, phase_index, point),
+                          {phase_index, point, quantity.name, -1});
+  };
+  const int last = static_cast<int>(points.size()) - 1;
+  for (const auto& [point, end] : {std::pair{0, At::kStart}, {last, At::kEnd}}) {
+    if (points[point].has_values) continue;
+    for (int c = 0; c < static_cast<int>(phase.coordinates().size()); ++c) {
+      add(phase.Coordinate(c, phase.OrderOf(c)), point, end);
+    }
+    for (int c = 0; c < static_cast<int>(phase.controls().size()); ++c) {
+      add(phase.Control(c), point, end);
+    }
+  }
+}
+
 void Transcription::AddControlRates(int phase_index) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const Mesh& mesh = layout_.phase(phase_index).mesh;
@@ -99,8 +146,7 @@ void Transcription::AddPathConstraints(int phase_index, const CancellationToken&
   for (int point = 0; point < n; ++point) {
     cancellation.ThrowIfCancelled();
     for (const Phase::PathConstraint& constraint : phase.constraints()) {
-      if (!HoldsAt(constraint.at, point, n)) continue;
-      if (constraint.only_at_knots && !layout_.phase(phase_index).points[point].is_knot) continue;
+      if (!IsImposedAt(constraint, layout_.phase(phase_index).points, point)) continue;
       std::vector<PolynomialForm> arguments;
       for (const Variable& argument : constraint.arguments) {
         arguments.push_back(layout_.FormOf(argument, phase_index, point));
@@ -131,6 +177,7 @@ void Transcription::AddIntegrals(int phase_index, const CancellationToken& cance
   for (const Phase::IntegralCost& cost : phase.costs()) {
     for (int point = 0; point < num_points; ++point) {
       cancellation.ThrowIfCancelled();
+      if (!layout.points[point].has_values) continue;
       functions_.AddCost(IntegralTerm(phase_index, point, cost.function, cost.arguments,
                                       cost.weight * points.weights[point]),
                          {phase_index, point, cost.name, -1});
@@ -140,6 +187,7 @@ void Transcription::AddIntegrals(int phase_index, const CancellationToken& cance
     std::vector<CostTerm> terms;
     for (int point = 0; point < num_points; ++point) {
       cancellation.ThrowIfCancelled();
+      if (!layout.points[point].has_values) continue;
       terms.push_back(IntegralTerm(phase_index, point, integral.function, integral.arguments,
                                    points.weights[point]));
     }

@@ -75,10 +75,12 @@ void VariableLayout::LayOut(int phase_index) {
     for (int node = 0; node < inside; ++node) {
       const double share =
           layout.mesh[i] + scheme_.nodes[node] * (layout.mesh[i + 1] - layout.mesh[i]);
-      layout.points.push_back({i, node, share, node == 0});
+      const bool has_values =
+          scheme_.HasValue(node) || (node == 0 && i > 0 && scheme_.value_at_end);
+      layout.points.push_back({i, node, share, node == 0, has_values});
     }
   }
-  layout.points.push_back({intervals - 1, inside, 1, true});
+  layout.points.push_back({intervals - 1, inside, 1, true, scheme_.value_at_end});
   for (int k = 0; k < static_cast<int>(layout.points.size()); ++k) LayOutPoint(phase_index, k);
 }
 
@@ -91,13 +93,14 @@ void VariableLayout::LayOutPoint(int phase_index, int point) {
     std::vector<int>& orders = coordinates.emplace_back(highest + 1, -1);
     for (int order = 0; order <= highest; ++order) {
       const bool derived = !scheme_.separated && !layout.points[point].is_knot && order < highest;
-      if (derived) continue;
+      if (derived || (order == highest && !layout.points[point].has_values)) continue;
       orders[order] = AddContinuing(phase.Coordinate(static_cast<int>(c), order), point);
     }
   }
   auto& controls = layout.controls.emplace_back();
   for (std::size_t c = 0; c < phase.controls().size(); ++c) {
-    controls.push_back(AddContinuing(phase.Control(static_cast<int>(c)), point));
+    const Variable control = phase.Control(static_cast<int>(c));
+    controls.push_back(layout.points[point].has_values ? AddContinuing(control, point) : -1);
   }
 }
 
@@ -144,6 +147,14 @@ bool HoldsAt(At at, int point, int num_points) {
       return !first && !last;
   }
   return false;
+}
+
+bool IsImposedAt(const Phase::PathConstraint& constraint, const std::vector<LayoutPoint>& points,
+                 int point) {
+  if (!HoldsAt(constraint.at, point, static_cast<int>(points.size()))) return false;
+  if (constraint.only_at_knots) return points[point].is_knot;
+  const bool is_of_one_end = constraint.at == At::kStart || constraint.at == At::kEnd;
+  return points[point].has_values || is_of_one_end;
 }
 
 Bounds VariableLayout::BoundsAt(const Phase::Quantity& quantity, int phase, int point) const {
@@ -202,6 +213,7 @@ PolynomialForm VariableLayout::InterpolantForm(int phase, int interval, double c
   const int k = highest - order;
   const Eigen::VectorXd integrals = scheme_.LagrangeIntegrals(c, k);
   for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    if (!scheme_.HasValue(j)) continue;
     add(layout.coordinates[first + j][coordinate][highest], integrals[j], k);
   }
   return form;
@@ -213,6 +225,7 @@ PolynomialForm VariableLayout::ControlForm(int phase, int interval, double share
   const Eigen::VectorXd lagrange = scheme_.LagrangeIntegrals(share, 0);
   PolynomialForm form;
   for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    if (!scheme_.HasValue(j)) continue;
     form.monomials.push_back({phases_[phase].controls[first + j][control], lagrange[j], 0});
   }
   return form;
@@ -290,8 +303,12 @@ PolynomialForm VariableLayout::FormOf(Variable variable, int phase, int point) c
       const LayoutPoint& p = layout.points[point];
       return IntegralForm(phase, p.interval, p.node, variable.index, variable.order);
     }
-    case VariableKind::kControl:
-      return single(layout.controls[point][variable.index]);
+    case VariableKind::kControl: {
+      const int index = layout.controls[point][variable.index];
+      if (index >= 0) return single(index);
+      const LayoutPoint& p = layout.points[point];
+      return ControlForm(phase, p.interval, scheme_.nodes[p.node], variable.index);
+    }
     case VariableKind::kParameter:
       return single(parameters_[variable.index]);
     case VariableKind::kDuration:

@@ -57,7 +57,14 @@ TEST(OptimalControlTest, SchemesHaveTheirOrdersOfConvergence) {
   for (const auto& [scheme, order] : {std::pair{Trapezoidal(), 2.0},
                                       {HermiteSimpson(), 4.0},
                                       {CompressedHermiteSimpson(), 4.0},
-                                      {GaussLobatto(4), 6.0}}) {
+                                      {GaussLobatto(4), 6.0},
+                                      {LegendreGauss(1), 2.0},
+                                      {LegendreGauss(2), 4.0},
+                                      {LegendreGauss(3), 6.0},
+                                      {FlippedRadau(1), 1.0},
+                                      {FlippedRadau(2), 3.0},
+                                      {FlippedRadau(3), 5.0}}) {
+    EXPECT_EQ(scheme.order(), order) << scheme.name;
     const double coarse = ErrorWith(scheme, 4);
     const double fine = ErrorWith(scheme, 8);
     EXPECT_NEAR(std::log2(coarse / fine), order, 0.2)
