@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "models/input/file_contents.h"
@@ -103,6 +104,8 @@ void ReadPhase(const JsonCursor& place, StoredSolution* solution) {
     for (std::size_t i = 0; i < orders.ArraySize(); ++i) {
       names.orders.push_back(static_cast<int>(orders[i].Integer(1, names.order)));
     }
+    const auto is_of_phase = [&](int order) { return order == names.order; };
+    if (std::all_of(names.orders.begin(), names.orders.end(), is_of_phase)) names.orders.clear();
     motion.orders = names.orders;
   }
   for (std::size_t order = 0; order < values.ArraySize(); ++order) {

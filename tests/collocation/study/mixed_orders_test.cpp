@@ -125,6 +125,22 @@ TEST(MixedOrders, AreStoredAndStartTheSameProblem) {
             "other: phase 'move': 'force' of the stored solution is of order 1, expected 2");
 }
 
+TEST(MixedOrders, ThatAreThoseOfThePhaseCountAsNone) {
+  OptimalControlProblem problem("drift");
+  Phase& phase = problem.AddPhase("only", 2);
+  const Variable x = phase.AddCoordinate("x");
+  phase.SetDuration(1);
+  phase.Fix(x, 0, At::kStart);
+  phase.AddIntegralCost("shake", FunctionOf([](auto a) { return a * a; }), {phase.Rate(x, 2)});
+  StoredSolution stored = Store(problem, SolveOptimalControl(problem));
+  stored.phases[0].orders = {2};
+  const models::TemporaryFolder folder;
+  WriteSolution(folder.path() / "s.json", stored);
+  const StoredSolution read = ReadSolution(folder.path() / "s.json");
+  EXPECT_TRUE(read.phases[0].orders.empty());
+  EXPECT_TRUE(SolveOptimalControl(problem, read).succeeded());
+}
+
 TEST(MixedOrders, BeyondThePhasesAreRefused) {
   LaggingBlock block;
   EXPECT_EQ(MessageOf([&] { block.move.AddCoordinateOfOrder(3, "jerk"); }),
