@@ -50,15 +50,6 @@ class DynamicsResidual : public Function {
   std::shared_ptr<Function> f_;
 };
 
-bool Contradict(const Bounds& bounds) {
-  return std::isnan(bounds.lower) || std::isnan(bounds.upper) || bounds.lower > bounds.upper ||
-         bounds.lower == kInfinity || bounds.upper == -kInfinity;
-}
-
-std::string Describe(const Bounds& bounds) {
-  return fmt::format("[{}, {}]", bounds.lower, bounds.upper);
-}
-
 const char* Describe(VariableKind kind) {
   switch (kind) {
     case VariableKind::kCoordinate:
@@ -94,38 +85,52 @@ void Phase::Fail(const std::string& what) const {
 
 PhaseNames Phase::Names() const {
   PhaseNames names{name_, order_, {}, {}};
-  for (const auto& orders : coordinates_) names.coordinates.push_back(orders[0].name);
+  bool is_mixed = false;
+  for (int i = 0; i < static_cast<int>(coordinates_.size()); ++i) {
+    names.coordinates.push_back(coordinates_[i][0].name);
+    names.orders.push_back(OrderOf(i));
+    is_mixed = is_mixed || OrderOf(i) != order_;
+  }
+  if (!is_mixed) names.orders.clear();
   for (const Quantity& control : controls_) names.controls.push_back(control.name);
   return names;
 }
 
-Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, double scale) {
-  std::vector<Quantity> orders(order_ + 1);
-  for (int order = 0; order <= order_; ++order) {
+Variable Phase::AddCoordinate(const std::string& name, Bounds bounds, std::optional<double> scale) {
+  return AddCoordinateOfOrder(order_, name, bounds, scale);
+}
+
+Variable Phase::AddCoordinateOfOrder(int highest, const std::string& name, Bounds bounds,
+                                     std::optional<double> scale) {
+  if (highest < 1 || highest > order_) {
+    Fail(fmt::format("'{}': expected an order from 1 to {}, got {}", name, order_, highest));
+  }
+  std::vector<Quantity> orders(highest + 1);
+  for (int order = 0; order <= highest; ++order) {
     orders[order].name = name + std::string(order, '\'');
   }
   coordinates_.push_back(std::move(orders));
   const Variable variable = Coordinate(static_cast<int>(coordinates_.size()) - 1);
-  SetScale(variable, scale);
+  if (scale) SetScale(variable, *scale);
   Bound(variable, bounds);
   return variable;
 }
 
 Variable Phase::Rate(Variable coordinate, int times) const {
   const Quantity& quantity = Find(coordinate);
-  if (coordinate.kind != VariableKind::kCoordinate || coordinate.order + times > order_ ||
-      times < 1) {
+  if (coordinate.kind != VariableKind::kCoordinate ||
+      coordinate.order + times > OrderOf(coordinate.index) || times < 1) {
     Fail(fmt::format("'{}' has no derivative of order {}", quantity.name, times));
   }
   coordinate.order += times;
   return coordinate;
 }
 
-Variable Phase::AddControl(const std::string& name, Bounds bounds, double scale) {
+Variable Phase::AddControl(const std::string& name, Bounds bounds, std::optional<double> scale) {
   controls_.push_back({});
   controls_.back().name = name;
   const Variable variable = Control(static_cast<int>(controls_.size()) - 1);
-  SetScale(variable, scale);
+  if (scale) SetScale(variable, *scale);
   Bound(variable, bounds);
   return variable;
 }
@@ -143,7 +148,7 @@ const Phase::Quantity* Phase::FindOrNull(Variable variable) const {
     return &controls_[variable.index];
   }
   if (variable.kind == VariableKind::kCoordinate && in(variable.index, coordinates_.size()) &&
-      in(variable.order, order_ + 1)) {
+      in(variable.order, coordinates_[variable.index].size())) {
     return &coordinates_[variable.index][variable.order];
   }
   return nullptr;
@@ -180,6 +185,19 @@ void Phase::SetScale(Variable variable, double scale) {
     Fail(fmt::format("'{}': expected a scale above 0, got {}", quantity.name, scale));
   }
   quantity.scale = scale;
+  quantity.has_own_scale = true;
+}
+
+void Phase::SuggestScale(Variable variable, double scale) {
+  Quantity& quantity = FindMutable(variable);
+  if (quantity.has_own_scale) return;
+  SetScale(variable, scale);
+  quantity.has_own_scale = false;
+}
+
+void Phase::SuggestRowScales(int constraint, const Eigen::VectorXd& scales) {
+  PathConstraint& of = constraints_.at(constraint);
+  if (!of.has_own_scales) of.scales = scales;
 }
 
 void Phase::SetDuration(Bounds bounds) {
@@ -219,11 +237,13 @@ void Phase::SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> argum
   }
   std::vector<double> scales;
   for (int i = 0; i < n; ++i) {
-    arguments.push_back(Coordinate(i, order_));
-    scales.push_back(coordinates_[i][order_].scale);
+    arguments.push_back(Coordinate(i, OrderOf(i)));
+    scales.push_back(coordinates_[i].back().scale);
   }
   Constrain("dynamics", std::make_shared<DynamicsResidual>(std::move(f)), std::move(arguments),
             {{0, 0}}, At::kEverywhere, std::move(scales));
+  constraints_.back().is_dynamics = true;
+  constraints_.back().has_own_scales = false;
 }
 
 void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
@@ -239,6 +259,7 @@ void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
     if (Contradict(b)) Fail(fmt::format("'{}': contradictory bounds {}", name, Describe(b)));
   }
   const std::size_t n = bounds.size();
+  const bool has_own_scales = !scales.empty();
   if (scales.empty()) scales = {1};
   if (scales.size() == 1) scales.resize(n, scales.front());
   if (scales.size() != n) {
@@ -250,7 +271,8 @@ void Phase::Constrain(const std::string& name, std::shared_ptr<Function> f,
     }
   }
   constraints_.push_back({name, std::move(f), std::move(arguments), std::move(bounds), at,
-                          Eigen::Map<Eigen::VectorXd>(scales.data(), static_cast<int>(n))});
+                          Eigen::Map<Eigen::VectorXd>(scales.data(), static_cast<int>(n)),
+                          has_own_scales});
 }
 
 void Phase::ConstrainKnots(const std::string& name, std::shared_ptr<Function> f,
@@ -324,16 +346,21 @@ Phase& OptimalControlProblem::AddPhase(const std::string& name, int order) {
   return phases_.back();
 }
 
-Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bounds, double scale,
-                                             double guess) {
+Variable OptimalControlProblem::AddParameter(const std::string& name, Bounds bounds,
+                                             std::optional<double> scale, double guess) {
   if (Contradict(bounds)) {
     Fail(fmt::format("parameter '{}': contradictory bounds {}", name, Describe(bounds)));
   }
-  if (!(scale > 0 && std::isfinite(scale))) {
-    Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, scale));
+  if (scale && !(*scale > 0 && std::isfinite(*scale))) {
+    Fail(fmt::format("parameter '{}': expected a scale above 0, got {}", name, *scale));
   }
-  parameters_.push_back({name, bounds, scale, guess});
+  parameters_.push_back({name, bounds, scale.value_or(1), guess, scale.has_value()});
   return ParameterVariable(static_cast<int>(parameters_.size()) - 1);
+}
+
+void OptimalControlProblem::SuggestScale(int parameter, double scale) {
+  Parameter& of = parameters_.at(parameter);
+  if (!of.has_own_scale) of.scale = scale;
 }
 
 std::vector<std::string> OptimalControlProblem::ParameterNames() const {
@@ -364,10 +391,15 @@ void OptimalControlProblem::Continue(VariableAt from, VariableAt to) {
   const std::string name = NameOf(from.variable) + " and " + NameOf(to.variable);
   const auto is_state = [this](const VariableAt& end) {
     return end.variable.kind == VariableKind::kCoordinate &&
-           end.variable.order < phases_[end.variable.phase].order();
+           end.variable.order < phases_[end.variable.phase].OrderOf(end.variable.index);
   };
-  if (!is_state(from) || !is_state(to)) {
-    Fail(fmt::format("{} do not continue: only coordinates below the highest order do", name));
+  const auto is_control = [](const VariableAt& end) {
+    return end.variable.kind == VariableKind::kControl;
+  };
+  if (!(is_state(from) && is_state(to)) && !(is_control(from) && is_control(to))) {
+    Fail(fmt::format(
+        "{} do not continue: only coordinates below the highest order do, and controls as controls",
+        name));
   }
   if (from.at != At::kEnd || to.at != At::kStart || from.variable.phase >= to.variable.phase) {
     Fail(fmt::format("{} continue from the end of a phase to the start of a later one", name));

@@ -3,17 +3,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "collocation/problem/bounds.h"
 #include "collocation/problem/function.h"
 
 namespace possibility::collocation {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class VariableKind { kCoordinate, kControl, kParameter, kDuration, kTime, kShare };
 
@@ -51,16 +49,12 @@ struct VariableAt {
 /// the mesh has its knots.
 VariableAt AtShare(Variable variable, double share);
 
-struct Bounds {
-  double lower = -kInfinity;
-  double upper = kInfinity;
-};
-
 /// The names of a phase's parts, to display or store its motions.
 struct PhaseNames {
   std::string phase;
   int order = 1;
   std::vector<std::string> coordinates, controls;
+  std::vector<int> orders = {};  ///< by coordinate; empty: all have that of the phase
 
   bool operator==(const PhaseNames&) const = default;
 };
@@ -68,15 +62,16 @@ struct PhaseNames {
 class OptimalControlProblem;
 
 /// A time interval with one system. Its coordinates y come with their derivatives up to the phase's
-/// order. Order 1 is for x' = f(x, u), where x' is a variable beside x; order 2 is for mechanical
-/// systems in q, v and a. Transcription ties the derivatives together; dynamics are one more
-/// constraint.
+/// order, or up to a lower order of their own. Order 1 is for x' = f(x, u), where x' is a variable
+/// beside x; order 2 is for mechanical systems in q, v and a. Transcription ties the derivatives
+/// together; dynamics are one more constraint.
 class Phase {
  public:
   /// A coordinate, one of its derivatives, or a control.
   struct Quantity {
     std::string name;
     double scale = 1;
+    bool has_own_scale = false;  ///< that was given, not suggested
     std::vector<std::pair<At, Bounds>> bounds;
     std::function<double(double)> guess;  ///< of the share of the duration; may be empty
   };
@@ -87,8 +82,10 @@ class Phase {
     std::vector<Variable> arguments;
     std::vector<Bounds> bounds;
     At at;
-    Eigen::VectorXd scales;  ///< by output
+    Eigen::VectorXd scales;       ///< by output
+    bool has_own_scales = false;  ///< that were given, not suggested
     bool only_at_knots = false;
+    bool is_dynamics = false;  ///< of SetDynamics
   };
 
   struct IntegralCost {
@@ -106,15 +103,37 @@ class Phase {
     double scale;
   };
 
+  /// Of the time integral of the squared rate of a control.
+  struct RateCost {
+    int control;  ///< among `controls()`
+    double weight;
+  };
+
+  struct RateBound {
+    int control;  ///< among `controls()`
+    Bounds bounds;
+    double scale;  ///< of the rate
+  };
+
   const std::string& name() const { return name_; }
+  /// The greatest order of a coordinate.
   int order() const { return order_; }
+  int OrderOf(int coordinate) const {
+    return static_cast<int>(coordinates_.at(coordinate).size()) - 1;
+  }
   PhaseNames Names() const;
 
-  /// A coordinate; `scale`: its typical size, above 0.
-  Variable AddCoordinate(const std::string& name, Bounds bounds = {}, double scale = 1);
+  /// A coordinate; `scale`: its typical size, above 0. None: 1, unless SetAutomaticScales finds
+  /// another.
+  Variable AddCoordinate(const std::string& name, Bounds bounds = {},
+                         std::optional<double> scale = std::nullopt);
+  /// A coordinate of an order from 1 to the phase's: the state of a motor beside positions.
+  Variable AddCoordinateOfOrder(int order, const std::string& name, Bounds bounds = {},
+                                std::optional<double> scale = std::nullopt);
   /// The time derivative of a coordinate or of its derivative; it has its own bounds and scale.
   Variable Rate(Variable coordinate, int times = 1) const;
-  Variable AddControl(const std::string& name, Bounds bounds = {}, double scale = 1);
+  Variable AddControl(const std::string& name, Bounds bounds = {},
+                      std::optional<double> scale = std::nullopt);
   Variable duration() const { return Own(VariableKind::kDuration, 0); }
   /// Time since the beginning of the problem.
   Variable time() const { return Own(VariableKind::kTime, 0); }
@@ -125,12 +144,16 @@ class Phase {
   void SetDuration(Bounds bounds);
   void SetDuration(double fixed) { SetDuration({fixed, fixed}); }
   void SetScale(Variable variable, double scale);
+  /// The same, unless the variable or the constraint has scales of its own. `constraint`: among
+  /// constraints().
+  void SuggestScale(Variable variable, double scale);
+  void SuggestRowScales(int constraint, const Eigen::VectorXd& scales);
 
   /// Intersects the bounds of a coordinate, its derivative or a control.
   void Bound(Variable variable, Bounds bounds, At at = At::kEverywhere);
   void Fix(Variable variable, double value, At at) { Bound(variable, {value, value}, at); }
 
-  /// y^(order) = f(arguments), one output per coordinate.
+  /// y^(order) = f(arguments), one output per coordinate, each for the coordinate's order.
   void SetDynamics(std::shared_ptr<Function> f, std::vector<Variable> arguments);
   /// lower <= f(arguments) <= upper, with one Bounds per output or one for all. Dynamics in
   /// implicit form are constraints with bounds 0. `scales`: typical sizes of the outputs, one per
@@ -152,6 +175,14 @@ class Phase {
   void ConstrainIntegral(const std::string& name, std::shared_ptr<Function> f,
                          std::vector<Variable> arguments, Bounds bounds, double scale = 1);
 
+  /// Adds weight * the time integral of the squared rate of a control. A control is a polynomial
+  /// from one knot to the next, and this is the exact integral of its slope squared, per second.
+  void AddRateCost(Variable control, double weight = 1);
+  /// Bounds the rate of a control from knot to knot, in its unit per second; a jump between phases
+  /// is no rate. Bounds of several calls intersect. Exact for controls of degree 1 and 2;
+  /// polynomials of a higher degree are bounded at as many points as their slope has coefficients.
+  void BoundRate(Variable control, Bounds bounds);
+
   /// The solver's starting point: value at s in [0, 1], the share of the phase's duration. Without
   /// a guess: the line between the values fixed at the ends, or a value within the bounds.
   void Guess(Variable variable, std::function<double(double)> value);
@@ -164,6 +195,8 @@ class Phase {
   const std::vector<PathConstraint>& constraints() const { return constraints_; }
   const std::vector<IntegralCost>& costs() const { return costs_; }
   const std::vector<IntegralConstraint>& integrals() const { return integrals_; }
+  const std::vector<RateCost>& rate_costs() const { return rate_costs_; }
+  const std::vector<RateBound>& rate_bounds() const { return rate_bounds_; }  ///< one per control
   const Bounds& duration_bounds() const { return duration_; }
   /// Of no argument that matters; may be empty.
   const std::function<double(double)>& duration_guess() const { return duration_guess_; }
@@ -192,6 +225,8 @@ class Phase {
   void CheckArguments(const std::string& name, const Function* f,
                       const std::vector<Variable>& arguments) const;
   void CheckNameOfConstraint(const std::string& name) const;
+  /// Refuses what is no control.
+  const Quantity& FindControl(Variable variable) const;
 
   OptimalControlProblem* problem_;
   int index_;
@@ -204,6 +239,8 @@ class Phase {
   std::vector<PathConstraint> constraints_;
   std::vector<IntegralCost> costs_;
   std::vector<IntegralConstraint> integrals_;
+  std::vector<RateCost> rate_costs_;
+  std::vector<RateBound> rate_bounds_;
 };
 
 /// An optimal-control problem of one or more phases in its continuous form; Transcription makes a
@@ -216,6 +253,7 @@ class OptimalControlProblem {
     Bounds bounds;
     double scale;
     double guess;
+    bool has_own_scale;  ///< that was given, not suggested
   };
 
   struct LinkConstraint {
@@ -237,17 +275,21 @@ class OptimalControlProblem {
   OptimalControlProblem& operator=(const OptimalControlProblem&) = delete;
 
   const std::string& name() const { return name_; }
-  /// `order`: 1 or 2. The reference stays valid.
+  /// `order`: 1 or 2, of coordinates that are given no other. The reference stays valid.
   Phase& AddPhase(const std::string& name, int order = 1);
   int num_phases() const { return static_cast<int>(phases_.size()); }
   const Phase& phase(int index) const { return phases_.at(index); }
+  Phase& phase(int index) { return phases_.at(index); }
 
-  Variable AddParameter(const std::string& name, Bounds bounds = {}, double scale = 1,
-                        double guess = 0);
+  Variable AddParameter(const std::string& name, Bounds bounds = {},
+                        std::optional<double> scale = std::nullopt, double guess = 0);
+  /// The scale of a parameter, unless it has one of its own. `parameter`: among parameters().
+  void SuggestScale(int parameter, double scale);
   std::vector<std::string> ParameterNames() const;
 
-  /// Makes the quantity at the end of one phase and the one at the start of the next the same
-  /// variable. Bounds intersect.
+  /// Makes the quantity at the end of one phase and the one at the start of a later one the same
+  /// variable. Bounds intersect. Quantities: coordinates and their derivatives below the phase's
+  /// order, or two controls, which may jump between phases otherwise.
   void Continue(VariableAt from, VariableAt to);
   /// lower <= f(arguments) <= upper. Arguments are quantities at instants of any phases, durations
   /// and parameters.

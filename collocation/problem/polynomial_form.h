@@ -9,7 +9,7 @@ namespace possibility::collocation {
 struct Monomial {
   int variable = -1;  ///< -1: the constant 1
   double coefficient = 0;
-  int power = 0;  ///< 0 to 2
+  int power = 0;  ///< -1 to 2; -1 in rates of controls
 };
 
 /// A sum of monomials in the variables of a program, all with the same duration. Transcription
@@ -31,7 +31,18 @@ struct PolynomialForm {
   bool is_linear() const { return duration < 0; }
 
  private:
-  static double Power(double t, int power) { return power == 0 ? 1 : power == 1 ? t : t * t; }
+  static double Power(double t, int power) {
+    switch (power) {
+      case 0:
+        return 1;
+      case 1:
+        return t;
+      case 2:
+        return t * t;
+      default:
+        return power < 0 ? Power(1 / t, -power) : t * Power(t, power - 1);
+    }
+  }
 };
 
 inline double PolynomialForm::Value(const Eigen::VectorXd& x) const {
@@ -49,7 +60,7 @@ void PolynomialForm::Gradient(const Eigen::VectorXd& x, const Visit& visit) cons
   double by_duration = 0;
   for (const Monomial& m : monomials) {
     if (m.variable >= 0) visit(m.variable, m.coefficient * Power(t, m.power));
-    if (m.power > 0) {
+    if (m.power != 0) {
       const double value = m.variable < 0 ? 1 : x[m.variable];
       by_duration += m.coefficient * value * m.power * Power(t, m.power - 1);
     }
@@ -67,9 +78,9 @@ void PolynomialForm::Hessian(const Eigen::VectorXd& x, const Visit& visit) const
     if (m.variable >= 0) {
       visit(m.variable, duration, m.coefficient * m.power * Power(t, m.power - 1));
     }
-    if (m.power == 2) {
-      by_duration += 2 * m.coefficient * (m.variable < 0 ? 1 : x[m.variable]);
-    }
+    if (m.power == 1) continue;
+    by_duration += m.power * (m.power - 1) * m.coefficient * (m.variable < 0 ? 1 : x[m.variable]) *
+                   Power(t, m.power - 2);
   }
   visit(duration, duration, by_duration);
 }

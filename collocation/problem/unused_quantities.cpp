@@ -55,8 +55,8 @@ bool BoundsGovern(const Quantities& orders) {
 }
 
 void CheckPhase(const Phase& phase, const Arguments& arguments) {
-  const int order = phase.order();
   for (int i = 0; i < static_cast<int>(phase.coordinates().size()); ++i) {
+    const int order = phase.OrderOf(i);
     const Quantities& orders = phase.coordinates()[i];
     if (arguments.Contains(phase.Coordinate(i, order)) || BoundsGovern(orders)) continue;
     phase.Fail(

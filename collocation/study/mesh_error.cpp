@@ -2,37 +2,16 @@
 #include "collocation/study/mesh_error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "collocation/transcription/quadrature.h"
 
 namespace possibility::collocation {
 
 namespace {
 
 using Eigen::VectorXd;
-
-/// One point of a quadrature over [0, 1].
-struct QuadraturePoint {
-  double share;
-  double weight;
-};
-
-/// Gauss and Legendre's rule of five points: exact for polynomials of degree 9.
-const std::array<QuadraturePoint, 5>& GaussPoints() {
-  static const std::array<QuadraturePoint, 5> points = [] {
-    const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3;
-    const double outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
-    const double inner_weight = (322 + 13 * std::sqrt(70.0)) / 1800;
-    const double outer_weight = (322 - 13 * std::sqrt(70.0)) / 1800;
-    return std::array<QuadraturePoint, 5>{{{(1 - outer) / 2, outer_weight},
-                                           {(1 - inner) / 2, inner_weight},
-                                           {0.5, 64.0 / 225},
-                                           {(1 + inner) / 2, inner_weight},
-                                           {(1 + outer) / 2, outer_weight}}};
-  }();
-  return points;
-}
 
 double Excess(double value, const Bounds& bounds) {
   return std::max({0.0, bounds.lower - value, value - bounds.upper});
@@ -60,8 +39,8 @@ class PhaseBetweenKnots {
       if (!HoldsBetween(constraint.at)) continue;
       VectorXd equalities = VectorXd::Zero(constraint.function->num_outputs());
       VectorXd inequalities = equalities;
-      ForSamples(interval, [&](double s, double h) {
-        const VectorXd excess = h * ExcessAt(constraint, s);
+      ForSamples(interval, [&](const MeshPlace& at, double h) {
+        const VectorXd excess = h * ExcessAt(constraint, at);
         for (Eigen::Index o = 0; o < excess.size(); ++o) {
           (IsEquality(constraint.bounds[o]) ? equalities : inequalities)[o] += excess[o];
         }
@@ -76,12 +55,12 @@ class PhaseBetweenKnots {
 
   /// The integral costs of an interval as they were minimised.
   double TranscribedCost(int interval) const {
-    return Transcribed(interval, [this](double s) { return CostAt(s); });
+    return Transcribed(interval, [this](const MeshPlace& at) { return CostAt(at); });
   }
 
   /// The same along the motion.
   double TrueCost(int interval) const {
-    return Integral(interval, [this](double s) { return CostAt(s); });
+    return Integral(interval, [this](const MeshPlace& at) { return CostAt(at); });
   }
 
  private:
@@ -92,7 +71,8 @@ class PhaseBetweenKnots {
     const VectorXd weights = scheme.weights();
     double sum = 0;
     for (int node = 0; node < scheme.num_nodes(); ++node) {
-      sum += weights[node] * integrand(ShareAt(interval, scheme.nodes[node]));
+      if (!scheme.HasValue(node)) continue;
+      sum += weights[node] * integrand(MeshPlace{interval, scheme.nodes[node]});
     }
     return sum * LengthOf(interval);
   }
@@ -100,26 +80,27 @@ class PhaseBetweenKnots {
   template <typename Integrand>
   double Integral(int interval, const Integrand& integrand) const {
     double sum = 0;
-    for (const QuadraturePoint& point : GaussPoints()) {
-      sum += point.weight * integrand(ShareAt(interval, point.share));
+    for (const QuadraturePoint& point : rule_) {
+      sum += point.weight * integrand(MeshPlace{interval, point.share});
     }
     return sum * LengthOf(interval);
   }
 
-  double ShareAt(int interval, double share) const {
-    const double begin = motion_.mesh[interval];
-    return begin + share * (motion_.mesh[interval + 1] - begin);
+  /// Of the phase.
+  double ShareOf(const MeshPlace& place) const {
+    const double begin = motion_.mesh[place.interval];
+    return begin + place.share * (motion_.mesh[place.interval + 1] - begin);
   }
   double LengthOf(int interval) const {  // s
     return (motion_.mesh[interval + 1] - motion_.mesh[interval]) * motion_.duration;
   }
 
-  /// Calls use(share of the phase, s that the sample stands for).
+  /// Calls use(place, s that the sample stands for).
   template <typename Use>
   void ForSamples(int interval, const Use& use) const {
     constexpr int kSamples = 10;
     for (int i = 0; i < kSamples; ++i) {
-      use(ShareAt(interval, (i + 0.5) / kSamples), LengthOf(interval) / kSamples);
+      use(MeshPlace{interval, (i + 0.5) / kSamples}, LengthOf(interval) / kSamples);
     }
   }
 
@@ -131,19 +112,34 @@ class PhaseBetweenKnots {
   void AddBounds(int interval, MeshError* error) const {
     for (std::size_t order = 0; order < motion_.coordinates.size(); ++order) {
       VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.coordinates().size()));
-      ForSamples(interval, [&](double s, double h) {
-        const VectorXd values = motion_.Coordinates(s, static_cast<int>(order));
+      ForSamples(interval, [&](const MeshPlace& at, double h) {
+        const VectorXd values = motion_.Coordinates(at, static_cast<int>(order));
         for (Eigen::Index i = 0; i < sums.size(); ++i) {
+          if (static_cast<int>(order) > phase_.OrderOf(static_cast<int>(i))) continue;
           sums[i] += h * ExcessOf(phase_.coordinates()[i][order], values[i]);
         }
       });
       Raise(sums, &error->inequalities);
     }
     VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.controls().size()));
-    ForSamples(interval, [&](double s, double h) {
-      const VectorXd values = motion_.Controls(s);
+    ForSamples(interval, [&](const MeshPlace& at, double h) {
+      const VectorXd values = motion_.Controls(at);
       for (Eigen::Index i = 0; i < sums.size(); ++i) {
         sums[i] += h * ExcessOf(phase_.controls()[i], values[i]);
+      }
+    });
+    Raise(sums, &error->inequalities);
+    AddRateBounds(interval, error);
+  }
+
+  void AddRateBounds(int interval, MeshError* error) const {
+    VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.rate_bounds().size()));
+    if (sums.size() == 0) return;
+    ForSamples(interval, [&](const MeshPlace& at, double h) {
+      const VectorXd rates = motion_.ControlRates(ShareOf(at));
+      for (Eigen::Index i = 0; i < sums.size(); ++i) {
+        const Phase::RateBound& bound = phase_.rate_bounds()[i];
+        sums[i] += h * Excess(rates[bound.control], bound.bounds) / bound.scale;
       }
     });
     Raise(sums, &error->inequalities);
@@ -151,8 +147,8 @@ class PhaseBetweenKnots {
 
   void AddIntegrals(int interval, MeshError* error) const {
     for (const Phase::IntegralConstraint& integral : phase_.integrals()) {
-      const auto integrand = [&](double s) {
-        return Evaluate(integral.function.get(), integral.arguments, s)[0];
+      const auto integrand = [&](const MeshPlace& at) {
+        return Evaluate(integral.function.get(), integral.arguments, at)[0];
       };
       const double difference =
           std::abs(Integral(interval, integrand) - Transcribed(interval, integrand));
@@ -169,28 +165,29 @@ class PhaseBetweenKnots {
     return excess / quantity.scale;
   }
 
-  double ValueOf(const Variable& variable, double s) const {
+  double ValueOf(const Variable& variable, const MeshPlace& at) const {
     switch (variable.kind) {
       case VariableKind::kCoordinate:
-        return motion_.Coordinates(s, variable.order)[variable.index];
+        return motion_.Coordinates(at, variable.order)[variable.index];
       case VariableKind::kControl:
-        return motion_.Controls(s)[variable.index];
+        return motion_.Controls(at)[variable.index];
       case VariableKind::kParameter:
         return parameters_[variable.index];
       case VariableKind::kDuration:
         return motion_.duration;
       case VariableKind::kTime:
-        return motion_.begin + s * motion_.duration;
+        return motion_.begin + ShareOf(at) * motion_.duration;
       case VariableKind::kShare:
-        return s;
+        return ShareOf(at);
     }
     return 0;
   }
 
   /// Infinite where the function is not defined.
-  VectorXd Evaluate(Function* f, const std::vector<Variable>& arguments, double s) const {
+  VectorXd Evaluate(Function* f, const std::vector<Variable>& arguments,
+                    const MeshPlace& at) const {
     VectorXd z(f->num_inputs());
-    for (int i = 0; i < f->num_inputs(); ++i) z[i] = ValueOf(arguments[i], s);
+    for (int i = 0; i < f->num_inputs(); ++i) z[i] = ValueOf(arguments[i], at);
     VectorXd y(f->num_outputs());
     try {
       f->Evaluate(z, &y);
@@ -201,8 +198,8 @@ class PhaseBetweenKnots {
   }
 
   /// By how much each row lies outside its bounds, divided by its scale.
-  VectorXd ExcessAt(const Phase::PathConstraint& constraint, double s) const {
-    VectorXd y = Evaluate(constraint.function.get(), constraint.arguments, s);
+  VectorXd ExcessAt(const Phase::PathConstraint& constraint, const MeshPlace& at) const {
+    VectorXd y = Evaluate(constraint.function.get(), constraint.arguments, at);
     for (Eigen::Index o = 0; o < y.size(); ++o) {
       if (!std::isfinite(y[o])) continue;
       y[o] = Excess(y[o], constraint.bounds[o]) / constraint.scales[o];
@@ -210,10 +207,10 @@ class PhaseBetweenKnots {
     return y;
   }
 
-  double CostAt(double s) const {
+  double CostAt(const MeshPlace& at) const {
     double sum = 0;
     for (const Phase::IntegralCost& cost : phase_.costs()) {
-      sum += cost.weight * Evaluate(cost.function.get(), cost.arguments, s)[0];
+      sum += cost.weight * Evaluate(cost.function.get(), cost.arguments, at)[0];
     }
     return sum;
   }
@@ -221,6 +218,7 @@ class PhaseBetweenKnots {
   const Phase& phase_;
   const PhaseTrajectory& motion_;
   const VectorXd& parameters_;
+  const std::vector<QuadraturePoint> rule_ = GaussLegendre(5);  // exact for degree 9
 };
 
 }  // namespace
@@ -261,26 +259,6 @@ MeshError Worst(const std::vector<std::vector<MeshError>>& errors) {
     }
   }
   return worst;
-}
-
-Mesh Refined(const Mesh& mesh, const std::vector<MeshError>& errors, double tolerance, int order) {
-  constexpr int kMostParts = 4;
-  Mesh refined = {mesh.front()};
-  for (std::size_t i = 0; i + 1 < mesh.size(); ++i) {
-    int parts = 1;
-    const double error = errors[i].Greatest();
-    if (error > tolerance) {
-      // The error of an interval is proportional to its length to the power order + 1.
-      const double wanted = std::ceil(std::pow(error / tolerance, 1.0 / (order + 1)));
-      parts =
-          std::isfinite(wanted) ? std::clamp(static_cast<int>(wanted), 2, kMostParts) : kMostParts;
-    }
-    for (int part = 1; part < parts; ++part) {
-      refined.push_back(mesh[i] + (mesh[i + 1] - mesh[i]) * part / parts);
-    }
-    refined.push_back(mesh[i + 1]);
-  }
-  return refined;
 }
 
 }  // namespace possibility::collocation

@@ -30,8 +30,4 @@ std::vector<std::vector<MeshError>> MeshErrors(const OptimalControlProblem& prob
 /// Of each kind the greatest.
 MeshError Worst(const std::vector<std::vector<MeshError>>& errors);
 
-/// Splits the intervals whose error exceeds `tolerance` into as many parts as a scheme of that
-/// order needs, at most 4.
-Mesh Refined(const Mesh& mesh, const std::vector<MeshError>& errors, double tolerance, int order);
-
 }  // namespace possibility::collocation

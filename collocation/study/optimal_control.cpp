@@ -10,6 +10,7 @@
 
 #include "collocation/solver/conflict.h"
 #include "collocation/study/conflict_text.h"
+#include "collocation/study/mesh_refinement.h"
 #include "collocation/study/scale_check.h"
 #include "common/stopwatch.h"
 
@@ -83,6 +84,7 @@ OptimalControlResult AsCancelled(OptimalControlResult result) {
   result.violations.clear();
   result.mesh_error = std::numeric_limits<double>::quiet_NaN();
   result.mesh_errors = {};
+  result.jumps.clear();
   result.conflict.clear();
   result.stationary_point = StationaryPoint::kUnknown;
   return result;
@@ -174,6 +176,36 @@ bool FoundWrongDerivative(const Transcription& program, const SolverGuess& guess
   return true;
 }
 
+bool IsFineEnough(const OptimalControlResult& result, const OptimalControlOptions& options) {
+  const bool is_accurate =
+      options.mesh_tolerance <= 0 || result.mesh_error <= options.mesh_tolerance;
+  for (const auto& of_phase : result.jumps) {
+    for (const ControlJump& jump : of_phase) {
+      if (jump.end - jump.begin > options.jump_tolerance) return false;
+    }
+  }
+  return is_accurate;
+}
+
+std::vector<Mesh> NextMeshes(const std::vector<Mesh>& meshes,
+                             const std::vector<std::vector<MeshError>>& errors,
+                             const std::vector<std::vector<ControlJump>>& jumps,
+                             const OptimalControlOptions& options) {
+  MeshRule rule;
+  rule.order = options.scheme.order();
+  if (options.mesh_tolerance > 0) {
+    rule.tolerance = options.mesh_tolerance;
+    rule.coarsen = options.coarsen;
+  }
+  std::vector<Mesh> next;
+  for (std::size_t p = 0; p < meshes.size(); ++p) {
+    next.push_back(Refined(meshes[p], errors[p], rule));
+    if (jumps.empty()) continue;
+    next.back() = WithKnotsAtJumps(next.back(), meshes[p], jumps[p], options.jump_tolerance);
+  }
+  return next;
+}
+
 void SolveFrom(Start start, const OptimalControlProblem& problem,
                const OptimalControlOptions& options, const CancellationToken& cancellation,
                const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
@@ -205,16 +237,13 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
     const auto errors = MeshErrors(problem, result.trajectory, result.objective);
     result.mesh_errors = Worst(errors);
     result.mesh_error = result.mesh_errors.Greatest();
-    const bool fine_enough =
-        options.mesh_tolerance <= 0 || result.mesh_error <= options.mesh_tolerance;
-    if (!result.succeeded() || fine_enough || result.refinements >= options.max_refinements) {
+    if (options.jump_tolerance > 0) result.jumps = FindJumps(result.trajectory);
+    if (!result.succeeded() || IsFineEnough(result, options) ||
+        result.refinements >= options.max_refinements) {
       if (options.second_order_check) CheckSecondOrder(&program, method, &result);
       return;
     }
-    const int order = 2 * options.scheme.num_nodes() - 2;
-    for (std::size_t p = 0; p < meshes.size(); ++p) {
-      meshes[p] = Refined(meshes[p], errors[p], options.mesh_tolerance, order);
-    }
+    meshes = NextMeshes(meshes, errors, result.jumps, options);
     start = {&result.trajectory, solver.has_multipliers() ? &result.multipliers : nullptr};
   }
 }

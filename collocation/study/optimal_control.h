@@ -10,6 +10,7 @@
 #include "collocation/solver/nonlinear_solver.h"
 #include "collocation/solver/solver.h"
 #include "collocation/solver/stationary_point.h"
+#include "collocation/study/control_jumps.h"
 #include "collocation/study/mesh_error.h"
 #include "collocation/study/stored_solution.h"
 #include "collocation/transcription/transcription.h"
@@ -25,6 +26,13 @@ struct OptimalControlOptions {
   std::vector<Mesh> meshes;
   /// The mesh is refined until the error between the knots is below this; 0: never.
   double mesh_tolerance = 0;
+  /// When the mesh is refined, neighbouring intervals whose errors are far below mesh_tolerance
+  /// become one.
+  bool coarsen = false;
+  /// The mesh gets knots close to jumps of controls until each jump lies between two knots that are
+  /// no farther apart than this share of the phase: for bang-bang and singular controls with the
+  /// trapezoidal scheme. 0: never.
+  double jump_tolerance = 0;
   int max_refinements = 6;
   /// Compares the derivatives of all functions with differences at the starting point, at the
   /// first, the middle and the last node of each. If one is wrong, nothing is solved, and the
@@ -68,6 +76,8 @@ struct OptimalControlResult {
   /// there is no trajectory.
   double mesh_error = 0;
   MeshError mesh_errors;  ///< the same by kind
+  /// With jump_tolerance: the jumps of controls on the last mesh, by phase.
+  std::vector<std::vector<ControlJump>> jumps;
   int refinements = 0;
   SolverResult solver;            ///< of the last mesh
   SolverTimes times;              ///< of all meshes together

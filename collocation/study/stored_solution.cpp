@@ -45,6 +45,15 @@ void CheckSameQuantities(const OptimalControlProblem& problem, const StoredSolut
     }
     Compare(where, "coordinate", names.coordinates, stored.coordinates);
     Compare(where, "control", names.controls, stored.controls);
+    for (std::size_t i = 0; i < names.coordinates.size(); ++i) {
+      const auto order = [i](const PhaseNames& of) {
+        return of.orders.empty() ? of.order : of.orders[i];
+      };
+      if (order(names) == order(stored)) continue;
+      throw std::invalid_argument(
+          fmt::format("{}: '{}' of the stored solution is of order {}, expected {}", where,
+                      names.coordinates[i], order(stored), order(names)));
+    }
   }
 }
 

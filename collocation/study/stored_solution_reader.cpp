@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "models/input/file_contents.h"
@@ -58,7 +59,7 @@ Mesh ReadMesh(const JsonCursor& place) {
 
 TranscriptionScheme ReadScheme(const JsonCursor& place) {
   constexpr std::size_t kMostNodes = 20;  // polynomials of more nodes are unreliable
-  place.ExpectKeys({"name", "nodes", "separated"});
+  place.ExpectKeys({"name", "nodes", "separated"}, {"value_at_start", "value_at_end"});
   const JsonCursor nodes = place["nodes"];
   if (nodes.ArraySize() > kMostNodes) {
     nodes.Fail(fmt::format("{} nodes, expected at most {}", nodes.ArraySize(), kMostNodes));
@@ -66,8 +67,12 @@ TranscriptionScheme ReadScheme(const JsonCursor& place) {
   const std::string name = place["name"].String();
   const bool separated = place["separated"].Bool();
   const std::vector<double> numbers = Numbers(nodes);
+  const auto has_value = [&](const char* key) { return !place.Has(key) || place[key].Bool(); };
+  const bool at_start = has_value("value_at_start");
+  const bool at_end = has_value("value_at_end");
+  if (numbers.size() == 2 && !at_start && !at_end) nodes.Fail("expected a node with a value");
   try {
-    return SchemeOfNodes(name, numbers, separated);
+    return SchemeOfNodes(name, numbers, separated, at_start, at_end);
   } catch (const std::invalid_argument&) {
     nodes.Fail("expected numbers that ascend from 0 to 1");
   }
@@ -75,7 +80,8 @@ TranscriptionScheme ReadScheme(const JsonCursor& place) {
 
 void ReadPhase(const JsonCursor& place, StoredSolution* solution) {
   place.ExpectKeys({"name", "coordinates", "controls", "begin", "duration", "scheme", "mesh",
-                    "coordinate_values", "control_values"});
+                    "coordinate_values", "control_values"},
+                   {"orders"});
   PhaseNames names;
   names.phase = place["name"].String();
   names.coordinates = Strings(place["coordinates"]);
@@ -92,6 +98,16 @@ void ReadPhase(const JsonCursor& place, StoredSolution* solution) {
     values.Fail("expected coordinates and one or two derivatives");
   }
   names.order = static_cast<int>(values.ArraySize()) - 1;
+  if (place.Has("orders")) {
+    const JsonCursor orders = place["orders"];
+    ExpectSize(orders, names.coordinates.size(), "numbers");
+    for (std::size_t i = 0; i < orders.ArraySize(); ++i) {
+      names.orders.push_back(static_cast<int>(orders[i].Integer(1, names.order)));
+    }
+    const auto is_of_phase = [&](int order) { return order == names.order; };
+    if (std::all_of(names.orders.begin(), names.orders.end(), is_of_phase)) names.orders.clear();
+    motion.orders = names.orders;
+  }
   for (std::size_t order = 0; order < values.ArraySize(); ++order) {
     motion.coordinates.push_back(Matrix(values[order], names.coordinates.size(), points));
   }

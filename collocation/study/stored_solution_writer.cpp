@@ -39,12 +39,17 @@ Json ToJson(const PhaseNames& names, const PhaseTrajectory& motion) {
   Json json;
   json["name"] = names.phase;
   json["coordinates"] = names.coordinates;
+  if (!names.orders.empty()) json["orders"] = names.orders;
   json["controls"] = names.controls;
   json["begin"] = Finite(motion.begin);
   json["duration"] = Finite(motion.duration);
   json["scheme"] = {{"name", motion.scheme.name},
                     {"nodes", Numbers(motion.scheme.nodes)},
                     {"separated", motion.scheme.separated}};
+  if (!motion.scheme.IsClosed()) {
+    json["scheme"]["value_at_start"] = motion.scheme.value_at_start;
+    json["scheme"]["value_at_end"] = motion.scheme.value_at_end;
+  }
   json["mesh"] = Numbers(motion.mesh);
   json["coordinate_values"] = Json::array();
   for (const auto& values : motion.coordinates) json["coordinate_values"].push_back(Rows(values));

@@ -61,14 +61,15 @@ Eigen::VectorXd InitialGuess(const VariableLayout& layout) {
     for (std::size_t k = 0; k < phase_layout.points.size(); ++k) {
       const double share = phase_layout.points[k].share;
       for (int c = 0; c < static_cast<int>(phase.coordinates().size()); ++c) {
-        for (int order = 0; order <= phase.order(); ++order) {
+        for (int order = 0; order <= phase.OrderOf(c); ++order) {
           const int index = phase_layout.coordinates[k][c][order];
           if (index < 0) continue;
           x[index] = GuessOf(phase, phase.Coordinate(c, order), share, duration);
         }
       }
       for (int c = 0; c < static_cast<int>(phase.controls().size()); ++c) {
-        x[phase_layout.controls[k][c]] = GuessOf(phase, phase.Control(c), share, duration);
+        const int index = phase_layout.controls[k][c];
+        if (index >= 0) x[index] = GuessOf(phase, phase.Control(c), share, duration);
       }
     }
   }

@@ -30,7 +30,9 @@ std::vector<MultiplierSeries> SeriesOf(const std::vector<PlacedName>& names,
 
 bool HasScheme(const Trajectory& trajectory, const TranscriptionScheme& scheme) {
   const auto is_same = [&](const PhaseTrajectory& phase) {
-    return phase.scheme.nodes == scheme.nodes && phase.scheme.separated == scheme.separated;
+    return phase.scheme.nodes == scheme.nodes && phase.scheme.separated == scheme.separated &&
+           phase.scheme.value_at_start == scheme.value_at_start &&
+           phase.scheme.value_at_end == scheme.value_at_end;
   };
   return std::all_of(trajectory.phases.begin(), trajectory.phases.end(), is_same);
 }

@@ -28,8 +28,9 @@ MultiplierInterpolation::MultiplierInterpolation(const MultiplierSeries& series,
     const int point = series.points[i];
     const int node = is_single_ ? 0 : point % from.per_interval;
     by_node_[node].shares.push_back(from.shares[point]);
-    by_node_[node].values.push_back(IsDensity(node) ? series.values[i] / from.weights[point]
-                                                    : series.values[i]);
+    const double weight = from.weights[point];
+    by_node_[node].values.push_back(IsDensity(node, weight) ? series.values[i] / weight
+                                                            : series.values[i]);
   }
 }
 
@@ -45,7 +46,7 @@ double MultiplierInterpolation::At(const MeshPoints& to, int point) const {
     const double weight = (share - shares[after - 1]) / (shares[after] - shares[after - 1]);
     value = weight * value + (1 - weight) * values[after - 1];
   }
-  return IsDensity(node) ? value * to.weights[point] : value;
+  return IsDensity(node, to.weights[point]) ? value * to.weights[point] : value;
 }
 
 }  // namespace possibility::collocation

@@ -53,7 +53,10 @@ class MultiplierInterpolation {
   struct Samples {
     std::vector<double> shares, values;
   };
-  bool IsDensity(int node) const { return !is_single_ && !(is_defect_ && node == 0); }
+  /// Points without a weight have no density.
+  bool IsDensity(int node, double weight) const {
+    return !is_single_ && !(is_defect_ && node == 0) && weight > 0;
+  }
 
   bool is_defect_;
   bool is_single_;  // holds at one point only, so its multiplier is no density

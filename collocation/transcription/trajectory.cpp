@@ -8,6 +8,32 @@
 
 namespace possibility::collocation {
 
+namespace {
+
+/// Coordinates differentiated `order` times, as if all were of the order `highest`.
+Eigen::VectorXd OfOneOrder(const PhaseTrajectory& motion, const MeshPlace& place, int order,
+                           int highest) {
+  const auto [interval, c] = place;
+  const int inside = motion.scheme.num_nodes() - 1;
+  const int first = interval * inside;
+  const double h = (motion.mesh[interval + 1] - motion.mesh[interval]) * motion.duration;
+  const auto nodes = motion.coordinates[highest].middleCols(first, inside + 1);
+  if (order > highest) return nodes * motion.scheme.LagrangeSlopes(c) / h;
+  // Taylor polynomial at the interval's start, plus the repeated integral of the highest
+  // derivative.
+  Eigen::VectorXd value = Eigen::VectorXd::Zero(nodes.rows());
+  double factor = 1;
+  for (int r = order; r < highest; ++r) {
+    value += factor * motion.coordinates[r].col(first);
+    factor *= c * h / (r - order + 1);
+  }
+  const int k = highest - order;
+  value += std::pow(h, k) * nodes * motion.scheme.LagrangeIntegrals(c, k);
+  return value;
+}
+
+}  // namespace
+
 std::pair<int, double> Locate(const Mesh& mesh, double s) {
   const auto after = std::upper_bound(mesh.begin(), mesh.end(), s);
   const int last = static_cast<int>(mesh.size()) - 2;
@@ -33,29 +59,39 @@ double PhaseTrajectory::PointShare(int point) const {
 }
 
 Eigen::VectorXd PhaseTrajectory::Coordinates(double s, int order) const {
-  const auto [interval, c] = Locate(mesh, s);
-  const int highest = static_cast<int>(coordinates.size()) - 1;
-  const int inside = scheme.num_nodes() - 1;
-  const int first = interval * inside;
-  const double h = (mesh[interval + 1] - mesh[interval]) * duration;
-  // Taylor polynomial at the interval's start, plus the repeated integral of the highest
-  // derivative.
-  Eigen::VectorXd value = Eigen::VectorXd::Zero(coordinates[0].rows());
-  double factor = 1;
-  for (int r = order; r < highest; ++r) {
-    value += factor * coordinates[r].col(first);
-    factor *= c * h / (r - order + 1);
-  }
-  const int k = highest - order;
-  value += std::pow(h, k) * coordinates[highest].middleCols(first, inside + 1) *
-           scheme.LagrangeIntegrals(c, k);
-  return value;
+  const auto [interval, share] = Locate(mesh, s);
+  return Coordinates(MeshPlace{interval, share}, order);
 }
 
 Eigen::VectorXd PhaseTrajectory::Controls(double s) const {
-  const auto [interval, c] = Locate(mesh, s);
+  const auto [interval, share] = Locate(mesh, s);
+  return Controls(MeshPlace{interval, share});
+}
+
+Eigen::VectorXd PhaseTrajectory::Coordinates(const MeshPlace& place, int order) const {
+  const int highest = static_cast<int>(coordinates.size()) - 1;
+  Eigen::VectorXd value = OfOneOrder(*this, place, order, highest);
+  for (int own = 1; own < highest && !orders.empty(); ++own) {
+    const Eigen::VectorXd lower = OfOneOrder(*this, place, order, own);
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (orders[i] == own) value[row] = lower[row];
+    }
+  }
+  return value;
+}
+
+Eigen::VectorXd PhaseTrajectory::Controls(const MeshPlace& place) const {
+  const auto [interval, c] = place;
   const int inside = scheme.num_nodes() - 1;
   return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeIntegrals(c, 0);
+}
+
+Eigen::VectorXd PhaseTrajectory::ControlRates(double s) const {
+  const auto [interval, c] = Locate(mesh, s);
+  const int inside = scheme.num_nodes() - 1;
+  const double h = (mesh[interval + 1] - mesh[interval]) * duration;
+  return controls.middleCols(interval * inside, inside + 1) * scheme.LagrangeSlopes(c) / h;
 }
 
 double Trajectory::Value(const Variable& variable, double time) const {

@@ -6,6 +6,23 @@
 
 namespace possibility::collocation {
 
+namespace {
+
+/// The derivatives at the points that are no variables.
+void AddSlopes(PhaseTrajectory* phase) {
+  for (std::size_t i = 0; i < phase->orders.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (int order = phase->orders[i] + 1; order < static_cast<int>(phase->coordinates.size());
+         ++order) {
+      for (int k = 0; k < phase->num_points(); ++k) {
+        phase->coordinates[order](row, k) = phase->Coordinates(phase->PointShare(k), order)[row];
+      }
+    }
+  }
+}
+
+}  // namespace
+
 void CheckFits(const VariableLayout& layout, const Trajectory& trajectory) {
   const OptimalControlProblem& problem = layout.problem();
   const auto expect = [&](const std::string& where, const char* what, std::ptrdiff_t expected,
@@ -23,6 +40,9 @@ void CheckFits(const VariableLayout& layout, const Trajectory& trajectory) {
     expect(where, "points", points, motion.controls.cols());
     expect(where, "controls", std::ssize(phase.controls()), motion.controls.rows());
     expect(where, "derivatives", phase.order(), std::ssize(motion.coordinates) - 1);
+    if (motion.orders != phase.Names().orders) {
+      problem.Fail(where + "a guess has coordinates of other orders");
+    }
     for (const Eigen::MatrixXd& values : motion.coordinates) {
       expect(where, "points", points, values.cols());
       expect(where, "coordinates", std::ssize(phase.coordinates()), values.rows());
@@ -46,13 +66,15 @@ Eigen::VectorXd VariablesOf(const VariableLayout& layout, const Trajectory& traj
       for (int order = 0; order <= problem.phase(p).order(); ++order) {
         const Eigen::VectorXd values = phase.Coordinates(share, order);
         for (std::size_t c = 0; c < phase_layout.coordinates[k].size(); ++c) {
+          if (order > problem.phase(p).OrderOf(static_cast<int>(c))) continue;
           const int index = phase_layout.coordinates[k][c][order];
           if (index >= 0) x[index] = values[static_cast<Eigen::Index>(c)];
         }
       }
       const Eigen::VectorXd controls = phase.Controls(share);
       for (std::size_t c = 0; c < phase_layout.controls[k].size(); ++c) {
-        x[phase_layout.controls[k][c]] = controls[static_cast<Eigen::Index>(c)];
+        const int index = phase_layout.controls[k][c];
+        if (index >= 0) x[index] = controls[static_cast<Eigen::Index>(c)];
       }
     }
   }
@@ -76,22 +98,25 @@ Trajectory TrajectoryOf(const VariableLayout& layout, const Eigen::VectorXd& sca
     phase.duration = layout.DurationOf(p, x);
     phase.mesh = phase_layout.mesh;
     phase.scheme = layout.scheme();
+    phase.orders = problem_phase.Names().orders;
     begin += phase.duration;
     const auto points = static_cast<Eigen::Index>(phase_layout.points.size());
     const auto n = static_cast<Eigen::Index>(problem_phase.coordinates().size());
-    phase.coordinates.assign(problem_phase.order() + 1, Eigen::MatrixXd(n, points));
+    phase.coordinates.assign(problem_phase.order() + 1, Eigen::MatrixXd::Zero(n, points));
     phase.controls.resize(static_cast<Eigen::Index>(problem_phase.controls().size()), points);
     for (int k = 0; k < points; ++k) {
       for (int order = 0; order <= problem_phase.order(); ++order) {
         for (int c = 0; c < n; ++c) {
+          if (order > problem_phase.OrderOf(c)) continue;
           phase.coordinates[order](c, k) =
               layout.FormOf(problem_phase.Coordinate(c, order), p, k).Value(x);
         }
       }
       for (int c = 0; c < phase.controls.rows(); ++c) {
-        phase.controls(c, k) = x[phase_layout.controls[k][c]];
+        phase.controls(c, k) = layout.FormOf(problem_phase.Control(c), p, k).Value(x);
       }
     }
+    AddSlopes(&phase);
     trajectory.phases.push_back(std::move(phase));
   }
   return trajectory;

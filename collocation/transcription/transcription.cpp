@@ -1,8 +1,11 @@
 #include "collocation/transcription/transcription.h"
 
+#include <algorithm>
+
 #include "collocation/problem/unused_quantities.h"
 #include "collocation/transcription/initial_guess.h"
 #include "collocation/transcription/multiplier_transfer.h"
+#include "collocation/transcription/quadrature.h"
 #include "collocation/transcription/trajectory_transfer.h"
 #include "collocation/transcription/wrong_derivatives.h"
 
@@ -13,7 +16,12 @@ Transcription::Transcription(const OptimalControlProblem& problem,
                              const CancellationToken& cancellation)
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
   CheckEverythingIsUsed(problem);
+  CheckControls();
   for (int p = 0; p < problem.num_phases(); ++p) AddDefects(p, cancellation);
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    AddBoundsOfEnds(p);
+    AddControlRates(p);
+  }
   for (int p = 0; p < problem.num_phases(); ++p) {
     AddPathConstraints(p, cancellation);
     AddIntegrals(p, cancellation);
@@ -37,7 +45,7 @@ void Transcription::AddDefects(int phase_index, const CancellationToken& cancell
     for (int node = 1; node <= inside; ++node) {
       const int point = interval * inside + node;
       for (int c = 0; c < n; ++c) {
-        for (int order = 0; order < phase.order(); ++order) {
+        for (int order = 0; order < phase.OrderOf(c); ++order) {
           const Phase::Quantity& quantity = phase.coordinates()[c][order];
           const int index = layout.coordinates[point][c][order];
           PolynomialForm form = layout_.IntegralForm(phase_index, interval, node, c, order);
@@ -58,14 +66,87 @@ void Transcription::AddDefects(int phase_index, const CancellationToken& cancell
   }
 }
 
+void Transcription::CheckControls() const {
+  if (layout_.scheme().IsClosed()) return;
+  const OptimalControlProblem& problem = layout_.problem();
+  const std::string why =
+      " does not go with the scheme '" + layout_.scheme().name + "', whose controls jump at knots";
+  for (int p = 0; p < problem.num_phases(); ++p) {
+    const Phase& phase = problem.phase(p);
+    if (!phase.rate_costs().empty() || !phase.rate_bounds().empty()) {
+      phase.Fail("a cost or bound of a control's rate" + why);
+    }
+  }
+  for (const auto& [from, to] : problem.continued()) {
+    if (to.variable.kind != VariableKind::kControl) continue;
+    problem.Fail(problem.NameOf(to.variable) + ": that a control continues" + why);
+  }
+}
+
+void Transcription::AddBoundsOfEnds(int phase_index) {
+  const Phase& phase = layout_.problem().phase(phase_index);
+  const std::vector<LayoutPoint>& points = layout_.phase(phase_index).points;
+  const auto add = [&](Variable variable, int point, At end) {
+    const Phase::Quantity& quantity = phase.Find(variable);
+    const bool is_asked = std::any_of(quantity.bounds.begin(), quantity.bounds.end(),
+                                      [&](const auto& bound) { return bound.first == end; });
+    if (!is_asked) return;
+    functions_.AddFormRow(layout_.FormOf(variable, phase_index, point), quantity.scale,
+                          layout_.BoundsAt(quantity, phase_index, point),
+                          {phase_index, point, quantity.name, -1});
+  };
+  const int last = static_cast<int>(points.size()) - 1;
+  for (const auto& [point, end] : {std::pair{0, At::kStart}, {last, At::kEnd}}) {
+    if (points[point].has_values) continue;
+    for (int c = 0; c < static_cast<int>(phase.coordinates().size()); ++c) {
+      add(phase.Coordinate(c, phase.OrderOf(c)), point, end);
+    }
+    for (int c = 0; c < static_cast<int>(phase.controls().size()); ++c) {
+      add(phase.Control(c), point, end);
+    }
+  }
+}
+
+void Transcription::AddControlRates(int phase_index) {
+  const Phase& phase = layout_.problem().phase(phase_index);
+  const Mesh& mesh = layout_.phase(phase_index).mesh;
+  const int degree = layout_.scheme().num_nodes() - 1;
+  // Bounds hold between two points if they hold at both: a slope of degree 1 is bounded by its
+  // ends.
+  const std::vector<double> bounded =
+      degree == 1 ? std::vector<double>{0.5} : GaussLobatto(degree).nodes;
+  const std::vector<QuadraturePoint> rule = GaussLegendre(degree);
+  const std::shared_ptr<Function> square = FunctionOf([](auto rate) { return rate * rate; });
+  for (int interval = 0; interval + 1 < static_cast<int>(mesh.size()); ++interval) {
+    const int first = interval * degree;
+    for (const Phase::RateBound& rate : phase.rate_bounds()) {
+      const std::string name = "rate of " + phase.controls()[rate.control].name;
+      for (int i = 0; i < degree; ++i) {
+        functions_.AddFormRow(
+            layout_.ControlRateForm(phase_index, interval, bounded[i], rate.control), rate.scale,
+            rate.bounds, {phase_index, first + i, name, -1});
+      }
+    }
+    const double length = mesh[interval + 1] - mesh[interval];
+    for (const Phase::RateCost& cost : phase.rate_costs()) {
+      for (const QuadraturePoint& point : rule) {
+        functions_.AddCost(
+            CostTerm(square,
+                     {layout_.ControlRateForm(phase_index, interval, point.share, cost.control)},
+                     layout_.DurationForm(phase_index, cost.weight * point.weight * length)),
+            {phase_index, first, "rate of " + phase.controls()[cost.control].name, -1});
+      }
+    }
+  }
+}
+
 void Transcription::AddPathConstraints(int phase_index, const CancellationToken& cancellation) {
   const Phase& phase = layout_.problem().phase(phase_index);
   const int n = static_cast<int>(layout_.phase(phase_index).points.size());
   for (int point = 0; point < n; ++point) {
     cancellation.ThrowIfCancelled();
     for (const Phase::PathConstraint& constraint : phase.constraints()) {
-      if (!HoldsAt(constraint.at, point, n)) continue;
-      if (constraint.only_at_knots && !layout_.phase(phase_index).points[point].is_knot) continue;
+      if (!IsImposedAt(constraint, layout_.phase(phase_index).points, point)) continue;
       std::vector<PolynomialForm> arguments;
       for (const Variable& argument : constraint.arguments) {
         arguments.push_back(layout_.FormOf(argument, phase_index, point));
@@ -80,17 +161,12 @@ void Transcription::AddPathConstraints(int phase_index, const CancellationToken&
 CostTerm Transcription::IntegralTerm(int phase, int point,
                                      const std::shared_ptr<Function>& function,
                                      const std::vector<Variable>& variables, double weight) const {
-  const PhaseLayout& layout = layout_.phase(phase);
   std::vector<PolynomialForm> arguments;
   arguments.reserve(variables.size());
   for (const Variable& variable : variables) {
     arguments.push_back(layout_.FormOf(variable, phase, point));
   }
-  PolynomialForm factor;
-  factor.duration = layout.duration;
-  factor.monomials.push_back(layout.duration < 0 ? Monomial{-1, weight * layout.fixed_duration, 0}
-                                                 : Monomial{-1, weight, 1});
-  return CostTerm(function, std::move(arguments), std::move(factor));
+  return CostTerm(function, std::move(arguments), layout_.DurationForm(phase, weight));
 }
 
 void Transcription::AddIntegrals(int phase_index, const CancellationToken& cancellation) {
@@ -101,6 +177,7 @@ void Transcription::AddIntegrals(int phase_index, const CancellationToken& cance
   for (const Phase::IntegralCost& cost : phase.costs()) {
     for (int point = 0; point < num_points; ++point) {
       cancellation.ThrowIfCancelled();
+      if (!layout.points[point].has_values) continue;
       functions_.AddCost(IntegralTerm(phase_index, point, cost.function, cost.arguments,
                                       cost.weight * points.weights[point]),
                          {phase_index, point, cost.name, -1});
@@ -110,6 +187,7 @@ void Transcription::AddIntegrals(int phase_index, const CancellationToken& cance
     std::vector<CostTerm> terms;
     for (int point = 0; point < num_points; ++point) {
       cancellation.ThrowIfCancelled();
+      if (!layout.points[point].has_values) continue;
       terms.push_back(IntegralTerm(phase_index, point, integral.function, integral.arguments,
                                    points.weights[point]));
     }

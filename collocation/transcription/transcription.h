@@ -82,6 +82,11 @@ class Transcription : public NonlinearProgram {
 
  private:
   void AddDefects(int phase, const CancellationToken& cancellation);
+  void AddControlRates(int phase);
+  /// Refuses what asks for controls without jumps at knots, if the scheme's jump.
+  void CheckControls() const;
+  /// Bounds at the ends of a phase of what is no variable there.
+  void AddBoundsOfEnds(int phase);
   void AddPathConstraints(int phase, const CancellationToken& cancellation);
   void AddIntegrals(int phase, const CancellationToken& cancellation);
   /// What a point of a phase adds to an integral.

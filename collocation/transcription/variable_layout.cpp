@@ -75,10 +75,12 @@ void VariableLayout::LayOut(int phase_index) {
     for (int node = 0; node < inside; ++node) {
       const double share =
           layout.mesh[i] + scheme_.nodes[node] * (layout.mesh[i + 1] - layout.mesh[i]);
-      layout.points.push_back({i, node, share, node == 0});
+      const bool has_values =
+          scheme_.HasValue(node) || (node == 0 && i > 0 && scheme_.value_at_end);
+      layout.points.push_back({i, node, share, node == 0, has_values});
     }
   }
-  layout.points.push_back({intervals - 1, inside, 1, true});
+  layout.points.push_back({intervals - 1, inside, 1, true, scheme_.value_at_end});
   for (int k = 0; k < static_cast<int>(layout.points.size()); ++k) LayOutPoint(phase_index, k);
 }
 
@@ -87,40 +89,44 @@ void VariableLayout::LayOutPoint(int phase_index, int point) {
   PhaseLayout& layout = phases_[phase_index];
   auto& coordinates = layout.coordinates.emplace_back();
   for (std::size_t c = 0; c < phase.coordinates().size(); ++c) {
-    std::vector<int>& orders = coordinates.emplace_back(phase.order() + 1, -1);
-    for (int order = 0; order <= phase.order(); ++order) {
-      const bool derived =
-          !scheme_.separated && !layout.points[point].is_knot && order < phase.order();
-      if (derived) continue;
-      const Phase::Quantity& quantity = phase.coordinates()[c][order];
-      const Bounds bounds = BoundsAt(quantity, phase_index, point);
-      // A state that continues an earlier phase is that phase's variable.
-      for (const auto& [from, to] : problem_.continued()) {
-        const Variable here = phase.Coordinate(static_cast<int>(c), order);
-        if (point != 0 || to.variable != here) continue;
-        const PhaseLayout& earlier = phases_[from.variable.phase];
-        orders[order] = earlier.coordinates.back()[from.variable.index][from.variable.order];
-      }
-      if (orders[order] < 0) {
-        orders[order] =
-            AddVariable(quantity.scale, bounds, {phase_index, point, quantity.name, -1});
-        continue;
-      }
-      double& lower = lowers_[orders[order]];
-      double& upper = uppers_[orders[order]];
-      lower = std::max(lower, bounds.lower);
-      upper = std::min(upper, bounds.upper);
-      if (lower > upper) {
-        problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet",
-                                  PointName(phase_index, point), quantity.name, lower, upper));
-      }
+    const int highest = phase.OrderOf(static_cast<int>(c));
+    std::vector<int>& orders = coordinates.emplace_back(highest + 1, -1);
+    for (int order = 0; order <= highest; ++order) {
+      const bool derived = !scheme_.separated && !layout.points[point].is_knot && order < highest;
+      if (derived || (order == highest && !layout.points[point].has_values)) continue;
+      orders[order] = AddContinuing(phase.Coordinate(static_cast<int>(c), order), point);
     }
   }
   auto& controls = layout.controls.emplace_back();
-  for (const Phase::Quantity& quantity : phase.controls()) {
-    controls.push_back(AddVariable(quantity.scale, BoundsAt(quantity, phase_index, point),
-                                   {phase_index, point, quantity.name, -1}));
+  for (std::size_t c = 0; c < phase.controls().size(); ++c) {
+    const Variable control = phase.Control(static_cast<int>(c));
+    controls.push_back(layout.points[point].has_values ? AddContinuing(control, point) : -1);
   }
+}
+
+int VariableLayout::AddContinuing(Variable variable, int point) {
+  const Phase::Quantity& quantity = problem_.phase(variable.phase).Find(variable);
+  const Bounds bounds = BoundsAt(quantity, variable.phase, point);
+  int index = -1;
+  for (const auto& [from, to] : problem_.continued()) {
+    if (point != 0 || to.variable != variable) continue;
+    const PhaseLayout& earlier = phases_[from.variable.phase];
+    index = variable.kind == VariableKind::kControl
+                ? earlier.controls.back()[from.variable.index]
+                : earlier.coordinates.back()[from.variable.index][from.variable.order];
+  }
+  if (index < 0) {
+    return AddVariable(quantity.scale, bounds, {variable.phase, point, quantity.name, -1});
+  }
+  double& lower = lowers_[index];
+  double& upper = uppers_[index];
+  lower = std::max(lower, bounds.lower);
+  upper = std::min(upper, bounds.upper);
+  if (lower > upper) {
+    problem_.Fail(fmt::format("{}{}: contradictory bounds [{}, {}] where phases meet",
+                              PointName(variable.phase, point), quantity.name, lower, upper));
+  }
+  return index;
 }
 
 bool HoldsAt(At at, int point, int num_points) {
@@ -141,6 +147,14 @@ bool HoldsAt(At at, int point, int num_points) {
       return !first && !last;
   }
   return false;
+}
+
+bool IsImposedAt(const Phase::PathConstraint& constraint, const std::vector<LayoutPoint>& points,
+                 int point) {
+  if (!HoldsAt(constraint.at, point, static_cast<int>(points.size()))) return false;
+  if (constraint.only_at_knots) return points[point].is_knot;
+  const bool is_of_one_end = constraint.at == At::kStart || constraint.at == At::kEnd;
+  return points[point].has_values || is_of_one_end;
 }
 
 Bounds VariableLayout::BoundsAt(const Phase::Quantity& quantity, int phase, int point) const {
@@ -178,7 +192,7 @@ PolynomialForm VariableLayout::IntegralForm(int phase, int interval, int node, i
 PolynomialForm VariableLayout::InterpolantForm(int phase, int interval, double c, int coordinate,
                                                int order) const {
   const PhaseLayout& layout = phases_[phase];
-  const int highest = problem_.phase(phase).order();
+  const int highest = problem_.phase(phase).OrderOf(coordinate);
   const int first = interval * (scheme_.num_nodes() - 1);
   const double share = layout.mesh[interval + 1] - layout.mesh[interval];
   PolynomialForm form;
@@ -199,6 +213,7 @@ PolynomialForm VariableLayout::InterpolantForm(int phase, int interval, double c
   const int k = highest - order;
   const Eigen::VectorXd integrals = scheme_.LagrangeIntegrals(c, k);
   for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    if (!scheme_.HasValue(j)) continue;
     add(layout.coordinates[first + j][coordinate][highest], integrals[j], k);
   }
   return form;
@@ -210,9 +225,32 @@ PolynomialForm VariableLayout::ControlForm(int phase, int interval, double share
   const Eigen::VectorXd lagrange = scheme_.LagrangeIntegrals(share, 0);
   PolynomialForm form;
   for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    if (!scheme_.HasValue(j)) continue;
     form.monomials.push_back({phases_[phase].controls[first + j][control], lagrange[j], 0});
   }
   return form;
+}
+
+PolynomialForm VariableLayout::ControlRateForm(int phase, int interval, double share,
+                                               int control) const {
+  const PhaseLayout& layout = phases_[phase];
+  const double length = layout.mesh[interval + 1] - layout.mesh[interval];
+  const bool is_free = layout.duration >= 0;
+  const double seconds = is_free ? length : length * layout.fixed_duration;
+  const int first = interval * (scheme_.num_nodes() - 1);
+  const Eigen::VectorXd slopes = scheme_.LagrangeSlopes(share);
+  PolynomialForm form{layout.duration, {}};
+  for (int j = 0; j < scheme_.num_nodes(); ++j) {
+    form.monomials.push_back(
+        {layout.controls[first + j][control], slopes[j] / seconds, is_free ? -1 : 0});
+  }
+  return form;
+}
+
+PolynomialForm VariableLayout::DurationForm(int phase, double factor) const {
+  const PhaseLayout& layout = phases_[phase];
+  if (layout.duration < 0) return {-1, {{-1, factor * layout.fixed_duration, 0}}};
+  return {layout.duration, {{-1, factor, 1}}};
 }
 
 PolynomialForm VariableLayout::FormAtShare(Variable variable, int phase, double share) const {
@@ -265,8 +303,12 @@ PolynomialForm VariableLayout::FormOf(Variable variable, int phase, int point) c
       const LayoutPoint& p = layout.points[point];
       return IntegralForm(phase, p.interval, p.node, variable.index, variable.order);
     }
-    case VariableKind::kControl:
-      return single(layout.controls[point][variable.index]);
+    case VariableKind::kControl: {
+      const int index = layout.controls[point][variable.index];
+      if (index >= 0) return single(index);
+      const LayoutPoint& p = layout.points[point];
+      return ControlForm(phase, p.interval, scheme_.nodes[p.node], variable.index);
+    }
     case VariableKind::kParameter:
       return single(parameters_[variable.index]);
     case VariableKind::kDuration:

@@ -18,6 +18,9 @@ struct LayoutPoint {
   int node;
   double share;  ///< of the phase's duration
   bool is_knot;
+  /// Whether the highest derivatives and the controls are variables here. Otherwise they are values
+  /// of the polynomial of the interval that begins here, or at the last knot of that which ends.
+  bool has_values;
 };
 
 /// Indices of a phase's quantities among the program's variables.
@@ -26,13 +29,18 @@ struct PhaseLayout {
   std::vector<LayoutPoint> points;
   /// By point, coordinate, order; -1: derived from other variables.
   std::vector<std::vector<std::vector<int>>> coordinates;
-  std::vector<std::vector<int>> controls;  ///< by point, control
+  std::vector<std::vector<int>> controls;  ///< by point, control; -1: likewise
   int duration = -1;                       ///< -1: fixed
   double fixed_duration = 0;               ///< s
 };
 
 /// Whether something that holds `at` holds at a point of `num_points`.
 bool HoldsAt(At at, int point, int num_points);
+
+/// Whether a constraint is imposed at a point of a phase: at those with values, at knots, or at the
+/// end for which it was asked.
+bool IsImposedAt(const Phase::PathConstraint& constraint, const std::vector<LayoutPoint>& points,
+                 int point);
 
 /// The variables of the nonlinear program of a problem, for a scheme and a mesh per phase: which
 /// quantity each one is, its scale and its bounds. Gives any quantity at any point of the mesh as a
@@ -72,6 +80,10 @@ class VariableLayout {
   /// integration from the interval's first knot.
   PolynomialForm IntegralForm(int phase, int interval, int node, int coordinate, int order) const;
   PolynomialForm InstantForm(const VariableAt& instant) const;
+  /// The slope of a control, per second, at a share of an interval.
+  PolynomialForm ControlRateForm(int phase, int interval, double share, int control) const;
+  /// An integral over a phase has the phase's duration times this as its weight.
+  PolynomialForm DurationForm(int phase, double factor) const;
 
   Bounds BoundsAt(const Phase::Quantity& quantity, int phase, int point) const;
   /// s; `x` in the problem's own units.
@@ -89,6 +101,9 @@ class VariableLayout {
   int AddVariable(double scale, Bounds bounds, PlacedName name);
   void LayOut(int phase);
   void LayOutPoint(int phase, int point);
+  /// The variable of the earlier phase that the quantity at the start of this one continues, with
+  /// its bounds intersected; a new variable if it continues none.
+  int AddContinuing(Variable variable, int point);
   std::string PointName(int phase, int point) const;
   /// IntegralForm at a share of the interval, of any order; at the phase's order it is the
   /// polynomial itself.

@@ -49,15 +49,15 @@ class Check {
     for (int p = 0; p < problem_.num_phases(); ++p) {
       for (const auto& constraint : problem_.phase(p).constraints()) {
         CheckAlong(p, fmt::format("constraint '{}'", constraint.name), constraint.function.get(),
-                   constraint.arguments, PointsOf(p, constraint.at, constraint.only_at_knots));
+                   constraint.arguments, PointsOf(p, constraint));
       }
       for (const auto& cost : problem_.phase(p).costs()) {
         CheckAlong(p, fmt::format("cost '{}'", cost.name), cost.function.get(), cost.arguments,
-                   PointsOf(p, At::kEverywhere, false));
+                   PointsWithValues(p));
       }
       for (const auto& integral : problem_.phase(p).integrals()) {
         CheckAlong(p, fmt::format("integral '{}'", integral.name), integral.function.get(),
-                   integral.arguments, PointsOf(p, At::kEverywhere, false));
+                   integral.arguments, PointsWithValues(p));
       }
     }
     for (const auto& link : problem_.links()) {
@@ -72,12 +72,21 @@ class Check {
   }
 
  private:
-  std::vector<int> PointsOf(int phase, At at, bool only_at_knots) const {
+  std::vector<int> PointsOf(int phase, const Phase::PathConstraint& constraint) const {
     const std::vector<LayoutPoint>& all = layout_.phase(phase).points;
-    const int n = static_cast<int>(all.size());
     std::vector<int> points;
-    for (int k = 0; k < n; ++k) {
-      if (HoldsAt(at, k, n) && (all[k].is_knot || !only_at_knots)) points.push_back(k);
+    for (int k = 0; k < static_cast<int>(all.size()); ++k) {
+      if (IsImposedAt(constraint, all, k)) points.push_back(k);
+    }
+    return points;
+  }
+
+  /// Where integrands are evaluated.
+  std::vector<int> PointsWithValues(int phase) const {
+    const std::vector<LayoutPoint>& all = layout_.phase(phase).points;
+    std::vector<int> points;
+    for (int k = 0; k < static_cast<int>(all.size()); ++k) {
+      if (all[k].has_values) points.push_back(k);
     }
     return points;
   }

@@ -10,11 +10,11 @@
 namespace possibility::collocation {
 namespace {
 
-std::shared_ptr<Function> Square() {
+std::shared_ptr<Function> SquaredForce() {
   return Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0]; });
 }
 
-std::shared_ptr<Function> Same() {
+std::shared_ptr<Function> ForceItself() {
   return Differentiated<1, 1>([](const auto& z, auto* a) { (*a)[0] = z[0]; });
 }
 
@@ -25,7 +25,7 @@ struct Block {
         phase(problem.AddPhase("move", 2)),
         x(phase.AddCoordinate("x")),
         u(phase.AddControl("force", force)) {
-    phase.SetDynamics(Same(), {u});
+    phase.SetDynamics(ForceItself(), {u});
     for (const At end : {At::kStart, At::kEnd}) phase.Fix(phase.Rate(x), 0, end);
     phase.Fix(x, 0, At::kStart);
     phase.Fix(x, distance, At::kEnd);
@@ -50,7 +50,7 @@ struct Block {
 struct LeastEffort : Block {
   LeastEffort() : Block(1, {-100, 100}) {
     phase.SetDuration(1);
-    phase.AddIntegralCost("effort", Square(), {u});
+    phase.AddIntegralCost("effort", SquaredForce(), {u});
   }
 };
 
@@ -74,11 +74,11 @@ TEST(MeshErrors, SeeAnIntegralThatTheSchemesRuleMisses) {
   Phase& phase = farther.AddPhase("move", 2);
   const Variable x = phase.AddCoordinate("x");
   const Variable u = phase.AddControl("force");
-  phase.SetDynamics(Same(), {u});
+  phase.SetDynamics(ForceItself(), {u});
   for (const At end : {At::kStart, At::kEnd}) phase.Fix(phase.Rate(x), 0, end);
   phase.Fix(x, 0, At::kStart);
   phase.SetDuration(1);
-  phase.ConstrainIntegral("effort", Square(), {u}, {0, 12}, 12);
+  phase.ConstrainIntegral("effort", SquaredForce(), {u}, {0, 12}, 12);
   farther.AddCost({x, At::kEnd}, -1);
   OptimalControlOptions options;
   options.scheme = Trapezoidal();
@@ -108,13 +108,13 @@ TEST(MeshErrors, SeeACoordinateBeyondItsBoundBetweenTheKnots) {
   Phase& phase = problem.AddPhase("arc", 2);
   const Variable x = phase.AddCoordinate("x", {-kInfinity, 1.0 / 9});
   const Variable u = phase.AddControl("u");
-  phase.SetDynamics(Same(), {u});
+  phase.SetDynamics(ForceItself(), {u});
   phase.SetDuration(1);
   for (const At end : {At::kStart, At::kEnd}) {
     phase.Fix(x, 0, end);
     phase.Fix(phase.Rate(x), end == At::kStart ? 1 : -1, end);
   }
-  phase.AddIntegralCost("effort", Square(), {u}, 0.5);
+  phase.AddIntegralCost("effort", SquaredForce(), {u}, 0.5);
   OptimalControlOptions options;
   options.intervals = {4};
   const OptimalControlResult coarse = SolveOptimalControl(problem, options);

@@ -57,7 +57,14 @@ TEST(OptimalControlTest, SchemesHaveTheirOrdersOfConvergence) {
   for (const auto& [scheme, order] : {std::pair{Trapezoidal(), 2.0},
                                       {HermiteSimpson(), 4.0},
                                       {CompressedHermiteSimpson(), 4.0},
-                                      {GaussLobatto(4), 6.0}}) {
+                                      {GaussLobatto(4), 6.0},
+                                      {LegendreGauss(1), 2.0},
+                                      {LegendreGauss(2), 4.0},
+                                      {LegendreGauss(3), 6.0},
+                                      {FlippedRadau(1), 1.0},
+                                      {FlippedRadau(2), 3.0},
+                                      {FlippedRadau(3), 5.0}}) {
+    EXPECT_EQ(scheme.order(), order) << scheme.name;
     const double coarse = ErrorWith(scheme, 4);
     const double fine = ErrorWith(scheme, 8);
     EXPECT_NEAR(std::log2(coarse / fine), order, 0.2)
@@ -65,7 +72,7 @@ TEST(OptimalControlTest, SchemesHaveTheirOrdersOfConvergence) {
   }
 }
 
-std::shared_ptr<Function> Square() {
+std::shared_ptr<Function> Squared() {
   return FunctionOf([](auto u) { return u * u; });
 }
 
@@ -78,7 +85,7 @@ TEST(IntegralConstraint, TheStringOfLeastEnergyAboveAnAreaIsAParabola) {
   phase.SetDuration(1);
   phase.Fix(x, 0, At::kStart);
   phase.Fix(x, 0, At::kEnd);
-  phase.AddIntegralCost("energy", Square(), {phase.Rate(x)});
+  phase.AddIntegralCost("energy", Squared(), {phase.Rate(x)});
   phase.ConstrainIntegral("area", FunctionOf([](auto height) { return height; }), {x}, {1, 1});
   const OptimalControlResult result = SolveOptimalControl(problem);
   ASSERT_TRUE(result.succeeded()) << result.message;
@@ -97,7 +104,7 @@ TEST(IntegralConstraint, HoldsInAPhaseOfFreeDuration) {
   phase.SetDuration({0.5, 5});
   phase.Fix(x, 0, At::kStart);
   phase.Fix(x, 0, At::kEnd);
-  phase.AddIntegralCost("energy", Square(), {phase.Rate(x)});
+  phase.AddIntegralCost("energy", Squared(), {phase.Rate(x)});
   phase.ConstrainIntegral("area", FunctionOf([](auto height) { return height; }), {x},
                           {1, kInfinity});
   problem.AddCost({phase.duration(), At::kEnd});
@@ -117,7 +124,7 @@ double BeamEnergy(int intervals) {
     phase.Fix(w, 0, end);
     phase.Fix(phase.Rate(w), 0, end);
   }
-  phase.AddIntegralCost("energy", Square(), {phase.Rate(w, 2)});
+  phase.AddIntegralCost("energy", Squared(), {phase.Rate(w, 2)});
   problem.Link("deflection", FunctionOf([](auto deflection) { return deflection; }),
                {AtShare(w, 0.5)}, {{1, 1}});
   OptimalControlOptions options;

@@ -18,7 +18,8 @@ using Eigen::VectorXd;
 
 /// A problem with every feature: two phases of different order, free and fixed durations, time, a
 /// parameter, bounds inside, links, costs of every kind.
-std::unique_ptr<OptimalControlProblem> Medley() {
+/// `with_rates`: with what needs controls that do not jump at knots.
+std::unique_ptr<OptimalControlProblem> Medley(bool with_rates = true) {
   auto problem = std::make_unique<OptimalControlProblem>("medley");
   const Variable gain = problem->AddParameter("gain", {0, 5}, 2, 1);
   Phase& run = problem->AddPhase("run", 1);
@@ -42,28 +43,41 @@ std::unique_ptr<OptimalControlProblem> Medley() {
                           (*f)[0] = z[0] * z[1] + sin(z[2]);
                         }),
                         {u, x, run.time()}, {-1, 2}, 3);
+  if (with_rates) {
+    run.AddRateCost(u, 0.2);
+    run.BoundRate(u, {-4, 5});
+  }
   Phase& fly = problem->AddPhase("fly", 2);
   const Variable q = fly.AddCoordinate("q", {-4, 4});
   const Variable r = fly.AddCoordinate("r");
+  const Variable lag = fly.AddCoordinateOfOrder(1, "lag", {}, 0.7);
   fly.SetScale(fly.Rate(q), 5);
   const Variable f = fly.AddControl("f");
   fly.SetDuration({0.2, 1});
-  fly.SetDynamics(Differentiated<4, 2>([](const auto& z, auto* a) {
+  fly.SetDynamics(Differentiated<5, 3>([](const auto& z, auto* a) {
                     (*a)[0] = z[2] * cos(z[0]) - z[1] * z[3];
                     (*a)[1] = z[1] / (1 + z[2] * z[2]);
+                    (*a)[2] = z[2] * z[0] - z[4] * z[4];
                   }),
-                  {q, fly.Rate(q), f, fly.time()});
+                  {q, fly.Rate(q), f, fly.time(), lag});
   fly.AddIntegralCost("shake", Differentiated<2, 1>([](const auto& z, auto* c) {
                         (*c)[0] = z[0] * z[0] + z[1] * z[1];
                       }),
                       {fly.Rate(q, 2), fly.Rate(r)});
+  if (with_rates) {
+    fly.AddRateCost(f, 0.4);
+    problem->Continue({u, At::kEnd}, {f, At::kStart});
+  } else {
+    fly.Bound(f, {-2, 0.4}, At::kStart);  // a row where it is no variable
+    fly.Bound(fly.Rate(q, 2), {-9, 9}, At::kEnd);
+  }
   problem->Continue({x, At::kEnd}, {q, At::kStart});
   // At instants between the knots, of every kind of quantity.
   problem->Link("through", Differentiated<5, 1>([](const auto& z, auto* g) {
                   (*g)[0] = z[0] * z[1] + z[2] * z[2] * z[3] - z[4];
                 }),
                 {AtShare(q, 0.37), AtShare(fly.Rate(q), 0.71), AtShare(fly.Rate(r, 2), 0.9),
-                 AtShare(f, 0.15), AtShare(fly.time(), 0.6)},
+                 AtShare(fly.Rate(lag), 0.15), AtShare(fly.time(), 0.6)},
                 {{-1, 3}});
   problem->AddCost("data", Differentiated<2, 1>([](const auto& z, auto* c) {
                      (*c)[0] = (z[0] - 0.4) * (z[0] - 0.4) * z[1];
@@ -100,10 +114,11 @@ VectorXd RandomPoint(std::mt19937* random, const Transcription& program) {
 class EveryScheme : public ::testing::TestWithParam<TranscriptionScheme> {};
 
 TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
-  const auto problem = Medley();
+  const auto problem = Medley(GetParam().IsClosed());
   Transcription program(*problem, GetParam(), {{0, 0.3, 1}, {0, 0.5, 0.6, 1}});
   std::mt19937 random(1);
   const int n = program.num_variables();
+  const double step = 0.01;  // durations are as short as 0.2, and rates have their inverses
   for (int trial = 0; trial < 5; ++trial) {
     const VectorXd x = RandomPoint(&random, program);
     const VectorXd multipliers = VectorXd::Random(program.num_constraints());
@@ -118,7 +133,8 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
     H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
 
     const MatrixXd objective_differences = RichardsonJacobian(
-        [&](const VectorXd& d) { return VectorXd::Constant(1, program.Objective(x + d)); }, n);
+        [&](const VectorXd& d) { return VectorXd::Constant(1, program.Objective(x + d)); }, n,
+        step);
     EXPECT_LT(RelativeError(gradient.transpose(), objective_differences), 1e-8);
     const MatrixXd constraint_differences = RichardsonJacobian(
         [&](const VectorXd& d) {
@@ -126,7 +142,7 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
           program.Constraints(x + d, &g);
           return g;
         },
-        n);
+        n, step);
     EXPECT_LT(RelativeError(J, constraint_differences), 1e-8);
     const MatrixXd gradient_differences = RichardsonJacobian(
         [&](const VectorXd& d) {
@@ -137,7 +153,7 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
               Dense(program.jacobian_pattern(), values, program.num_constraints(), n);
           return VectorXd(0.7 * g + at.transpose() * multipliers);
         },
-        n);
+        n, step);
     EXPECT_LT(RelativeError(H, gradient_differences), 1e-8);
   }
 }
@@ -175,7 +191,8 @@ TEST_P(EveryScheme, APolynomialMotionIsTranscribedExactly) {
 
 INSTANTIATE_TEST_SUITE_P(TranscriptionTest, EveryScheme,
                          ::testing::Values(Trapezoidal(), HermiteSimpson(),
-                                           CompressedHermiteSimpson(), GaussLobatto(4)),
+                                           CompressedHermiteSimpson(), GaussLobatto(4),
+                                           LegendreGauss(2), FlippedRadau(3)),
                          [](const auto& info) { return info.param.name; });
 
 TEST(TranscriptionTest, SchemesHaveThePublishedCoefficients) {
@@ -200,14 +217,43 @@ TEST(TranscriptionTest, SchemesHaveThePublishedCoefficients) {
   EXPECT_THROW(GaussLobatto(1), std::invalid_argument);
 }
 
+void ExpectNodes(const TranscriptionScheme& scheme, const std::vector<double>& nodes,
+                 const std::vector<double>& weights) {
+  ASSERT_EQ(scheme.nodes.size(), nodes.size()) << scheme.name;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_NEAR(scheme.nodes[i], nodes[i], 1e-14) << scheme.name << ", node " << i;
+    EXPECT_NEAR(scheme.weights()[i], weights[i], 1e-14) << scheme.name << ", node " << i;
+  }
+}
+
+TEST(TranscriptionTest, NodesOfGaussAndRadauHaveTheirPublishedValues) {
+  // Abramowitz & Stegun 1964, table 25.4, moved from [-1, 1] to [0, 1].
+  const double two = 0.577350269189626;
+  ExpectNodes(LegendreGauss(2), {0, (1 - two) / 2, (1 + two) / 2, 1}, {0, 0.5, 0.5, 0});
+  const double four = 0.861136311594053, inner = 0.339981043584856;
+  const double outer_weight = 0.347854845137454 / 2, inner_weight = 0.652145154862546 / 2;
+  ExpectNodes(LegendreGauss(4),
+              {0, (1 - four) / 2, (1 - inner) / 2, (1 + inner) / 2, (1 + four) / 2, 1},
+              {0, outer_weight, inner_weight, inner_weight, outer_weight, 0});
+  // Hairer & Wanner 1996, table IV.5.5: Radau IIA.
+  ExpectNodes(FlippedRadau(2), {0, 1.0 / 3, 1}, {0, 0.75, 0.25});
+  const double root = std::sqrt(6.0);
+  ExpectNodes(FlippedRadau(3), {0, (4 - root) / 10, (4 + root) / 10, 1},
+              {0, (16 - root) / 36, (16 + root) / 36, 1.0 / 9});
+  EXPECT_NEAR(FlippedRadau(3).integral[1](1, 2), (296 - 169 * root) / 1800, 1e-14);
+  EXPECT_THROW(LegendreGauss(0), std::invalid_argument);
+  EXPECT_THROW(FlippedRadau(0), std::invalid_argument);
+  EXPECT_THROW(SchemeOfNodes("none", {0, 1}, true, false, false), std::invalid_argument);
+}
+
 TEST(TranscriptionTest, CompressedHasNoStatesInside) {
   const auto problem = Medley();
   const std::vector<Mesh> meshes = {UniformMesh(4), UniformMesh(3)};
   const Transcription separated(*problem, HermiteSimpson(), meshes);
   const Transcription compressed(*problem, CompressedHermiteSimpson(), meshes);
-  // 2 states in 4 interval middles and 4 in 3. Where they are bounded, a row takes their place.
-  EXPECT_EQ(separated.num_variables() - compressed.num_variables(), 2 * 4 + 4 * 3);
-  EXPECT_EQ(separated.num_constraints() - compressed.num_constraints(), 1 * 4 + 3 * 3);
+  // 2 states in 4 interval middles and 5 in 3. Where they are bounded, a row takes their place.
+  EXPECT_EQ(separated.num_variables() - compressed.num_variables(), 2 * 4 + 5 * 3);
+  EXPECT_EQ(separated.num_constraints() - compressed.num_constraints(), 1 * 4 + 4 * 3);
 }
 
 TEST(TranscriptionTest, NamesHoldPhaseKnotAndQuantity) {
