@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 
+#include "actions/spatial/limb_bend.h"
 #include "collocation/problem/function.h"
 #include "collocation/robot/point_functions.h"
 #include "dynamics/tree/base_joints.h"
@@ -56,43 +56,16 @@ class Progress {
   std::vector<double> at_;
 };
 
-/// The knee or elbow of a limb: the joint between its two longest parts.
-struct Bend {
-  std::string name;
-  dynamics::ContactPoint before, after;  ///< the joints next to it, on OnJoints' links
-  double length = 0;                     ///< m, from one to the other if stretched
-};
-
-/// None if the limb has no joint between two parts.
-std::optional<Bend> BendOf(const models::RobotModel& robot, const models::GaitLimb& limb) {
-  std::optional<Bend> best;
-  double shorter = 0;
-  for (std::size_t i = 1; i + 1 < limb.joints.size(); ++i) {
-    const auto joint = [&](std::size_t k) -> const models::Joint& {
-      return robot.joints[limb.joints[k]];
-    };
-    // In a chain each joint stands on the link of the one before.
-    if (joint(i).parent != limb.joints[i - 1] + 1 || joint(i + 1).parent != limb.joints[i] + 1) {
-      continue;
-    }
-    const double upper = joint(i).X_PJ.translation().norm();
-    const double lower = joint(i + 1).X_PJ.translation().norm();
-    if (std::min(upper, lower) <= shorter) continue;
-    shorter = std::min(upper, lower);
-    const auto origin = [&](std::size_t k) {
-      return dynamics::ContactPoint{limb.joints[k] + 1 + kNumBaseJoints, Eigen::Vector3d::Zero()};
-    };
-    best = Bend{joint(i).name, origin(i - 1), origin(i + 1), upper + lower};
-  }
-  return best;
-}
-
 class Builder {
  public:
   Builder(const models::RobotModel& robot, const models::Gait& limbs,
           const ContactSchedule& schedule, const VectorXd& from, const VectorXd& to,
           const SpatialSettings& settings)
-      : schedule_(schedule), settings_(settings), progress_(schedule) {
+      : robot_(robot),
+        limbs_(limbs),
+        schedule_(schedule),
+        settings_(settings),
+        progress_(schedule) {
     for (const models::GaitLimb& limb : limbs.limbs) {
       if (const auto bend = BendOf(robot, limb)) bends_.push_back(*bend);
     }
@@ -112,6 +85,10 @@ class Builder {
       KeepBent(stated_.phases[k]);
       AddCosts(static_cast<int>(k));
       GuessLine(static_cast<int>(k));
+    }
+    if (settings_.beam) {
+      KeepOffBeam(*settings_.beam, settings_.beam_clearance, robot_, limbs_, schedule_,
+                  stated_.model, stated_.phases);
     }
     Rest(stated_.phases.front(), from_, At::kStart);
     Rest(stated_.phases.back(), to_, At::kEnd);
@@ -140,7 +117,7 @@ class Builder {
 
   /// Away from the rests, which are as they are.
   void KeepBent(const RobotPhase& robot) {
-    for (const Bend& bend : bends_) {
+    for (const LimbBend& bend : bends_) {
       const double most = settings_.reach * bend.length;
       robot.phase->ConstrainKnots("reach of " + bend.name,
                                   SquaredDistance(stated_.model, bend.before, bend.after),
@@ -184,10 +161,12 @@ class Builder {
     }
   }
 
+  const models::RobotModel& robot_;
+  const models::Gait& limbs_;
   const ContactSchedule& schedule_;
   const SpatialSettings& settings_;
   Progress progress_;
-  std::vector<Bend> bends_;
+  std::vector<LimbBend> bends_;
   SpatialProblem stated_;
   VectorXd from_, to_;
 };

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "dynamics/tree/contact_point.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// The knee or elbow of a limb: the joint between its two longest parts.
+struct LimbBend {
+  std::string name;
+  std::size_t joint = 0;                 ///< index into GaitLimb::joints
+  dynamics::ContactPoint before, after;  ///< the joints next to it, on OnJoints' links
+  double length = 0;                     ///< m, from one to the other if stretched
+};
+
+/// None if the limb has no joint between two parts.
+std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::GaitLimb& limb);
+
+}  // namespace possibility::actions
