@@ -239,7 +239,9 @@ std::optional<GroundedStance> FixedManoeuvre::AtAnObstacle(End end, const Ground
       const PlanarPose way = forwards ? shape_.displacement : shape_.displacement.Inverse();
       const Vector2d ahead = Eigen::Rotation2Dd(there.pose.yaw) * way.position();
       if (distance > kFarthest || way_there >= least || !LeadsTo(ahead, towards)) continue;
-      if (!Displaced(there, forwards)) continue;
+      const Vector2d obstacle = turn * crossable.bounds.center().head<2>();
+      const bool is_on_this_side = (stance.pose.position() - obstacle).dot(ahead) < 0;
+      if (!is_on_this_side || !Displaced(there, forwards)) continue;
       closest = there;
       least = way_there;
     }
