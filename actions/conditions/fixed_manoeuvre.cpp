@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/motion/phase_sequence.h"
+#include "models/shapes/shape.h"
 
 namespace possibility::actions {
 namespace {
@@ -18,6 +20,8 @@ constexpr double kSamePlace = 1e-6;  // m and rad
 constexpr double kSameRise = 1e-9;   // m
 constexpr double kSpacing = 0.01;    // m, between stances tried on the way to an edge
 constexpr double kFarthest = 3;      // m, of that way
+constexpr double kTurnAsWay = 1;     // m: a radian of turning counts like this way
+constexpr int kSides = 4;            // of a box
 
 std::int64_t KeyOf(double rise) { return std::llround(rise / kSameRise); }
 
@@ -26,7 +30,7 @@ std::vector<double> SquareHeadings(const models::Environment& environment) {
   std::vector<double> headings;
   for (const models::Obstacle& obstacle : environment.obstacles) {
     if (!obstacle.is_ground) continue;
-    for (int side = 0; side < 4; ++side) {
+    for (int side = 0; side < kSides; ++side) {
       const double heading = Heading(obstacle.X_WO.linear()) + side * std::numbers::pi / 2;
       const bool is_known = std::any_of(headings.begin(), headings.end(), [&](double known) {
         return std::abs(WrapAngle(known - heading)) < kSamePlace;
@@ -41,6 +45,16 @@ bool Rises(const FixedManoeuvreShape& shape, double height) {
   return height >= shape.lowest - kSamePlace && height <= shape.highest + kSamePlace;
 }
 
+/// Turns the world by -`heading`, so that the heading is along x.
+Eigen::Isometry3d TurnedBack(double heading) {
+  return Eigen::Isometry3d(Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()));
+}
+
+/// Whether a way leads roughly towards a target.
+bool LeadsTo(const Vector2d& way, const Vector2d& towards) {
+  return way.normalized().dot(towards) >= towards.norm() * std::numbers::sqrt2 / 2;
+}
+
 }  // namespace
 
 FixedManoeuvre::FixedManoeuvre(const PlanningContext& context, FixedManoeuvreShape shape,
@@ -48,7 +62,8 @@ FixedManoeuvre::FixedManoeuvre(const PlanningContext& context, FixedManoeuvreSha
     : Manoeuvre(context, shape.name, shape.from, shape.to),
       shape_(std::move(shape)),
       motion_(std::move(motion)),
-      headings_(SquareHeadings(*context.world.environment)) {
+      headings_(SquareHeadings(*context.world.environment)),
+      crossables_(FindCrossables()) {
   if (shape_.is_reversible && shape_.from != shape_.to) {
     throw std::invalid_argument("manoeuvre '" + shape_.name +
                                 "' is reversible but ends in another gait than it starts from");
@@ -81,8 +96,44 @@ std::optional<FixedManoeuvre::Execution> FixedManoeuvre::AsExecution(
 bool FixedManoeuvre::CN(const graph::Edge& edge) const {
   const std::optional<Execution> execution = AsExecution(edge);
   if (!execution || !launch_gait().CS(edge.from) || !landing_gait().CS(edge.to)) return false;
+  if (!Crosses(execution->launch)) return false;
   const std::lock_guard lock(mutex_);
   return !refuted_.contains(KeyOf(execution->rise));
+}
+
+std::vector<FixedManoeuvre::Crossable> FixedManoeuvre::FindCrossables() const {
+  std::vector<Crossable> crossables;
+  if (!shape_.over) return crossables;
+  for (const models::Obstacle& obstacle : world().environment->obstacles) {
+    if (obstacle.is_ground) continue;
+    for (int side = 0; side < kSides; ++side) {
+      const double heading = Heading(obstacle.X_WO.linear()) + side * std::numbers::pi / 2;
+      const Eigen::AlignedBox3d bounds = obstacle.shape.Bounds(TurnedBack(heading) * obstacle.X_WO);
+      const bool is_thin = bounds.sizes().x() <= shape_.over->end - shape_.over->begin + kSamePlace;
+      const bool is_low = std::any_of(
+          world().ground->levels().begin(), world().ground->levels().end(), [&](double level) {
+            return bounds.max().z() > level + kSamePlace &&
+                   bounds.max().z() <= level + shape_.over->height + kSamePlace;
+          });
+      if (is_thin && is_low) crossables.push_back({heading, bounds});
+    }
+  }
+  return crossables;
+}
+
+bool FixedManoeuvre::Crosses(const GroundedStance& launch) const {
+  if (!shape_.over) return true;
+  const Eigen::Isometry3d X_SW = launch.pose.At(launch.z).inverse();
+  return std::any_of(crossables_.begin(), crossables_.end(), [&](const Crossable& crossable) {
+    const Eigen::Isometry3d X_SC = X_SW * TurnedBack(crossable.heading).inverse();
+    const Eigen::AlignedBox3d bounds =
+        models::Shape::Box(crossable.bounds.sizes())
+            .Bounds(X_SC * Eigen::Translation3d(crossable.bounds.center()));
+    return bounds.min().x() >= shape_.over->begin - kSamePlace &&
+           bounds.max().x() <= shape_.over->end + kSamePlace && bounds.min().y() <= 0 &&
+           bounds.max().y() >= 0 && bounds.max().z() > kSamePlace &&
+           bounds.max().z() <= shape_.over->height + kSamePlace;
+  });
 }
 
 bool FixedManoeuvre::Holds(const GroundedStance& stance) const {
@@ -108,7 +159,8 @@ std::optional<GroundedStance> FixedManoeuvre::Displaced(const GroundedStance& st
   for (const double level : world().ground->levels()) {
     if (!Rises(shape_, forwards ? level - stance.z : stance.z - level)) continue;
     other.z = level;
-    if (Holds(other) && Holds(stance)) return other;
+    const GroundedStance& launch = forwards ? stance : other;
+    if (Crosses(launch) && Holds(other) && Holds(stance)) return other;
   }
   return std::nullopt;
 }
@@ -139,35 +191,72 @@ graph::Point FixedManoeuvre::ReverseExtend(const graph::Point& v0, const graph::
   return Extended(End::kLanding, v0, v1);
 }
 
-std::optional<graph::Point> FixedManoeuvre::StanceAtAnEdge(End end, const graph::Point& v,
-                                                           const graph::Point& v1) const {
+std::optional<graph::Point> FixedManoeuvre::StanceNear(End end, const graph::Point& v,
+                                                       const graph::Point& v1) const {
   const std::optional<GroundedStance> stance = StanceAt(end, v);
   const Vector2d towards = (v1 - v).head<2>();
   if (!stance) return std::nullopt;
   if (OtherEnd(*stance, end, towards)) return v;
+  const std::optional<GroundedStance> near =
+      shape_.over ? AtAnObstacle(end, *stance, towards) : AtAnEdge(end, *stance, towards);
+  if (!near) return std::nullopt;
+  return PointOf(*near);
+}
+
+std::optional<GroundedStance> FixedManoeuvre::AtAnEdge(End end, const GroundedStance& stance,
+                                                       const Vector2d& towards) const {
   for (const double heading : headings_) {
     for (const bool forwards : Directions(end)) {
       const PlanarPose way = forwards ? shape_.displacement : shape_.displacement.Inverse();
       const Vector2d ahead = (Eigen::Rotation2Dd(heading) * way.position()).normalized();
-      if (ahead.dot(towards) < towards.norm() * std::numbers::sqrt2 / 2) continue;
+      if (!LeadsTo(ahead, towards)) continue;
       for (double s = 0; s < kFarthest; s += kSpacing) {
-        GroundedStance there = *stance;
-        there.pose = {stance->pose.x + s * ahead.x(), stance->pose.y + s * ahead.y(), heading};
-        if (Displaced(there, forwards)) return PointOf(there);
+        GroundedStance there = stance;
+        there.pose = {stance.pose.x + s * ahead.x(), stance.pose.y + s * ahead.y(), heading};
+        if (Displaced(there, forwards)) return there;
       }
     }
   }
   return std::nullopt;
 }
 
+std::optional<GroundedStance> FixedManoeuvre::AtAnObstacle(End end, const GroundedStance& stance,
+                                                           const Vector2d& towards) const {
+  std::optional<GroundedStance> closest;
+  double least = std::numeric_limits<double>::infinity();
+  const double middle = (shape_.over->begin + shape_.over->end) / 2;
+  for (const Crossable& crossable : crossables_) {
+    const Eigen::Rotation2Dd turn(crossable.heading);
+    const double beside = (turn.inverse() * stance.pose.position()).y();
+    const Vector2d place = turn * Vector2d(crossable.bounds.center().x() - middle, beside);
+    const PlanarPose launch(place.x(), place.y(), crossable.heading);
+    for (const bool forwards : Directions(end)) {
+      GroundedStance there = stance;
+      there.pose = forwards ? launch : launch * shape_.displacement;
+      const double distance = (there.pose.position() - stance.pose.position()).norm();
+      const double turn_there = std::abs(WrapAngle(there.pose.yaw - stance.pose.yaw));
+      const double way_there = distance + kTurnAsWay * turn_there;
+      const PlanarPose way = forwards ? shape_.displacement : shape_.displacement.Inverse();
+      const Vector2d ahead = Eigen::Rotation2Dd(there.pose.yaw) * way.position();
+      if (distance > kFarthest || way_there >= least || !LeadsTo(ahead, towards)) continue;
+      const Vector2d obstacle = turn * crossable.bounds.center().head<2>();
+      const bool is_on_this_side = (stance.pose.position() - obstacle).dot(ahead) < 0;
+      if (!is_on_this_side || !Displaced(there, forwards)) continue;
+      closest = there;
+      least = way_there;
+    }
+  }
+  return closest;
+}
+
 std::optional<graph::Point> FixedManoeuvre::FindLaunchPoint(const graph::Point& v,
                                                             const graph::Point& v1) const {
-  return StanceAtAnEdge(End::kLaunch, v, v1);
+  return StanceNear(End::kLaunch, v, v1);
 }
 
 std::optional<graph::Point> FixedManoeuvre::FindLandingPoint(const graph::Point& v,
                                                              const graph::Point& v1) const {
-  return StanceAtAnEdge(End::kLanding, v, v1);
+  return StanceNear(End::kLanding, v, v1);
 }
 
 FixedManoeuvre::Outcome FixedManoeuvre::OutcomeOf(double rise,
@@ -202,7 +291,9 @@ std::vector<Phase> FixedManoeuvre::Motion(const graph::Edge& edge,
 
 ManoeuvreBounds FixedManoeuvre::Bounds() const {
   ManoeuvreBounds bounds;
-  bounds.landings = [shape = shape_](double rise) -> std::optional<LandingRange> {
+  bounds.landings = [shape = shape_, leads_nowhere = shape_.over && crossables_.empty()](
+                        double rise) -> std::optional<LandingRange> {
+    if (leads_nowhere) return std::nullopt;
     LandingRange range;
     const auto extend = [&range](const PlanarPose& landing) {
       range.offset.extend(landing.position());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -11,6 +11,7 @@ namespace possibility::actions {
 /// The knee or elbow of a limb: the joint between its two longest parts.
 struct LimbBend {
   std::string name;
+  std::size_t joint = 0;  ///< index into GaitLimb::joints
   int before = -1;    ///< link that begins at the joint before it; its origin is that joint
   int after = -1;     ///< likewise at the joint after it
   double length = 0;  ///< m, from one to the other if stretched

@@ -11,6 +11,7 @@
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/conditions/searched_manoeuvre.h"
+#include "actions/crossing/step_over.h"
 #include "actions/flood/flood_oracle.h"
 #include "actions/jump/long_jump.h"
 #include "actions/motion/motion_schedule.h"
@@ -448,6 +449,18 @@ class TraversalPlanner {
   mutable std::mutex progress_mutex_;
 };
 
+/// The request with the manoeuvres that need nothing of the robot's file, unless their name is
+/// taken.
+PlanRequest WithStepOver(const models::RobotModel& robot, PlanRequest request) {
+  std::vector<std::string> taken = FurtherNames(request.gaits, request.manoeuvres);
+  for (const models::Gait& gait : robot.gaits) taken.push_back(gait.name);
+  for (const models::Jump& jump : robot.jumps) taken.push_back(jump.name);
+  if (std::find(taken.begin(), taken.end(), kStepOver) == taken.end()) {
+    request.manoeuvres.push_back(StepOverFactory());
+  }
+  return request;
+}
+
 }  // namespace
 
 std::string ToString(PlanStatus status) {
@@ -467,11 +480,12 @@ std::string ToString(PlanStatus status) {
 PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario& scenario,
                          const PlanRequest& request) {
   RequireNewNames(robot, scenario, request.gaits, request.manoeuvres);
+  const PlanRequest full = WithStepOver(robot, request);
   models::Scenario asked = scenario;
-  if (!request.actions.empty()) asked.actions = request.actions;
-  models::CheckScenarioAgainstRobot(asked, robot, FurtherNames(request.gaits, request.manoeuvres));
+  if (!full.actions.empty()) asked.actions = full.actions;
+  models::CheckScenarioAgainstRobot(asked, robot, FurtherNames(full.gaits, full.manoeuvres));
   try {
-    return TraversalPlanner(robot, asked, request).Plan();
+    return TraversalPlanner(robot, asked, full).Plan();
   } catch (const Cancelled&) {
     PlanResult result;
     FillHeader(robot, scenario, request, &result.plan);

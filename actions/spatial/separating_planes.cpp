@@ -1,5 +1,6 @@
 #include "actions/spatial/separating_planes.h"
 
+#include "actions/spatial/core_corners.h"
 #include "dynamics/tree/base_joints.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/shapes/signed_distance.h"
@@ -11,35 +12,11 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using models::PosedShape;
 using models::PreparedShape;
-using models::ShapeType;
 
 /// A shape of a link: corners (of the core, link frame) swept with a ball.
 struct Body {
   Body(const PosedShape& posed, int on_link) : shape(posed.shape), X_LS(posed.X_PS), link(on_link) {
-    for (const Vector3d& corner : CornersOf(posed.shape)) corners.push_back(posed.X_PS * corner);
-  }
-
-  static std::vector<Vector3d> CornersOf(const models::Shape& shape) {
-    switch (shape.type) {
-      case ShapeType::kSphere:
-        return {Vector3d::Zero()};
-      case ShapeType::kCapsule:
-        return {Vector3d(0, 0, shape.length / 2), Vector3d(0, 0, -shape.length / 2)};
-      case ShapeType::kConvexMesh:
-        return shape.vertices;
-      case ShapeType::kBox:
-      case ShapeType::kCylinder:
-        break;
-    }
-    // A cylinder's bounding box contains it.
-    const Eigen::AlignedBox3d box = shape.Bounds(Isometry3d::Identity());
-    constexpr int kCorners = 8;
-    std::vector<Vector3d> corners;
-    corners.reserve(kCorners);
-    for (int i = 0; i < kCorners; ++i) {
-      corners.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-    }
-    return corners;
+    for (const Vector3d& corner : CoreCorners(posed.shape)) corners.push_back(posed.X_PS * corner);
   }
 
   PreparedShape shape;

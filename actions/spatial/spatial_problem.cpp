@@ -61,7 +61,11 @@ class Builder {
   Builder(const models::RobotModel& robot, const models::Gait& limbs,
           const ContactSchedule& schedule, const VectorXd& from, const VectorXd& to,
           const SpatialSettings& settings)
-      : schedule_(schedule), settings_(settings), progress_(schedule) {
+      : robot_(robot),
+        limbs_(limbs),
+        schedule_(schedule),
+        settings_(settings),
+        progress_(schedule) {
     for (const models::GaitLimb& limb : limbs.limbs) {
       if (const auto bend = BendOf(robot, limb)) bends_.push_back(*bend);
     }
@@ -81,6 +85,10 @@ class Builder {
       KeepBent(stated_.phases[k]);
       AddCosts(static_cast<int>(k));
       GuessLine(static_cast<int>(k));
+    }
+    if (settings_.beam) {
+      KeepOffBeam(*settings_.beam, settings_.beam_clearance, robot_, limbs_, schedule_,
+                  stated_.model, stated_.phases);
     }
     Rest(stated_.phases.front(), from_, At::kStart);
     Rest(stated_.phases.back(), to_, At::kEnd);
@@ -157,6 +165,8 @@ class Builder {
     }
   }
 
+  const models::RobotModel& robot_;
+  const models::Gait& limbs_;
   const ContactSchedule& schedule_;
   const SpatialSettings& settings_;
   Progress progress_;

@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "actions/spatial/beam_clearance.h"
 #include "collocation/problem/optimal_control_problem.h"
 #include "collocation/robot/contact_sequence.h"
 #include "collocation/robot/robot_phase.h"
@@ -23,6 +25,8 @@ struct SpatialSettings {
   /// Of a stretched limb: longest distance of the joints next to its knee or elbow. A straight limb
   /// cannot follow.
   double reach = 0.985;
+  std::optional<Beam> beam;       ///< to step over, in the world of the schedule
+  double beam_clearance = 0.015;  ///< m, of the limbs from it
   // Weights of the integrals of squares, summed over joints, coordinates or force components.
   double torque_weight = 1;           ///< of (torque / 50 N m)^2
   double acceleration_weight = 0.01;  ///< of (acceleration / 10)^2; above 0

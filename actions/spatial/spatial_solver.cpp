@@ -60,14 +60,25 @@ class Rounds {
       solution.iterations += solution.result.iterations;
       cancellation.ThrowIfCancelled();
       if (!solution.result.succeeded()) throw MotionError(solution.result.message);
-      solution.phases = Build(stated, solution.result, cancellation);
+      solution.phases = Build(stated.model, solution.result.trajectory, cancellation);
       const std::vector<Separation> missing = MissingPlanes(solution.phases);
-      if (missing.empty()) return solution;
+      if (missing.empty()) {
+        solution.solution = Store(*stated.problem, solution.result);
+        return solution;
+      }
       if (solution.rounds == settings_.max_rounds) throw MotionError(TooClose());
       auto& separations = problem.sequence.separations;
       separations.insert(separations.end(), missing.begin(), missing.end());
       solution.separations = static_cast<int>(separations.size());
     }
+  }
+
+  std::vector<Phase> Realise(const collocation::StoredSolution& solution,
+                             const CancellationToken& cancellation) const {
+    const SpatialProblem stated =
+        StateSpatialProblem(robot_, limbs_, schedule_, from_, to_, settings_.problem);
+    CheckSameQuantities(*stated.problem, solution);
+    return Build(stated.model, solution.trajectory, cancellation);
   }
 
  private:
@@ -82,11 +93,11 @@ class Rounds {
     return options;
   }
 
-  std::vector<Phase> Build(const SpatialProblem& stated, const OptimalControlResult& result,
+  std::vector<Phase> Build(const collocation::RobotSystem& model,
+                           const collocation::Trajectory& trajectory,
                            const CancellationToken& cancellation) const {
     return MotionBuilder(robot_, settings_.motion)
-        .Build(SpatialMotion(robot_, limbs_, schedule_, stated.model, result.trajectory), from_,
-               cancellation);
+        .Build(SpatialMotion(robot_, limbs_, schedule_, model, trajectory), from_, cancellation);
   }
 
   /// Planes for the pairs that come too close, each at the knot of the interval where it is worst.
@@ -159,6 +170,15 @@ SpatialSolution SolveSpatialMotion(
     const SpatialSolverSettings& settings, const CancellationToken& cancellation,
     const std::function<void(const collocation::SolverIteration&)>& log) {
   return Rounds(robot, limbs, schedule, from, to, settings).Solve(cancellation, log);
+}
+
+std::vector<Phase> RealiseSpatialMotion(const models::RobotModel& robot, const models::Gait& limbs,
+                                        const models::ContactSchedule& schedule,
+                                        const VectorXd& from, const VectorXd& to,
+                                        const SpatialSolverSettings& settings,
+                                        const collocation::StoredSolution& solution,
+                                        const CancellationToken& cancellation) {
+  return Rounds(robot, limbs, schedule, from, to, settings).Realise(solution, cancellation);
 }
 
 }  // namespace possibility::actions

@@ -9,6 +9,7 @@
 #include "actions/plan/plan.h"
 #include "actions/spatial/spatial_problem.h"
 #include "collocation/study/optimal_control.h"
+#include "collocation/study/stored_solution.h"
 #include "common/cancellation_token.h"
 #include "models/robot/contact_schedule.h"
 
@@ -32,6 +33,7 @@ struct SpatialSolverSettings {
 struct SpatialSolution {
   std::vector<Phase> phases;
   collocation::OptimalControlResult result;  ///< of the last round
+  collocation::StoredSolution solution;      ///< the same, to keep
   int rounds = 0;
   int iterations = 0;   ///< of all rounds
   int separations = 0;  ///< rows of planes between links, per knot
@@ -48,5 +50,15 @@ SpatialSolution SolveSpatialMotion(
     const models::ContactSchedule& schedule, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
     const SpatialSolverSettings& settings, const CancellationToken& cancellation = {},
     const std::function<void(const collocation::SolverIteration&)>& log = {});
+
+/// The motion of a solution that was kept. Arguments as of SolveSpatialMotion.
+/// @throws MotionError; Cancelled; std::invalid_argument if the solution is of another problem, or
+/// as StateSpatialProblem.
+std::vector<Phase> RealiseSpatialMotion(const models::RobotModel& robot, const models::Gait& limbs,
+                                        const models::ContactSchedule& schedule,
+                                        const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                        const SpatialSolverSettings& settings,
+                                        const collocation::StoredSolution& solution,
+                                        const CancellationToken& cancellation = {});
 
 }  // namespace possibility::actions

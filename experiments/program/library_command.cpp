@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <string>
 
+#include "actions/conditions/locomotion_model.h"
+#include "actions/crossing/step_over_motion.h"
 #include "actions/gait/dynamic_gait.h"
 #include "actions/gait/pace_library.h"
 #include "actions/jump/jump_sweep.h"
+#include "actions/motion/motion_builder.h"
 #include "actions/transition/transition_motion.h"
 #include "experiments/report/jump_reach_plot.h"
 #include "experiments/support/count_line.h"
@@ -109,6 +113,21 @@ void SavePaces(const models::RobotModel& robot, const std::string& folder) {
   }
 }
 
+/// Of the robot's first gait on two feet, if it has one and can step over anything.
+void SaveStepOver(const models::RobotModel& robot, const std::string& folder) {
+  const auto gait = std::find_if(robot.gaits.begin(), robot.gaits.end(),
+                                 [](const models::Gait& g) { return g.limbs.size() == 2; });
+  if (gait == robot.gaits.end()) return;
+  const actions::LocomotionModel model =
+      actions::BuildLocomotionModel(robot, {gait->name}, {}, folder);
+  const actions::StepOverProblem problem(robot, *model.gaits.front());
+  try {
+    actions::StepOverMotion(problem, folder, {}).Save();
+  } catch (const actions::MotionError& error) {
+    PrintError("no step over: {}\n", error.what());
+  }
+}
+
 /// @throws InputError if the robot cannot be reduced to one of its jumps, before any is solved.
 void RequireJumps(const models::RobotModel& robot) {
   for (const models::Jump& jump : robot.jumps) {
@@ -153,6 +172,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
   }
   SaveTransitions(robot, options.out);
   SavePaces(robot, options.out);
+  SaveStepOver(robot, options.out);
   if (options.json) {
     PrintJson(jumps);
   } else {
@@ -166,7 +186,7 @@ ExitCode RunLibrary(const LibraryOptions& options) {
 Command AddLibraryCommand(CLI::App& program) {
   CommandOptions command(
       program, "library",
-      "Solves a robot's jumps and transitions, and fits its gaits, for later plans.");
+      "Solves a robot's jumps, transitions and step over, and fits its gaits, for later plans.");
   auto options = std::make_shared<LibraryOptions>();
   command.AddRequired("ROBOT", &options->robot, "Robot YAML");
   command.AddRequired("--out", &options->out, "Folder of the library");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/crossing/step_over.h"
 #include "experiments/program/report_output.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
@@ -88,7 +89,7 @@ std::vector<ExperimentRow> RowsOf(const SweepOptions& options, const ExperimentS
     const auto scenario = scenarios.Load(settings.first_seed);
     ExperimentRow row = robots.RowOf(experiment, RowName(options.parameter, value), *scenario,
                                      scenario_template->content_hash());
-    models::CheckScenarioAgainstRobot(*scenario, *row.robot);
+    models::CheckScenarioAgainstRobot(*scenario, *row.robot, {actions::kStepOver});
     row.scenario = [scenarios](std::uint64_t seed) { return scenarios.Load(seed); };
     row.parameter = options.parameter;
     row.value = value;

@@ -198,5 +198,100 @@ TEST_F(FixedManoeuvreTest, LaunchesAndLandingsThatAreFoundBelongToEdges) {
   EXPECT_GT(found, 80);
 }
 
+/// A level floor with a beam across it, turned.
+class CrossingTest : public FixedManoeuvreTest {
+ protected:
+  static constexpr double kTurn = 0.4;  // rad
+
+  CrossingTest() {
+    environment_.obstacles.clear();
+    models::Obstacle& floor = environment_.obstacles.emplace_back();
+    floor.name = "floor";
+    floor.shape = models::Shape::Box({20, 20, 1});
+    floor.X_WO.translation() << 0, 0, -0.5;
+    floor.is_ground = true;
+    shape_.lowest = shape_.highest = 0;
+    shape_.displacement.x = 1;
+    shape_.is_reversible = true;
+    shape_.over = CrossedSpace{0.45, 0.6, 0.2};
+  }
+
+  /// The beam lies across the line at `place` (m) along the turned x axis.
+  void AddBeam(double place, double thickness, double height, double width = 6) {
+    models::Obstacle& beam = environment_.obstacles.emplace_back();
+    beam.name = "beam";
+    beam.shape = models::Shape::Box({thickness, width, height});
+    beam.X_WO = PlanarPose{place * std::cos(kTurn), place * std::sin(kTurn), kTurn}.At(height / 2);
+    Prepare();
+  }
+
+  /// `x`, `y`, `turn`: in the turned frame.
+  static graph::Point Turned(double x, double y, double turn = 0) {
+    const PlanarPose pose = PlanarPose{0, 0, kTurn} * PlanarPose{x, y, turn};
+    return At(pose.x, pose.y, pose.yaw, 0);
+  }
+
+ private:
+  void Prepare() {
+    ground_ = models::GroundMap(environment_);
+    context_.gaits.clear();
+    for (const int gait : {0, 1}) {
+      context_.gaits.push_back(std::make_shared<QuasiStaticAction>(
+          *context_.model, gait, context_.world, context_.space, 0.25));
+    }
+  }
+};
+
+TEST_F(CrossingTest, AnEdgeNeedsAnObstacleWithinTheSpace) {
+  AddBeam(0.5, 0.1, 0.2);
+  const FixedManoeuvre over = Make();
+  const auto edge = [](double x, double y) { return graph::Edge{Turned(x, y), Turned(x + 1, y)}; };
+  EXPECT_TRUE(over.CN(edge(0, 0)));
+  EXPECT_TRUE(over.CN(edge(0, 2)));
+  EXPECT_TRUE(over.CN(graph::Edge{edge(0, 0).to, edge(0, 0).from})) << "backwards";
+  EXPECT_FALSE(over.CN(edge(-0.06, 0))) << "behind the space";
+  EXPECT_FALSE(over.CN(edge(0.01, 0))) << "before the space";
+  EXPECT_FALSE(over.CN(edge(-2, 0))) << "nothing to lead over";
+}
+
+TEST_F(CrossingTest, AnObstacleTooHighOrTooThickOrAsideIsNone) {
+  const graph::Edge edge = {Turned(0, 0), Turned(1, 0)};
+  AddBeam(0.525, 0.1, 0.21);
+  EXPECT_FALSE(Make().CN(edge)) << "too high";
+  environment_.obstacles.pop_back();
+  AddBeam(0.525, 0.16, 0.1);
+  EXPECT_FALSE(Make().CN(edge)) << "too thick";
+  environment_.obstacles.pop_back();
+  AddBeam(0.525, 0.1, 0.1, 0.1);
+  EXPECT_TRUE(Make().CN(edge));
+  EXPECT_FALSE(Make().CN(graph::Edge{Turned(0, 0.5), Turned(1, 0.5)})) << "beside it";
+}
+
+TEST_F(CrossingTest, WithoutAnObstacleThatFitsItLeadsNowhere) {
+  AddBeam(0.525, 0.1, 0.3);
+  EXPECT_FALSE(Make().Bounds().landings(0).has_value());
+  AddBeam(0.525, 0.1, 0.2);
+  EXPECT_TRUE(Make().Bounds().landings(0).has_value());
+}
+
+TEST_F(CrossingTest, LaunchesAndLandingsHaveTheObstacleInTheMiddle) {
+  AddBeam(0.5, 0.05, 0.2);
+  const FixedManoeuvre over = Make();
+  const graph::Point v = Turned(-1, 0.3, 1);
+  const graph::Point v1 = Turned(2, 0.5, 2);
+  const auto launch = over.FindLaunchPoint(v, v1);
+  ASSERT_TRUE(launch.has_value());
+  EXPECT_LT((*launch - Turned(-0.025, 0.3)).norm(), 1e-6) << "forwards: the smaller turn";
+  const auto backwards = over.FindLaunchPoint(Turned(-1, 0.3, 3), v1);
+  ASSERT_TRUE(backwards.has_value());
+  EXPECT_LT((*backwards - Turned(0.025, 0.3, std::numbers::pi)).norm(), 1e-6);
+  EXPECT_TRUE(over.CN(graph::Edge{*launch, over.ExtendTowards(*launch, v1)}));
+  const auto landing = over.FindLandingPoint(v, v1);
+  ASSERT_TRUE(landing.has_value());
+  EXPECT_TRUE(over.CN(graph::Edge{over.ReverseExtend(*landing, v1), *landing}));
+  EXPECT_FALSE(over.FindLaunchPoint(v, Turned(-3, 0.3)).has_value()) << "the other way";
+  EXPECT_FALSE(over.FindLaunchPoint(Turned(-3.5, 0.3), v1).has_value()) << "too far away";
+}
+
 }  // namespace
 }  // namespace possibility::actions

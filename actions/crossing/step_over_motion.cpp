@@ -1,0 +1,82 @@
+#include "actions/crossing/step_over_motion.h"
+
+#include <exception>
+
+#include "actions/motion/motion_builder.h"
+#include "actions/motion/motion_collision.h"
+#include "actions/motion/motion_folder.h"
+#include "collocation/study/stored_solution_reader.h"
+#include "collocation/study/stored_solution_writer.h"
+#include "models/world/collision.h"
+#include "models/world/environment.h"
+
+namespace possibility::actions {
+namespace {
+
+/// The obstacle at its highest and thickest.
+models::Environment BeamAlone(const Beam& beam) {
+  constexpr double kWidth = 10;  // m
+  models::Obstacle obstacle;
+  obstacle.name = "obstacle";
+  obstacle.shape = models::Shape::Box({beam.end - beam.begin, kWidth, beam.height});
+  obstacle.X_WO.translation() << (beam.begin + beam.end) / 2, 0, beam.height / 2;
+  models::Environment environment;
+  environment.obstacles.push_back(obstacle);
+  return environment;
+}
+
+/// @throws MotionError; Cancelled.
+void RequireOffBeam(const StepOverProblem& problem, const std::vector<Phase>& phases,
+                    const CancellationToken& cancellation) {
+  const models::Environment environment = BeamAlone(problem.beam());
+  const models::CollisionChecker checker(problem.robot(), environment);
+  const std::string hit = FirstHit(problem.robot(), environment, checker, phases, cancellation);
+  cancellation.ThrowIfCancelled();
+  if (!hit.empty()) throw MotionError(hit);
+}
+
+}  // namespace
+
+StepOverMotion::StepOverMotion(const StepOverProblem& problem, const std::filesystem::path& library,
+                               const CancellationToken& cancellation) {
+  if (!library.empty()) {
+    file_ =
+        MotionFolder(library, problem.Identity()) / ("step_over_" + problem.limbs().name + ".json");
+  }
+  if (FindInLibrary(problem, cancellation)) return;
+  SpatialSolution solved =
+      SolveSpatialMotion(problem.robot(), problem.limbs(), problem.schedule(), problem.from(),
+                         problem.to(), problem.solver(), cancellation);
+  RequireOffBeam(problem, solved.phases, cancellation);
+  phases_ = std::move(solved.phases);
+  solution_ = std::move(solved.solution);
+  // No solve starts from it.
+  solution_.multipliers = {};
+}
+
+bool StepOverMotion::FindInLibrary(const StepOverProblem& problem,
+                                   const CancellationToken& cancellation) {
+  if (file_.empty() || !std::filesystem::exists(file_)) return false;
+  try {
+    solution_ = collocation::ReadSolution(file_);
+    phases_ =
+        RealiseSpatialMotion(problem.robot(), problem.limbs(), problem.schedule(), problem.from(),
+                             problem.to(), problem.solver(), solution_, cancellation);
+    RequireOffBeam(problem, phases_, cancellation);
+    was_known_ = true;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception&) {
+    // A solution that cannot be read or realised is solved again.
+  }
+  return was_known_;
+}
+
+void StepOverMotion::Save() const {
+  if (file_.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(file_.parent_path(), error);
+  collocation::WriteSolution(file_, solution_);
+}
+
+}  // namespace possibility::actions
