@@ -46,6 +46,8 @@ class Manoeuvre : public graph::NonholonomicAction {
   Manoeuvre(const PlanningContext& context, std::string name, int from, int to);
 
   std::string name() const final { return name_; }
+  /// Action of its segments in a plan.
+  virtual std::string plan_action() const { return name_; }
   int from() const { return from_; }
   int to() const { return to_; }
 

@@ -78,6 +78,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
 
   const LocomotionModel& model() const { return *model_; }
   int gait() const { return gait_; }
+  const World& world() const { return world_; }
 
  private:
   struct StraightWay;

@@ -24,6 +24,7 @@ class SearchedManoeuvre final : public graph::NonholonomicAction {
   explicit SearchedManoeuvre(std::shared_ptr<Manoeuvre> manoeuvre, std::string where = {});
 
   std::string name() const override { return manoeuvre_->name(); }
+  std::string plan_action() const { return manoeuvre_->plan_action(); }
   int from() const { return manoeuvre_->from(); }
   int to() const { return manoeuvre_->to(); }
   const Manoeuvre& manoeuvre() const { return *manoeuvre_; }

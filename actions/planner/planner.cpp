@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "actions/checks/structure_check.h"
 #include "actions/conditions/exploration_pose.h"
@@ -13,6 +14,7 @@
 #include "actions/conditions/searched_manoeuvre.h"
 #include "actions/crossing/step_over.h"
 #include "actions/flood/flood_oracle.h"
+#include "actions/footsteps/planned_steps.h"
 #include "actions/jump/long_jump.h"
 #include "actions/motion/motion_schedule.h"
 #include "actions/plan/plan_rounding.h"
@@ -20,6 +22,7 @@
 #include "actions/planner/plan_explanation.h"
 #include "actions/planner/request_checks.h"
 #include "actions/planner/route_refusals.h"
+#include "actions/route/footstep_explorer.h"
 #include "actions/route/lattice_explorer.h"
 #include "actions/route/route.h"
 #include "actions/route/route_motion.h"
@@ -116,7 +119,7 @@ class TraversalPlanner {
     FillHeader(robot_, scenario_, request_, &result.plan);
     result.plan.timings.preparation_s = preparation_s_;
     for (std::uint64_t attempt = 0;; ++attempt) {
-      const graph::PathResult path = Explore(attempt);
+      const graph::PathResult path = FindRoute(attempt);
       const bool found = path.status == graph::PathStatus::kFound;
       const double first_s = found ? path.first_path_seconds : path.seconds;
       result.plan.timings.graph_s += first_s;
@@ -137,7 +140,7 @@ class TraversalPlanner {
               fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
                           "verified.",
                           result.plan.timings.graph_s) +
-                  refusals_.Explain() + ExplainManoeuvres(searched_, failures_),
+                  refusals_.Explain() + ExplainManoeuvres(all_manoeuvres_, failures_),
               &result);
         return result;
       }
@@ -190,12 +193,68 @@ class TraversalPlanner {
     for (const auto& manoeuvre : manoeuvres_) {
       searched_.push_back(std::make_shared<SearchedManoeuvre>(manoeuvre, where));
     }
+    PrepareSteps(context, where);
   }
 
   std::vector<std::shared_ptr<const graph::Action>> AllActions() const {
     std::vector<std::shared_ptr<const graph::Action>> all(gaits_.begin(), gaits_.end());
-    all.insert(all.end(), searched_.begin(), searched_.end());
+    all.insert(all.end(), all_manoeuvres_.begin(), all_manoeuvres_.end());
     return all;
+  }
+
+  /// Steps of the start's gait, if they can be planned and lead to a goal.
+  void PrepareSteps(const PlanningContext& context, const std::string& where) {
+    all_manoeuvres_ = searched_;
+    if (!switches_.footsteps || !switches_.floods) return;
+    const int gait = model_.GaitIndex(scenario_.start.action);
+    if (gait < 0 || !FootstepSearch::Knows(model_.gaits[gait]->gait)) return;
+    steps_ = std::make_shared<PlannedSteps>(context, gait);
+    all_manoeuvres_.push_back(std::make_shared<SearchedManoeuvre>(steps_, where));
+  }
+
+  std::vector<GroundedStance> GoalsOfSteps() const {
+    std::vector<GroundedStance> goals;
+    for (const GroundedStance& goal : goals_) {
+      if (goal.gait == start_.gait) goals.push_back(goal);
+    }
+    return goals;
+  }
+
+  /// First through C_S and manoeuvres. Where the floods find no route there, contacts are planned,
+  /// and if that leads nowhere either, the search goes on as long as the floods leave it open.
+  graph::PathResult FindRoute(std::uint64_t attempt) {
+    const bool steps_may_help = steps_ && !GoalsOfSteps().empty();
+    if (!needs_steps_) {
+      ends_at_oracle_ = steps_may_help;
+      graph::PathResult path = Explore(attempt);
+      ends_at_oracle_ = false;
+      if (path.status == graph::PathStatus::kFound || !needs_steps_) return path;
+    }
+    graph::PathResult path = ExploreSteps(attempt);
+    if (path.status == graph::PathStatus::kFound) return path;
+    const bool is_open = *oracle_answer_ == graph::RouteOracleAnswer::kUnknown;
+    if (is_open && !deadline_.Passed()) return Explore(attempt);
+    path.status = is_open ? graph::PathStatus::kTimeLimit : graph::PathStatus::kExhausted;
+    return path;
+  }
+
+  graph::RouteOracleAnswer AskFloods() {
+    if (!oracle_answer_) oracle_answer_ = floods_.Ask(start_, goals_);
+    if (!ends_at_oracle_ || *oracle_answer_ == graph::RouteOracleAnswer::kProvenInfeasible) {
+      return *oracle_answer_;
+    }
+    needs_steps_ = true;
+    return graph::RouteOracleAnswer::kExhausted;  // of this search
+  }
+
+  graph::PathResult ExploreSteps(std::uint64_t attempt) {
+    graph::FindPathSettings settings = SearchSettings(attempt);
+    const RouteSpace space{&model_, &gaits_, &all_manoeuvres_};
+    const int action = static_cast<int>(gaits_.size() + all_manoeuvres_.size()) - 1;
+    if (switches_.shortcuts) settings.explorers = {ShortcutExploration(space, goals_)};
+    settings.explorers.push_back(
+        FootstepExploration(space, *steps_, action, start_, GoalsOfSteps()));
+    return graph::FindPath(PointOf(start_), GoalPoints(), AllActions(), *space_, settings);
   }
 
   /// Empty: none.
@@ -208,27 +267,39 @@ class TraversalPlanner {
   }
 
   graph::PathResult Explore(std::uint64_t attempt) {
+    graph::FindPathSettings settings = SearchSettings(attempt);
+    settings.straight_first = switches_.straight;
+    settings.explorers = Explorers();
+    if (switches_.floods) settings.oracle = [this] { return AskFloods(); };
+    for (const ManoeuvreFactory& factory : factories_) {
+      if (IsInUse(factory)) settings.skip_growth[factory.name] = factory.skip_growth;
+    }
+    std::vector<std::shared_ptr<const graph::Action>> actions(gaits_.begin(), gaits_.end());
+    actions.insert(actions.end(), searched_.begin(), searched_.end());
+    return graph::FindPath(PointOf(start_), GoalPoints(), actions, *space_, settings);
+  }
+
+  /// What searches have in common.
+  graph::FindPathSettings SearchSettings(std::uint64_t attempt) const {
     graph::FindPathSettings settings;
     settings.time_limit = deadline_.Remaining();
     settings.seed = request_.seed + attempt * 0x9E3779B97F4A7C15u;
     settings.max_transitions_per_cycle = scenario_.planner.max_transitions_per_cycle;
     settings.confirmation_threads = std::max(0, request_.threads - 1);
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
-    settings.straight_first = switches_.straight;
-    settings.explorers = Explorers();
     if (switches_.improvement) settings.improvement_share = scenario_.planner.improvement_share;
-    if (switches_.floods) settings.oracle = [this] { return floods_.Ask(start_, goals_); };
     if (request_.progress) {
       settings.progress = [this](const graph::FindPathProgress& progress) {
         request_.progress({"exploring", progress, 0});
       };
     }
+    return settings;
+  }
+
+  std::vector<graph::Point> GoalPoints() const {
     std::vector<graph::Point> goals;
     for (const GroundedStance& goal : goals_) goals.push_back(PointOf(goal));
-    for (const ManoeuvreFactory& factory : factories_) {
-      if (IsInUse(factory)) settings.skip_growth[factory.name] = factory.skip_growth;
-    }
-    return graph::FindPath(PointOf(start_), goals, AllActions(), *space_, settings);
+    return goals;
   }
 
   /// The explorer that answers fastest comes first.
@@ -272,7 +343,7 @@ class TraversalPlanner {
   /// Edges of a gait begin and end in motion. A route of them begins and ends at rest.
   SearchReport ReportOf(const graph::PathResult& path) const {
     SearchReport report{path.found_by, path.first_duration, path.duration, path.lower_bound};
-    const Route route = RouteAlong(model_, searched_, path.path);
+    const Route route = RouteAlong(model_, all_manoeuvres_, path.path);
     if (route.empty()) return report;
     const double rest_time = RestTime(route.front()) + RestTime(route.back());
     report.first_duration += rest_time;
@@ -308,14 +379,14 @@ class TraversalPlanner {
                   ExplainClosest(result.plan.explored, scenario_.goals)
             : ExplainBarrier(result.status, floods_.barrier());
     return why + ExplainPassage(result.status, floods_.passage()) + refusals_.Explain() +
-           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(searched_, failures_);
+           ExplainSearch(result.plan.statistics) + ExplainManoeuvres(all_manoeuvres_, failures_);
   }
 
   /// Turns a confirmed path into a verified plan. On failure it forbids the legs at fault.
   /// @throws Cancelled at the time limit.
   bool Realise(const graph::PathResult& path, PlanResult* result) {
     const Stopwatch motion_clock;
-    Route route = RouteAlong(model_, searched_, path.path);
+    Route route = RouteAlong(model_, all_manoeuvres_, path.path);
     if (route.empty()) route = {Pause(start_)};
     const bool moved = Generate(route, &result->plan);
     result->plan.timings.motion_s += motion_clock.Seconds();
@@ -376,7 +447,7 @@ class TraversalPlanner {
     }
     if (result->verification.cancelled) throw Cancelled();
     if (result->verification.accepted()) {
-      result->explanation = ExplainManoeuvres(searched_, failures_);
+      result->explanation = ExplainManoeuvres(all_manoeuvres_, failures_);
       if (!result->explanation.empty()) result->explanation.erase(0, 1);
       return true;
     }
@@ -439,7 +510,12 @@ class TraversalPlanner {
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
-  std::vector<std::shared_ptr<SearchedManoeuvre>> searched_;  ///< the same, with verdicts
+  std::vector<std::shared_ptr<SearchedManoeuvre>> searched_;        ///< the same, with verdicts
+  std::shared_ptr<PlannedSteps> steps_;                             ///< null: none can be planned
+  std::vector<std::shared_ptr<SearchedManoeuvre>> all_manoeuvres_;  ///< searched, then steps
+  bool ends_at_oracle_ = false;  ///< the search under way ends where the floods find no route
+  bool needs_steps_ = false;     ///< the floods found no route
+  std::optional<graph::RouteOracleAnswer> oracle_answer_;
   FloodOracle floods_;
   FailedJobs failures_;
   RouteRefusals refusals_;

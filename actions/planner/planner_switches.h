@@ -22,6 +22,7 @@ struct PlannerSwitches {
   bool random = true;       ///< Algorithms 2 to 4
   bool floods = true;       ///< floods of the whole space may end the random search with "no"
   bool shortcuts = true;    ///< ShortcutExplorer
+  bool footsteps = true;    ///< contact planning where the floods find no route
   bool improvement = true;  ///< search for quicker routes after the first confirmed one
   std::optional<double> skip_jumps;  ///< instead of the scenario's probability
 };
@@ -34,6 +35,7 @@ inline PlannerSwitches SwitchesOf(PlannerPreset preset) {
     switches.lattice = false;
     switches.shortcuts = false;
     switches.floods = false;
+    switches.footsteps = false;
     switches.improvement = false;
     switches.skip_jumps = 0.9;  // section "Experimental Results"
   }

@@ -56,7 +56,7 @@ int EndGait(const LocomotionModel& model, const RouteLeg& leg) {
 }
 
 std::string LegName(const LocomotionModel& model, const RouteLeg& leg) {
-  if (leg.manoeuvre != nullptr) return leg.manoeuvre->name();
+  if (leg.manoeuvre != nullptr) return leg.manoeuvre->plan_action();
   const std::string& start = model.gaits[StartGait(model, leg)]->stance.gait->name;
   if (leg.transition < 0) return start;
   return start + "->" + model.gaits[EndGait(model, leg)]->stance.gait->name;

@@ -70,7 +70,11 @@ class PathFinder {
         exploration_.Explore(stage());
         ++cycles_;
       } else if (q_confirmation_.num_open() == 0) {
-        break;
+        // What the last jobs confirmed may complete a path.
+        const bool was_found = best_.has_value();
+        FindConfirmedPath();
+        if (q_confirmation_.num_open() == 0 && best_.has_value() == was_found) break;
+        continue;
       } else {
         q_confirmation_.WaitForResult(MaxWait());
       }

@@ -1,0 +1,178 @@
+#include "actions/footsteps/footstep_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actions/motion/pattern_motion.h"
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+namespace {
+
+// Durations, s; those of swings grow with lift and change of height.
+constexpr double kLevelSwing = 0.55;
+constexpr double kHighSwing = 1.0;
+constexpr double kSecondsPerMetreUp = 1;
+constexpr double kDoubleSupport = 0.15;
+constexpr double kHighDoubleSupport = 0.2;
+constexpr double kStart = 0.8;
+
+// Slower by this, for a step that fails and its neighbours; at most so much slower.
+constexpr double kSlower = 1.25;
+constexpr double kSlowest = 2;
+
+constexpr double kKnotSpacing = 0.02;  // s
+constexpr int kLeastIntervals = 4;
+constexpr int kFilterPasses = 3;
+
+/// Distances of links from each other, m: wanted, and enough. High steps bring thighs close to the
+/// pelvis.
+constexpr double kSelfDistance = 0.003;
+constexpr double kLeastSelfDistance = 0.001;
+
+/// The root as high as the legs reach: more than that above the stance, as a share of its height.
+constexpr double kTall = 0.21;
+
+bool IsHigh(const Footstep& step) { return step.lift > 0 || step.from.z != step.to.z; }
+
+double SwingDuration(const Footstep& step) {
+  if (!IsHigh(step)) return kLevelSwing;
+  return kHighSwing + kSecondsPerMetreUp * (step.lift + std::abs(step.to.z - step.from.z));
+}
+
+}  // namespace
+
+FootstepMotion::FootstepMotion(const models::RobotModel& robot, const NominalStance& stance)
+    : robot_(&robot), stance_(&stance), self_clearance_(robot, {stance.q}) {}
+
+int FootstepMotion::StepOfPhase(int phase, int steps) {
+  // Phases alternate: all limbs bear, one swings, ...
+  return std::clamp((phase - 1) / 2, 0, steps - 1);
+}
+
+Eigen::Isometry3d FootstepMotion::PatchAt(int limb, const Foothold& place) const {
+  return place.stance.At(place.z) * Eigen::Translation3d(stance_->patch_centres[limb]) *
+         Eigen::AngleAxisd(stance_->patch_headings[limb], Eigen::Vector3d::UnitZ());
+}
+
+models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& slowness,
+                                                   const Foothold& start,
+                                                   const std::vector<Footstep>& steps) const {
+  models::ContactSchedule schedule;
+  models::ContactInterval standing;
+  for (std::size_t limb = 0; limb < stance_->gait->limbs.size(); ++limb) {
+    schedule.contacts.push_back(robot_->contacts[stance_->gait->limbs[limb].contact].name);
+    standing.bearing.emplace_back(PatchAt(static_cast<int>(limb), start));
+  }
+  standing.duration = kStart;
+  schedule.intervals.push_back(standing);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    models::ContactInterval swing = standing;
+    swing.bearing[steps[i].limb].reset();
+    swing.duration = slowness[i] * SwingDuration(steps[i]);
+    schedule.intervals.push_back(std::move(swing));
+    standing.bearing[steps[i].limb] = PatchAt(steps[i].limb, steps[i].to);
+    const bool next_is_high = i + 1 < steps.size() && IsHigh(steps[i + 1]);
+    standing.duration =
+        slowness[i] * (IsHigh(steps[i]) || next_is_high ? kHighDoubleSupport : kDoubleSupport);
+    schedule.intervals.push_back(standing);
+  }
+  schedule.intervals.back().duration = kStart;
+  return schedule;
+}
+
+void FootstepMotion::RequireSelfClearance(const std::vector<Phase>& motion, double distance,
+                                          int steps) const {
+  dynamics::TreeKinematics kinematics(*robot_);
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    for (const Knot& knot : motion[i].knots) {
+      kinematics.SetPosition(knot.q);
+      const auto faults = self_clearance_.Faults(kinematics.X_WL(), distance);
+      if (faults.empty()) continue;
+      const auto& [pair, required] = faults.front();
+      throw FootstepError(fmt::format("{} is {:.4f} m from {} at {:.2f} s, expected {:.4f}",
+                                      robot_->links[pair.link].name, pair.distance,
+                                      robot_->links[pair.other].name, knot.t, required),
+                          StepOfPhase(static_cast<int>(i), steps));
+    }
+  }
+}
+
+std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, const Style& style,
+                                           const Foothold& start,
+                                           const std::vector<Footstep>& steps,
+                                           const CancellationToken& cancellation) const {
+  PatternSettings pattern;
+  pattern.clearance = stance_->gait->parameters.clearance;
+  pattern.zmp_margin = stance_->gait->parameters.com_margin;
+  pattern.keeps_reach = true;
+  pattern.rise = style.rise;
+  pattern.lean = style.lean;
+  pattern.rise_time = kStart;
+  pattern.height_spacing = style.spacing;
+  pattern.filter_passes = kFilterPasses;
+  pattern.lifts.push_back(0);
+  for (const Footstep& step : steps) {
+    pattern.lifts.push_back(step.lift);
+    pattern.lifts.push_back(0);
+  }
+  MotionSettings settings;
+  settings.knot_spacing = kKnotSpacing;
+  settings.torque_margin = style.torque_margin;
+  settings.minimum_intervals = kLeastIntervals;
+  Eigen::VectorXd guess = stance_->q;
+  guess.segment<2>(4) = start.stance.position();
+  guess[6] += start.z;
+  std::vector<Phase> motion =
+      MotionBuilder(*robot_, settings)
+          .Build(PatternPhases(*robot_, *stance_, ScheduleOf(slowness, start, steps), pattern,
+                               cancellation),
+                 guess, cancellation);
+  RequireSelfClearance(motion, style.self_distance, static_cast<int>(steps.size()));
+  return motion;
+}
+
+std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& start,
+                                           const std::vector<Footstep>& steps,
+                                           const CancellationToken& cancellation) const {
+  const int count = static_cast<int>(steps.size());
+  std::vector<double> slowness(steps.size(), 1);
+  for (;;) {
+    try {
+      return BuildAt(slowness, style, start, steps, cancellation);
+    } catch (const FootstepError&) {
+      throw;  // no question of speed
+    } catch (const MotionError& error) {
+      if (error.phase() < 0) throw FootstepError(error.what(), -1);
+      const int step = StepOfPhase(error.phase(), count);
+      if (slowness[step] * kSlower > kSlowest) throw FootstepError(error.what(), step);
+      for (int i = std::max(0, step - 1); i <= std::min(step + 1, count - 1); ++i) {
+        slowness[i] = std::min(kSlowest, slowness[i] * kSlower);
+      }
+    }
+  }
+}
+
+std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vector<Footstep>& steps,
+                                         const CancellationToken& cancellation) const {
+  const double tall = kTall * stance_->gait->posture.root_height;
+  std::string fault = "no steps";
+  int step = -1;
+  for (const Style& style :
+       {Style{tall, 0, 0.16, 0.95, kSelfDistance}, Style{tall, -0.1, 0.16, 0.95, kSelfDistance},
+        Style{tall, -0.15, 0.14, 0.99, kLeastSelfDistance}}) {
+    try {
+      return BuildIn(style, start, steps, cancellation);
+    } catch (const FootstepError& error) {
+      if (step < 0 || error.step() >= 0) {
+        fault = error.what();
+        step = error.step();
+      }
+    }
+  }
+  throw FootstepError(fault, step);
+}
+
+}  // namespace possibility::actions

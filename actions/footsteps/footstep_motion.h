@@ -1,0 +1,74 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "actions/footsteps/footstep_plan.h"
+#include "actions/motion/motion_builder.h"
+#include "actions/motion/nominal_stance.h"
+#include "actions/motion/self_clearance.h"
+#include "actions/plan/plan.h"
+#include "common/cancellation_token.h"
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// Thrown when a step of a sequence cannot be executed.
+class FootstepError : public MotionError {
+ public:
+  /// `step`: index; -1 if it is not known which one. `is_hit`: the robot hits an obstacle.
+  FootstepError(const std::string& message, int step, bool is_hit = false)
+      : MotionError(message), step_(step), is_hit_(is_hit) {}
+  int step() const { return step_; }
+  bool is_hit() const { return is_hit_; }
+
+ private:
+  int step_;
+  bool is_hit_;
+};
+
+/// Motion of footsteps over ground of any heights, from rest to rest: pattern motion
+/// (pattern_motion.h), as tall as the legs reach. Steps that the robot cannot execute as quickly
+/// are slowed down, with their neighbours. Immutable; may be used in several threads.
+class FootstepMotion {
+ public:
+  /// Both must outlive this.
+  FootstepMotion(const models::RobotModel& robot, const NominalStance& stance);
+
+  /// From the nominal stance at `start`, in which the first steps begin, to that in which the last
+  /// ones end; times from 0.
+  /// @throws FootstepError naming the limit that the robot would exceed; Cancelled.
+  std::vector<Phase> Build(const Foothold& start, const std::vector<Footstep>& steps,
+                           const CancellationToken& cancellation = {}) const;
+
+  /// Index of the step in which phase `phase` of such a motion swings, or that it follows or leads
+  /// to.
+  static int StepOfPhase(int phase, int steps);
+
+ private:
+  /// How the whole motion is carried out.
+  struct Style {
+    double rise = 0;           ///< PatternSettings
+    double lean = 0;           ///< PatternSettings
+    double spacing = 0;        ///< PatternSettings::height_spacing
+    double torque_margin = 0;  ///< MotionSettings
+    double self_distance = 0;  ///< m, between links
+  };
+
+  std::vector<Phase> BuildIn(const Style& style, const Foothold& start,
+                             const std::vector<Footstep>& steps,
+                             const CancellationToken& cancellation) const;
+  std::vector<Phase> BuildAt(const std::vector<double>& slowness, const Style& style,
+                             const Foothold& start, const std::vector<Footstep>& steps,
+                             const CancellationToken& cancellation) const;
+  models::ContactSchedule ScheduleOf(const std::vector<double>& slowness, const Foothold& start,
+                                     const std::vector<Footstep>& steps) const;
+  Eigen::Isometry3d PatchAt(int limb, const Foothold& place) const;
+  void RequireSelfClearance(const std::vector<Phase>& motion, double distance, int steps) const;
+
+  const models::RobotModel* robot_;
+  const NominalStance* stance_;
+  SelfClearance self_clearance_;
+};
+
+}  // namespace possibility::actions

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "actions/conditions/locomotion_model.h"
+#include "actions/conditions/quasi_static_action.h"
+#include "actions/footsteps/foothold_ground.h"
+#include "actions/motion/limb_reach.h"
+#include "common/cancellation_token.h"
+
+namespace possibility::actions {
+
+/// One limb moves to its next place.
+struct Footstep {
+  int limb = 0;
+  Foothold from;
+  Foothold to;
+  double lift = 0;  ///< m, of the swing (SwingPath)
+};
+
+/// The family of steps that a search chooses from.
+struct FootstepLimits {
+  double forward = 0.34;    ///< m: stance of one limb ahead of the other's
+  double lateral = 0.16;    ///< m: aside, outwards
+  double turn = 0.35;       ///< rad
+  double rise = 0.16;       ///< m, up or down
+  double lift = 0.27;       ///< m
+  double margin = 0.01;     ///< m, of bearing points from the edge of their ground
+  double clearance = 0.03;  ///< m, of swings
+  double lowest_root = 0;   ///< m, above the ground of the limb that bears alone
+  double trunk_margin = 0;  ///< m, of the trunk from obstacles, seen from above
+
+  /// Shares of the robot's size.
+  static FootstepLimits Of(const models::RobotModel& robot, const NominalStance& stance);
+};
+
+/// Expected duration of a step, s.
+double ExpectedDuration(const Footstep& step);
+
+/// Searches sequences of steps of a gait with two limbs that hold their orientation, over ground of
+/// any heights, from one nominal stance to another: weighted A* (Pohl 1970) over the places of both
+/// limbs, which move in turn. What it finds is no motion yet; it knows the ground, the free space
+/// about feet and trunk, and the legs' reach. One search per thread.
+class FootstepSearch {
+ public:
+  /// Whether steps of the gait can be searched.
+  static bool Knows(const models::Gait& gait);
+
+  /// Arguments must outlive the search. `goals`: stances of the gait.
+  FootstepSearch(const LocomotionModel& model, int gait, const World& world,
+                 const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                 const FootstepLimits& limits, const CancellationToken& cancellation = {});
+  ~FootstepSearch();
+
+  enum class Status { kSearching, kFound, kExhausted };
+  /// Expands up to `states` states. Exhausted when no state is left, or `most_states` have been
+  /// expanded in all. @throws Cancelled.
+  Status Advance(std::int64_t states, const CancellationToken& cancellation = {});
+
+  const std::vector<Footstep>& steps() const { return steps_; }  ///< once found
+  int goal() const { return goal_; }                             ///< index; once found
+  std::int64_t states() const;                                   ///< expanded so far
+
+  std::int64_t most_states = 40000;
+  /// Steps that must not be taken. `other`: where the other limb bears meanwhile.
+  std::function<bool(const Footstep& step, const Foothold& other)> is_refused;
+
+ private:
+  struct Search;
+
+  std::unique_ptr<Search> search_;
+  std::vector<Footstep> steps_;
+  int goal_ = -1;
+};
+
+}  // namespace possibility::actions

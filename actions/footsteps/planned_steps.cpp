@@ -1,0 +1,143 @@
+#include "actions/footsteps/planned_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actions/footsteps/step_refusals.h"
+#include "actions/motion/motion_collision.h"
+
+namespace possibility::actions {
+namespace {
+
+// Effort of one job.
+constexpr int kAttempts = 24;           // sequences of steps
+constexpr std::int64_t kStates = 4000;  // expanded in each search
+constexpr std::int64_t kStatesPerTurn = 50;
+
+// Where the robot hits something, the swing is raised, and then the trunk kept away; m.
+constexpr double kRaise = 0.03;
+constexpr int kMostRaises = 2;
+constexpr double kAway = 0.02;
+constexpr double kFarthestAway = 0.08;
+
+/// Farthest ends of an edge, m.
+constexpr double kFarthest = 30;
+
+// Of the expected duration, s.
+constexpr double kToStartAndStop = 2.5;
+constexpr double kSecondsPerMetre = 2.2;
+constexpr double kSecondsPerMetreUp = 12;
+
+Foothold OtherAt(const GroundedStance& start, const std::vector<Footstep>& steps, int step) {
+  for (int i = step - 1; i >= 0; --i) {
+    if (steps[i].limb != steps[step].limb) return steps[i].to;
+  }
+  return {start.pose, start.z};
+}
+
+}  // namespace
+
+PlannedSteps::PlannedSteps(const PlanningContext& context, int gait)
+    : Manoeuvre(context, NameOf(context.model->gaits[gait]->gait), gait, gait),
+      limits_(FootstepLimits::Of(*context.model->robot, context.model->gaits[gait]->stance)),
+      motion_(*context.model->robot, context.model->gaits[gait]->stance) {}
+
+bool PlannedSteps::CN(const graph::Edge& edge) const {
+  const std::optional<GroundedStance> from = LaunchStance(edge.from);
+  const std::optional<GroundedStance> to = LandingStance(edge.to);
+  if (!from || !to) return false;
+  if ((to->pose.position() - from->pose.position()).norm() > kFarthest) return false;
+  return launch_gait().CS(edge.from) && landing_gait().CS(edge.to);
+}
+
+double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
+  const Eigen::Vector3d way = (edge.to - edge.from).head<3>();
+  return kToStartAndStop + kSecondsPerMetre * way.head<2>().norm() +
+         kSecondsPerMetreUp * std::abs(way.z());
+}
+
+std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
+                                            const CancellationToken& cancellation) const {
+  const models::RobotModel& robot = *model().robot;
+  for (int raises = 0;;) {
+    std::vector<Phase> motion = motion_.Build({from.pose, from.z}, steps, cancellation);
+    const std::string self = FirstSelfHit(robot, *checker(), motion, cancellation);
+    cancellation.ThrowIfCancelled();
+    if (!self.empty()) throw FootstepError(self, -1);
+    bool is_raised = false;
+    for (std::size_t i = 0; i < motion.size() && !is_raised; ++i) {
+      const std::string hit =
+          FirstHit(robot, *world().environment, *checker(), {motion[i]}, cancellation);
+      cancellation.ThrowIfCancelled();
+      if (hit.empty()) continue;
+      const int step =
+          FootstepMotion::StepOfPhase(static_cast<int>(i), static_cast<int>(steps.size()));
+      steps[step].lift += kRaise;
+      if (++raises > kMostRaises || steps[step].lift > limits_.lift) {
+        throw FootstepError(hit, step, true);
+      }
+      is_raised = true;
+    }
+    if (!is_raised) return motion;
+  }
+}
+
+PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const GroundedStance& to,
+                                         const CancellationToken& cancellation) const {
+  StepRefusals refusals;
+  FootstepLimits limits = limits_;
+  Outcome outcome;
+  outcome.fault = "no footholds";
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    FootstepSearch search(model(), this->from(), world(), from, {to}, limits, cancellation);
+    search.most_states = kStates;
+    search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
+      return refusals.Refuses(step, other);
+    };
+    FootstepSearch::Status status = FootstepSearch::Status::kSearching;
+    while (status == FootstepSearch::Status::kSearching) {
+      status = search.Advance(kStatesPerTurn, cancellation);
+    }
+    if (status == FootstepSearch::Status::kExhausted) return outcome;
+    try {
+      outcome.motion = FreeMotion(from, search.steps(), cancellation);
+      outcome.fault.clear();
+      return outcome;
+    } catch (const FootstepError& error) {
+      outcome.fault = error.what();
+      if (error.step() < 0) return outcome;
+      if (error.is_hit() && limits.trunk_margin < kFarthestAway) {
+        limits.trunk_margin += kAway;
+        continue;
+      }
+      refusals.Add(search.steps()[error.step()], OtherAt(from, search.steps(), error.step()));
+    }
+  }
+  return outcome;
+}
+
+std::vector<Phase> PlannedSteps::Motion(const graph::Edge& edge,
+                                        const CancellationToken& cancellation) const {
+  const std::optional<GroundedStance> from = LaunchStance(edge.from);
+  const std::optional<GroundedStance> to = LandingStance(edge.to);
+  if (!from || !to) throw MotionError("the edge is no '" + name() + "'");
+  std::vector<double> key(edge.from.data(), edge.from.data() + edge.from.size());
+  key.insert(key.end(), edge.to.data(), edge.to.data() + edge.to.size());
+  {
+    const std::lock_guard lock(mutex_);
+    const auto known = outcomes_.find(key);
+    if (known != outcomes_.end()) {
+      if (!known->second.fault.empty()) throw MotionError(known->second.fault);
+      return known->second.motion;
+    }
+  }
+  Outcome outcome = Plan(*from, *to, cancellation);
+  const std::lock_guard lock(mutex_);
+  const Outcome& kept = outcomes_.emplace(key, std::move(outcome)).first->second;
+  if (!kept.fault.empty()) throw MotionError(kept.fault);
+  return kept.motion;
+}
+
+}  // namespace possibility::actions

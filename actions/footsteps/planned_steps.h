@@ -1,0 +1,70 @@
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "actions/conditions/manoeuvre.h"
+#include "actions/footsteps/footstep_motion.h"
+#include "actions/footsteps/footstep_plan.h"
+
+namespace possibility::actions {
+
+/// Steps of a gait where C_S of the gait says no: over cracks, sills and stairs, through doors and
+/// from stone to stone. An edge joins two nominal stances that meet C_S. Its job is contact
+/// planning: it searches footholds, makes a motion of them and tests it, and asks for other
+/// footholds where a step is beyond the robot. In a plan the motion is one of the gait.
+class PlannedSteps final : public Manoeuvre {
+ public:
+  /// `gait`: index of a gait whose steps can be searched (FootstepSearch::Knows).
+  PlannedSteps(const PlanningContext& context, int gait);
+
+  static std::string NameOf(const models::Gait& gait) { return gait.name + " over obstacles"; }
+
+  std::string plan_action() const override { return stance().gait->name; }
+
+  using Manoeuvre::CN;
+  bool CN(const graph::Edge& edge) const override;
+  /// Edges are proposed by the search for footsteps, not grown at random.
+  graph::Point ExtendTowards(const graph::Point& v0, const graph::Point&) const override {
+    return v0;
+  }
+  graph::Point ReverseExtend(const graph::Point& v0, const graph::Point&) const override {
+    return v0;
+  }
+  std::optional<graph::Point> FindLaunchPoint(const graph::Point&,
+                                              const graph::Point&) const override {
+    return std::nullopt;
+  }
+  std::optional<graph::Point> FindLandingPoint(const graph::Point&,
+                                               const graph::Point&) const override {
+    return std::nullopt;
+  }
+  double ExpectedDuration(const graph::Edge& edge) const override;
+  std::vector<Phase> Motion(const graph::Edge& edge,
+                            const CancellationToken& cancellation) const override;
+
+  const FootstepLimits& limits() const { return limits_; }
+
+ private:
+  /// What is known of an edge.
+  struct Outcome {
+    std::vector<Phase> motion;
+    std::string fault;  ///< why there is none; empty if there is one
+  };
+
+  Outcome Plan(const GroundedStance& from, const GroundedStance& to,
+               const CancellationToken& cancellation) const;
+  /// Raises swings that hit something. @throws FootstepError, Cancelled.
+  std::vector<Phase> FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
+                                const CancellationToken& cancellation) const;
+  const NominalStance& stance() const { return model().gaits[from()]->stance; }
+
+  FootstepLimits limits_;
+  FootstepMotion motion_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::vector<double>, Outcome> outcomes_;  ///< by both ends
+};
+
+}  // namespace possibility::actions

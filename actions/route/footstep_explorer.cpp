@@ -1,0 +1,124 @@
+#include "actions/route/footstep_explorer.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "actions/conditions/exploration_pose.h"
+
+namespace possibility::actions {
+namespace {
+
+constexpr std::int64_t kStatesPerTurn = 50;
+
+/// Of a manoeuvre of planned steps, s: coming to rest and starting again.
+constexpr double kStop = 2.5;
+
+}  // namespace
+
+FootstepExplorer::FootstepExplorer(const RouteSpace& space, const PlannedSteps& steps, int action,
+                                   const GroundedStance& start,
+                                   const std::vector<GroundedStance>& goals,
+                                   const graph::ExplorerContext& context)
+    : space_(space),
+      steps_(steps),
+      action_(action),
+      start_(start),
+      goals_(goals),
+      deadline_(context.deadline),
+      states_(&(*context.counters)["footsteps: states"]) {}
+
+graph::Findings FootstepExplorer::Explore() {
+  if (proposals_ == 1) {
+    ++proposals_;
+    return {graph::Outlook::kOver, WholeWay()};
+  }
+  if (proposals_ > 1) return {graph::Outlook::kOver, {}};
+  const CancellationToken cancellation(*deadline_);
+  try {
+    if (!search_) {
+      search_.emplace(*space_.model, start_.gait, gait().world(), start_, goals_, steps_.limits(),
+                      cancellation);
+    }
+    const FootstepSearch::Status status = search_->Advance(kStatesPerTurn, cancellation);
+    *states_ = search_->states();
+    if (status == FootstepSearch::Status::kSearching) return {graph::Outlook::kLeadsOn, {}};
+    if (status == FootstepSearch::Status::kExhausted) {
+      proposals_ = 2;
+      return {graph::Outlook::kOver, {}};
+    }
+  } catch (const Cancelled&) {
+    return {graph::Outlook::kOver, {}};
+  }
+  ++proposals_;
+  return {graph::Outlook::kOver, Route()};
+}
+
+bool FootstepExplorer::OnRefuted() { return proposals_ == 1; }
+
+/// The start, the stances on the way that meet C_S, and the goal.
+std::vector<FootstepExplorer::Halt> FootstepExplorer::Halts() const {
+  std::vector<Halt> halts = {{start_, 0}};
+  double time = 0;
+  for (const Footstep& step : search_->steps()) {
+    time += ExpectedDuration(step);
+    GroundedStance stance;
+    stance.gait = start_.gait;
+    stance.pose = step.to.stance;
+    stance.z = step.to.z;
+    if (gait().Examine(stance) == StanceFault::kNone) halts.push_back({stance, time});
+  }
+  halts.push_back({goals_[search_->goal()], time});
+  return halts;
+}
+
+/// The quickest sequence of straight ways that meet C_S and of planned steps between halts.
+std::vector<graph::PathEdge> FootstepExplorer::Route() const {
+  const std::vector<Halt> halts = Halts();
+  std::vector<double> time(halts.size(), std::numeric_limits<double>::infinity());
+  std::vector<int> before(halts.size(), -1);
+  std::vector<bool> is_walked(halts.size(), false);
+  time[0] = 0;
+  for (std::size_t i = 0; i < halts.size(); ++i) {
+    for (std::size_t j = i + 1; j < halts.size(); ++j) {
+      const GroundedStance& from = halts[i].stance;
+      const GroundedStance& to = halts[j].stance;
+      const double steps = time[i] + kStop + halts[j].time - halts[i].time;
+      const double walk = from.z == to.z ? time[i] + gait().ExpectedDuration(from.pose, to.pose)
+                                         : std::numeric_limits<double>::infinity();
+      const bool walks = walk < steps && walk < time[j] && gait().CS(from, to);
+      const double best = walks ? walk : steps;
+      if (best >= time[j]) continue;
+      time[j] = best;
+      before[j] = static_cast<int>(i);
+      is_walked[j] = walks;
+    }
+  }
+  std::vector<graph::PathEdge> edges;
+  for (int j = static_cast<int>(halts.size()) - 1; j > 0; j = before[j]) {
+    edges.insert(edges.begin(), EdgeBetween(is_walked[j] ? start_.gait : action_,
+                                            halts[before[j]].stance, halts[j].stance));
+  }
+  return edges;
+}
+
+std::vector<graph::PathEdge> FootstepExplorer::WholeWay() const {
+  return {EdgeBetween(action_, start_, goals_[search_->goal()])};
+}
+
+graph::PathEdge FootstepExplorer::EdgeBetween(int action, const GroundedStance& from,
+                                              const GroundedStance& to) const {
+  const NominalStance& stance = space_.model->gaits[start_.gait]->stance;
+  return {action,
+          {ToPoint(stance.RootPose(from.pose, from.z)), ToPoint(stance.RootPose(to.pose, to.z))}};
+}
+
+graph::ExplorerFactory FootstepExploration(const RouteSpace& space, const PlannedSteps& steps,
+                                           int action, const GroundedStance& start,
+                                           const std::vector<GroundedStance>& goals) {
+  return [=, &steps](const graph::ExplorerContext& context) {
+    return std::make_unique<FootstepExplorer>(space, steps, action, start, goals, context);
+  };
+}
+
+}  // namespace possibility::actions

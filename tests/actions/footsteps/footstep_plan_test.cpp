@@ -1,0 +1,151 @@
+#include "actions/footsteps/footstep_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actions/footsteps/step_refusals.h"
+#include "tests/actions/footsteps/uneven_world.h"
+
+namespace possibility::actions {
+namespace {
+
+class FootstepPlanTest : public ::testing::Test {
+ protected:
+  FootstepSearch::Status Search(UnevenWorld* world, const GroundedStance& start,
+                                const GroundedStance& goal) {
+    search_.emplace(WalkingHubo(), 0, world->Built(), start, std::vector<GroundedStance>{goal},
+                    limits_);
+    FootstepSearch::Status status = FootstepSearch::Status::kSearching;
+    while (status == FootstepSearch::Status::kSearching) status = search_->Advance(100);
+    return status;
+  }
+
+  /// Every corner of every sole is on ground of the step's height, away from its edge.
+  void ExpectFootholds(const UnevenWorld& world) const {
+    for (const Footstep& step : search_->steps()) {
+      for (const Eigen::Vector2d& p : stance_.bearing_points[step.limb]) {
+        const auto level = world.ground->LevelAt(step.to.stance * p, step.to.z, 1e-9);
+        ASSERT_TRUE(level);
+        EXPECT_GE(world.ground->Clearance(*level, step.to.stance * p), limits_.margin - 1e-6);
+      }
+    }
+  }
+
+  /// Limbs take turns, and each step begins where the limb stands.
+  void ExpectSequence(const GroundedStance& start, const GroundedStance& goal) const {
+    std::array<Foothold, 2> feet;
+    feet.fill({start.pose, start.z});
+    for (std::size_t i = 0; i < search_->steps().size(); ++i) {
+      const Footstep& step = search_->steps()[i];
+      if (i > 0) {
+        EXPECT_NE(step.limb, search_->steps()[i - 1].limb);
+      }
+      EXPECT_EQ(step.from.stance.x, feet[step.limb].stance.x);
+      EXPECT_EQ(step.from.z, feet[step.limb].z);
+      EXPECT_LE(std::abs(step.to.z - feet[1 - step.limb].z), limits_.rise + 1e-6);
+      feet[step.limb] = step.to;
+    }
+    for (const Foothold& foot : feet) {
+      EXPECT_LT((foot.stance.position() - goal.pose.position()).norm(), 1e-9);
+      EXPECT_EQ(foot.z, goal.z);
+    }
+  }
+
+  const NominalStance& stance_ = WalkingHubo().gaits[0]->stance;
+  FootstepLimits limits_ = FootstepLimits::Of(DrcHubo1(), stance_);
+  std::optional<FootstepSearch> search_;
+};
+
+TEST_F(FootstepPlanTest, CrossesACrack) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.12, 3, 0);
+  const auto start = UnevenWorld::StanceAt(-1), goal = UnevenWorld::StanceAt(1.2);
+  ASSERT_EQ(Search(&world, start, goal), FootstepSearch::Status::kFound);
+  ExpectFootholds(world);
+  ExpectSequence(start, goal);
+}
+
+TEST_F(FootstepPlanTest, ClimbsStairs) {
+  UnevenWorld world = UnevenWorld::Stairs(0.1);
+  const auto start = UnevenWorld::StanceAt(-1), goal = UnevenWorld::StanceAt(3, 0.6);
+  ASSERT_EQ(Search(&world, start, goal), FootstepSearch::Status::kFound);
+  ExpectFootholds(world);
+  ExpectSequence(start, goal);
+}
+
+TEST_F(FootstepPlanTest, LiftsFeetOverASill) {
+  UnevenWorld world;
+  world.Ground(-3, 4, 0).Box({0.06, 4, 0.08}, {0.4, 0, 0.04});
+  const auto start = UnevenWorld::StanceAt(-1), goal = UnevenWorld::StanceAt(1.5);
+  ASSERT_EQ(Search(&world, start, goal), FootstepSearch::Status::kFound);
+  ExpectSequence(start, goal);
+  for (const int limb : {0, 1}) {
+    double highest = 0;
+    for (const Footstep& step : search_->steps()) {
+      if (step.limb == limb) highest = std::max(highest, step.lift);
+    }
+    EXPECT_GE(highest, 0.08);
+  }
+}
+
+TEST_F(FootstepPlanTest, GoesThroughADoorSideways) {
+  UnevenWorld world;
+  world.Ground(-3, 4, 0).Box({0.1, 1.5, 2}, {0.4, 1.11, 1}).Box({0.1, 1.5, 2}, {0.4, -1.11, 1});
+  const auto start = UnevenWorld::StanceAt(-1), goal = UnevenWorld::StanceAt(2);
+  limits_.trunk_margin = 0.02;
+  ASSERT_EQ(Search(&world, start, goal), FootstepSearch::Status::kFound);
+  const auto& steps = search_->steps();
+  const auto in_door = std::find_if(steps.begin(), steps.end(), [](const Footstep& step) {
+    return std::abs(step.to.stance.x - 0.4) < 0.1;
+  });
+  ASSERT_NE(in_door, steps.end());
+  EXPECT_NEAR(std::abs(std::sin(in_door->to.stance.yaw)), 1, 0.01);
+}
+
+TEST_F(FootstepPlanTest, NoWayIsExhausted) {
+  UnevenWorld chasm;
+  chasm.Ground(-3, 0, 0).Ground(0.8, 4, 0);
+  EXPECT_EQ(Search(&chasm, UnevenWorld::StanceAt(-1), UnevenWorld::StanceAt(2)),
+            FootstepSearch::Status::kExhausted);
+  UnevenWorld cliff;
+  cliff.Ground(-3, 0, 0).Ground(0, 4, 0.3);
+  EXPECT_EQ(Search(&cliff, UnevenWorld::StanceAt(-1), UnevenWorld::StanceAt(2, 0.3)),
+            FootstepSearch::Status::kExhausted);
+}
+
+TEST_F(FootstepPlanTest, TheSameSearchFindsTheSameSteps) {
+  std::vector<double> places[2];
+  for (std::vector<double>& run : places) {
+    UnevenWorld world = UnevenWorld::Stairs(0.1);
+    ASSERT_EQ(Search(&world, UnevenWorld::StanceAt(-1), UnevenWorld::StanceAt(3, 0.6)),
+              FootstepSearch::Status::kFound);
+    for (const Footstep& step : search_->steps()) {
+      run.insert(run.end(), {step.to.stance.x, step.to.stance.y, step.to.z, step.lift});
+    }
+  }
+  EXPECT_EQ(places[0], places[1]);
+}
+
+TEST(StepRefusalsTest, ALongerOrHigherStepThanOneThatFailedIsRefused) {
+  StepRefusals refusals;
+  const Footstep failed{0, {{-0.2, 0, 0}, 0}, {{0.25, 0, 0}, 0.1}, 0};
+  const Foothold other{{0, 0, 0}, 0};
+  refusals.Add(failed, other);
+  EXPECT_TRUE(refusals.Refuses(failed, other));
+  Footstep step = failed;
+  step.to.stance.x = 0.3;
+  EXPECT_TRUE(refusals.Refuses(step, other));
+  step.to.stance.x = 0.2;
+  EXPECT_FALSE(refusals.Refuses(step, other));
+  step = failed;
+  step.to.z = 0.05;
+  EXPECT_FALSE(refusals.Refuses(step, other));
+  step = failed;
+  step.to.z = -0.1;  // down is not up
+  EXPECT_FALSE(refusals.Refuses(step, other));
+}
+
+}  // namespace
+}  // namespace possibility::actions

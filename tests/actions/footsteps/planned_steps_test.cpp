@@ -1,0 +1,83 @@
+#include "actions/footsteps/planned_steps.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/actions/footsteps/uneven_world.h"
+
+namespace possibility::actions {
+namespace {
+
+class PlannedStepsTest : public ::testing::Test {
+ protected:
+  const PlannedSteps& StepsIn(UnevenWorld* world) {
+    PlanningContext context;
+    context.model = &WalkingHubo();
+    context.world = world->Built();
+    context.space = std::make_shared<PelvisPoseSpace>(world->environment.bounds,
+                                                      world->ground->levels(), 0.137);
+    context.gaits = {
+        std::make_shared<QuasiStaticAction>(WalkingHubo(), 0, world->world, context.space, 0.25)};
+    return *(steps_ = std::make_unique<PlannedSteps>(context, 0));
+  }
+
+  static graph::Edge EdgeOf(const GroundedStance& from, const GroundedStance& to) {
+    const NominalStance& stance = WalkingHubo().gaits[0]->stance;
+    return {ToPoint(stance.RootPose(from.pose, from.z)), ToPoint(stance.RootPose(to.pose, to.z))};
+  }
+
+  std::unique_ptr<PlannedSteps> steps_;
+};
+
+TEST_F(PlannedStepsTest, MotionLeadsFromRestToRestBetweenTheStances) {
+  UnevenWorld world;
+  world.Ground(-3, 0.3, 0).Ground(0.3, 4, 0.08);
+  const PlannedSteps& steps = StepsIn(&world);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.2), UnevenWorld::StanceAt(1, 0.08));
+  ASSERT_TRUE(steps.CN(edge));
+  const std::vector<Phase> motion = steps.Motion(edge, {});
+  const Knot& last = motion.back().knots.back();
+  EXPECT_LT((ToPoint(Eigen::Translation3d(last.q.segment<3>(4)) *
+                     Eigen::Quaterniond(last.q[0], last.q[1], last.q[2], last.q[3])) -
+             edge.to)
+                .norm(),
+            1e-6);
+  EXPECT_LT(last.v.norm() + motion.front().knots.front().v.norm(), 1e-6);
+  EXPECT_EQ(steps.plan_action(), "walk");
+}
+
+TEST_F(PlannedStepsTest, TheSameEdgeHasTheSameMotion) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.05, 4, 0);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(0.8));
+  const Knot first = StepsIn(&world).Motion(edge, {}).back().knots.back();
+  const Knot second = StepsIn(&world).Motion(edge, {}).back().knots.back();
+  EXPECT_EQ(first.q, second.q);
+  EXPECT_EQ(first.t, second.t);
+}
+
+TEST_F(PlannedStepsTest, WithoutFootholdsThereIsNoMotion) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.8, 4, 0);
+  EXPECT_THROW(
+      StepsIn(&world).Motion(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(1.5)), {}),
+      MotionError);
+}
+
+TEST_F(PlannedStepsTest, CancellationEndsTheJob) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.05, 4, 0);
+  EXPECT_THROW(
+      StepsIn(&world).Motion(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(0.8)),
+                             CancellationToken([] { return false; })),
+      Cancelled);
+}
+
+TEST_F(PlannedStepsTest, AnEdgeNeedsStancesThatMeetCS) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.05, 4, 0);
+  const PlannedSteps& steps = StepsIn(&world);
+  EXPECT_FALSE(steps.CN(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(0.02))));
+}
+
+}  // namespace
+}  // namespace possibility::actions

@@ -1,0 +1,69 @@
+#include "actions/footsteps/pose_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace possibility::actions {
+namespace {
+
+const Eigen::AlignedBox2d kRoom(Eigen::Vector2d(0, 0), Eigen::Vector2d(4, 3));
+constexpr double kFieldCell = 0.1;
+
+PoseField FieldTo(const PlanarPose& goal, const PoseField::Paces& paces,
+                  const std::function<bool(const PlanarPose&)>& is_open) {
+  return PoseField(kRoom, kFieldCell, 0, {goal}, paces, is_open);
+}
+
+bool Everywhere(const PlanarPose&) { return true; }
+
+TEST(PoseFieldTest, TimeAlongAnAxisIsDistanceTimesPace) {
+  const PoseField field = FieldTo({0.55, 1.55, 0}, {2, 5, 1}, Everywhere);
+  EXPECT_NEAR(field.At({2.55, 1.55, 0}), 4, 1e-9);
+  EXPECT_NEAR(field.At({0.55, 0.55, 0}), 5, 1e-9);
+  EXPECT_NEAR(field.At({0.55, 1.55, 0}), 0, 1e-12);
+}
+
+TEST(PoseFieldTest, ATurnTakesItsTime) {
+  const PoseField field = FieldTo({2, 1.5, 0}, {1, 1, 3}, Everywhere);
+  EXPECT_NEAR(field.At({2, 1.5, std::numbers::pi}), 3 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(field.At({2, 1.5, -std::numbers::pi / 2}), 1.5 * std::numbers::pi, 1e-9);
+}
+
+/// Sideways is dear: it is quicker to turn, walk and turn back.
+TEST(PoseFieldTest, ALongWayAsideIsWalked) {
+  const PoseField field = FieldTo({2, 0.05, 0}, {1, 100, 0.1}, Everywhere);
+  EXPECT_NEAR(field.At({2, 2.55, 0}), 2.5 + 0.1 * std::numbers::pi, 1e-9);
+}
+
+TEST(PoseFieldTest, AGapThatIsOpenToOneHeadingIsPassedInIt) {
+  const double across = std::numbers::pi / 2;
+  const auto is_open = [&](const PlanarPose& pose) {
+    const bool in_wall = pose.x > 2 && pose.x < 2.3;
+    const bool sidles =
+        std::abs(WrapAngle(pose.yaw - across)) < 0.1 && std::abs(pose.y - 1.5) < 0.3;
+    return !in_wall || sidles;
+  };
+  const PoseField field = FieldTo({3.55, 1.55, 0}, {1, 2, 0.5}, is_open);
+  // To the wall and beyond it ahead, through it aside, and a quarter turn there and back.
+  const double time = field.At({0.55, 1.55, 0});
+  EXPECT_GT(time, 3 + 0.5 * std::numbers::pi);
+  EXPECT_LT(time, 3 + 0.5 * std::numbers::pi + 0.7);
+}
+
+TEST(PoseFieldTest, WithoutAWayTheTimeIsInfinite) {
+  const auto is_open = [](const PlanarPose& pose) { return pose.x < 2 || pose.x > 2.2; };
+  const PoseField field = FieldTo({3.5, 1.5, 0}, {1, 1, 1}, is_open);
+  EXPECT_TRUE(std::isinf(field.At({0.5, 1.5, 0})));
+  EXPECT_TRUE(std::isfinite(field.At({2.5, 0.5, 1})));
+}
+
+TEST(PoseFieldTest, CancellationEndsIt) {
+  EXPECT_THROW(PoseField(kRoom, 0.01, 0, {{2, 1.5, 0}}, {1, 1, 1}, Everywhere,
+                         CancellationToken([] { return false; })),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace possibility::actions
