@@ -198,7 +198,8 @@ struct FootstepSearch::Search {
         world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
         [&](const PlanarPose& pose) {
           for (std::size_t level = 0; level < levels.size(); ++level) {
-            if (!world.ground->IsNear(static_cast<int>(level), pose.position(), limits.forward)) {
+            if (!world.ground->IsNear(static_cast<int>(level), pose.position(),
+                                      limits.forward / 2)) {
               continue;
             }
             if (TrunkIsFree(pose, levels[level])) return true;

@@ -65,7 +65,7 @@ class FootstepSearch {
   int goal() const { return goal_; }                             ///< index; once found
   std::int64_t states() const;                                   ///< expanded so far
 
-  std::int64_t most_states = 40000;
+  std::int64_t most_states = 8000;
   /// Steps that must not be taken. `other`: where the other limb bears meanwhile.
   std::function<bool(const Footstep& step, const Foothold& other)> is_refused;
 

@@ -9,6 +9,7 @@ namespace possibility::actions {
 PlannerSwitches WithExplorers(PlannerSwitches switches, const std::vector<std::string>& names,
                               const std::string& where) {
   switches.straight = switches.lattice = switches.random = switches.shortcuts = false;
+  switches.footsteps = false;
   for (const std::string& name : names) {
     if (name == "straight") {
       switches.straight = true;
@@ -18,10 +19,13 @@ PlannerSwitches WithExplorers(PlannerSwitches switches, const std::vector<std::s
       switches.random = true;
     } else if (name == "shortcuts") {
       switches.shortcuts = true;
+    } else if (name == "footsteps") {
+      switches.footsteps = true;
     } else {
       throw InputError(fmt::format(
-          "{}: no explorer is called '{}', expected straight, lattice, random or shortcuts", where,
-          name));
+          "{}: no explorer is called '{}', expected straight, lattice, random, shortcuts or "
+          "footsteps",
+          where, name));
     }
   }
   return switches;

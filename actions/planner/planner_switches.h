@@ -42,7 +42,8 @@ inline PlannerSwitches SwitchesOf(PlannerPreset preset) {
   return switches;
 }
 
-/// Keeps only the named explorers of a preset: "straight", "lattice", "random", "shortcuts".
+/// Keeps only the named explorers of a preset: "straight", "lattice", "random", "shortcuts",
+/// "footsteps".
 /// @throws InputError for other names, beginning with `where`.
 PlannerSwitches WithExplorers(PlannerSwitches switches, const std::vector<std::string>& names,
                               const std::string& where);

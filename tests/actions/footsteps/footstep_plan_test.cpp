@@ -49,7 +49,7 @@ class FootstepPlanTest : public ::testing::Test {
     }
     for (const Foothold& foot : feet) {
       EXPECT_LT((foot.stance.position() - goal.pose.position()).norm(), 1e-9);
-      EXPECT_EQ(foot.z, goal.z);
+      EXPECT_NEAR(foot.z, goal.z, 1e-9);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "actions/planner/planner.h"
 #include "tests/actions/footsteps/uneven_world.h"
 
 namespace possibility::actions {
@@ -76,7 +77,35 @@ TEST_F(PlannedStepsTest, AnEdgeNeedsStancesThatMeetCS) {
   UnevenWorld world;
   world.Ground(-3, 0, 0).Ground(0.05, 4, 0);
   const PlannedSteps& steps = StepsIn(&world);
-  EXPECT_FALSE(steps.CN(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(0.02))));
+  EXPECT_FALSE(steps.CN(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(0.1))));
+}
+
+class UnevenScenes : public ::testing::TestWithParam<const char*> {
+ protected:
+  static PlanResult PlanOf(const std::string& scene) {
+    PlanRequest request;
+    request.library = DrcHubo1Library();
+    return PlanTraversal(DrcHubo1(), ShippedScenario(scene), request);
+  }
+};
+
+TEST_P(UnevenScenes, AreWalkedByPlannedSteps) {
+  const PlanResult result = PlanOf(GetParam());
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_TRUE(result.verification.accepted());
+  ASSERT_TRUE(result.plan.search);
+  EXPECT_EQ(result.plan.search->explorers.front(), "footsteps");
+  for (const Segment& segment : result.plan.segments) EXPECT_EQ(segment.action, "walk");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, UnevenScenes,
+                         ::testing::Values("crack", "sill", "stones", "stairs"));
+
+TEST(UnevenScenesTwins, ACrackWiderThanAnyStepIsNotCrossed) {
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("crack_infeasible"), request);
+  EXPECT_EQ(result.status, PlanStatus::kExhausted);
 }
 
 }  // namespace
