@@ -220,8 +220,9 @@ class TraversalPlanner {
     return goals;
   }
 
-  /// First through C_S and manoeuvres. Where the floods find no route there, contacts are planned,
-  /// and if that leads nowhere either, the search goes on as long as the floods leave it open.
+  /// First through C_S and manoeuvres. Where the floods find no route there, or cannot tell and
+  /// there are no manoeuvres, contacts are planned. If that leads nowhere either, the search goes
+  /// on as long as the floods leave it open.
   graph::PathResult FindRoute(std::uint64_t attempt) {
     const bool steps_may_help = steps_ && !GoalsOfSteps().empty();
     if (!needs_steps_) {
@@ -240,7 +241,11 @@ class TraversalPlanner {
 
   graph::RouteOracleAnswer AskFloods() {
     if (!oracle_answer_) oracle_answer_ = floods_.Ask(start_, goals_);
-    if (!ends_at_oracle_ || *oracle_answer_ == graph::RouteOracleAnswer::kProvenInfeasible) {
+    // A manoeuvre may still be found where the floods cannot tell.
+    const bool is_open =
+        *oracle_answer_ == graph::RouteOracleAnswer::kUnknown && !manoeuvres_.empty();
+    if (!ends_at_oracle_ || is_open ||
+        *oracle_answer_ == graph::RouteOracleAnswer::kProvenInfeasible) {
       return *oracle_answer_;
     }
     needs_steps_ = true;

@@ -127,5 +127,20 @@ TEST(Explorers, AreAskedAgainWhenJobsRefuteEdges) {
   EXPECT_EQ(asked, 2);
 }
 
+/// Also if nobody has anything left to explore by then.
+TEST(Explorers, ARouteThatTheLastJobCompletesIsFound) {
+  const auto leap = std::make_shared<UncertainAction>("leap", Interval{0.7, 1.0}, 0.85,
+                                                      Interval{4, 6}, Always(Ending::kConfirm, 2));
+  const Actions actions = {leap};
+  for (const int threads : {0, 2}) {
+    FindPathSettings settings{.time_limit = 10, .confirmation_threads = threads};
+    settings.explorers = First([] { return Findings{Outlook::kOver, {{0, {Start(), Goal()}}}}; });
+    settings.explorers.pop_back();
+    const PathResult result = FindPath(Start(), {Goal()}, actions, kRoom, settings);
+    EXPECT_EQ(result.status, PathStatus::kFound) << threads << " threads";
+    EXPECT_EQ(result.path.size(), 1);
+  }
+}
+
 }  // namespace
 }  // namespace possibility::graph
