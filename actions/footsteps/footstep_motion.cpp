@@ -155,8 +155,32 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
   }
 }
 
+/// At the origin, and carried back: far from it, rounding exceeds the tolerance of inverse
+/// kinematics.
 std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vector<Footstep>& steps,
                                          const CancellationToken& cancellation) const {
+  const Eigen::Vector3d origin(start.stance.x, start.stance.y, start.z);
+  const auto moved = [&origin](Foothold place) {
+    place.stance.x -= origin.x();
+    place.stance.y -= origin.y();
+    place.z -= origin.z();
+    return place;
+  };
+  std::vector<Footstep> near = steps;
+  for (Footstep& step : near) {
+    step.from = moved(step.from);
+    step.to = moved(step.to);
+  }
+  std::vector<Phase> motion = BuildAtOrigin(moved(start), near, cancellation);
+  for (Phase& phase : motion) {
+    for (Knot& knot : phase.knots) knot.q.segment<3>(4) += origin;
+  }
+  return motion;
+}
+
+std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
+                                                 const std::vector<Footstep>& steps,
+                                                 const CancellationToken& cancellation) const {
   const double tall = kTall * stance_->gait->posture.root_height;
   std::string fault = "no steps";
   int step = -1;

@@ -55,6 +55,8 @@ class FootstepMotion {
     double self_distance = 0;  ///< m, between links
   };
 
+  std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,
+                                   const CancellationToken& cancellation) const;
   std::vector<Phase> BuildIn(const Style& style, const Foothold& start,
                              const std::vector<Footstep>& steps,
                              const CancellationToken& cancellation) const;

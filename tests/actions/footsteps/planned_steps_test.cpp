@@ -101,12 +101,17 @@ TEST_P(UnevenScenes, AreWalkedByPlannedSteps) {
 INSTANTIATE_TEST_SUITE_P(Shipped, UnevenScenes,
                          ::testing::Values("crack", "sill", "stones", "stairs"));
 
-TEST(UnevenScenesTwins, ACrackWiderThanAnyStepIsNotCrossed) {
-  PlanRequest request;
-  request.library = DrcHubo1Library();
-  const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("crack_infeasible"), request);
-  EXPECT_EQ(result.status, PlanStatus::kExhausted);
+class UnevenTwins : public UnevenScenes {};
+
+TEST_P(UnevenTwins, AreExhausted) {
+  const PlanResult result = PlanOf(GetParam());
+  EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
 }
+
+INSTANTIATE_TEST_SUITE_P(Shipped, UnevenTwins,
+                         ::testing::Values("crack_infeasible", "sill_infeasible",
+                                           "stones_infeasible", "stairs_infeasible",
+                                           "doorway_infeasible"));
 
 }  // namespace
 }  // namespace possibility::actions
