@@ -225,6 +225,12 @@ class TraversalPlanner {
   /// on as long as the floods leave it open.
   graph::PathResult FindRoute(std::uint64_t attempt) {
     const bool steps_may_help = steps_ && !GoalsOfSteps().empty();
+    const bool nobody_else_explores =
+        !switches_.straight && !switches_.lattice && !switches_.random;
+    if (steps_may_help && nobody_else_explores) {
+      AskFloods();
+      needs_steps_ = *oracle_answer_ != graph::RouteOracleAnswer::kProvenInfeasible;
+    }
     if (!needs_steps_) {
       ends_at_oracle_ = steps_may_help;
       graph::PathResult path = Explore(attempt);

@@ -101,6 +101,14 @@ TEST_P(UnevenScenes, AreWalkedByPlannedSteps) {
 INSTANTIATE_TEST_SUITE_P(Shipped, UnevenScenes,
                          ::testing::Values("crack", "sill", "stones", "stairs"));
 
+TEST(UnevenScenesAlone, FootstepsNeedNoOtherExplorer) {
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  request.explorers = {"footsteps"};
+  const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("crack"), request);
+  EXPECT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+}
+
 class UnevenTwins : public UnevenScenes {};
 
 TEST_P(UnevenTwins, AreExhausted) {
