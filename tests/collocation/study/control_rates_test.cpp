@@ -4,44 +4,18 @@
 #include <cmath>
 
 #include "collocation/study/optimal_control.h"
+#include "tests/collocation/study/moved_block.h"
 #include "tests/message_of.h"
 
 namespace possibility::collocation {
 namespace {
 
-/// A block of 1 kg, moved by 1 m from rest to rest.
-struct SmoothlyPushedBlock {
-  explicit SmoothlyPushedBlock(Bounds duration)
-      : problem("block"),
-        move(problem.AddPhase("move", 2)),
-        x(move.AddCoordinate("x")),
-        u(move.AddControl("force")) {
-    move.SetDuration(duration);
-    move.SetDynamics(FunctionOf([](auto force) { return force; }), {u});
-    for (const At end : {At::kStart, At::kEnd}) move.Fix(move.Rate(x), 0, end);
-    move.Fix(x, 0, At::kStart);
-    move.Fix(x, 1, At::kEnd);
-  }
-
-  OptimalControlResult Solve(const TranscriptionScheme& scheme, int intervals) const {
-    OptimalControlOptions options;
-    options.scheme = scheme;
-    options.intervals = {intervals};
-    options.solver.tolerance = 1e-11;
-    return SolveOptimalControl(problem, options);
-  }
-
-  OptimalControlProblem problem;
-  Phase& move;
-  Variable x, u;
-};
-
 /// The least integral of u'^2: x''' vanishes at the ends, where the force is free, and x has the
 /// degree 5. So u' = -60 t (1 - t), u = 5 - 30 t^2 + 20 t^3, and the integral is 120.
 TEST(RateCost, OfAFreeForceIsThatOfTheClosedForm) {
-  SmoothlyPushedBlock block({1, 1});
+  MovedBlock block({1, 1});
   block.move.AddRateCost(block.u);
-  const OptimalControlResult result = block.Solve(GaussLobatto(4), 3);
+  const OptimalControlResult result = block.Solve(GaussLobatto(4), UniformMesh(3));
   ASSERT_TRUE(result.succeeded()) << result.message;
   EXPECT_NEAR(result.objective, 120, 1e-7);
   for (const double t : {0.0, 0.2, 0.55, 1.0}) {
@@ -52,23 +26,23 @@ TEST(RateCost, OfAFreeForceIsThatOfTheClosedForm) {
 
 /// With a force of zero at both ends it is the motion of least jerk (Flash & Hogan 1985): 720.
 TEST(RateCost, OfAForceFromZeroToZeroIsTheLeastJerk) {
-  SmoothlyPushedBlock block({1, 1});
+  MovedBlock block({1, 1});
   block.move.AddRateCost(block.u);
   for (const At end : {At::kStart, At::kEnd}) block.move.Fix(block.u, 0, end);
-  EXPECT_NEAR(block.Solve(GaussLobatto(4), 3).objective, 720, 1e-6);
+  EXPECT_NEAR(block.Solve(GaussLobatto(4), UniformMesh(3)).objective, 720, 1e-6);
   // Straight lines follow the cubic force to the second order.
-  const double coarse = block.Solve(Trapezoidal(), 30).objective - 720;
-  const double fine = block.Solve(Trapezoidal(), 60).objective - 720;
+  const double coarse = block.Solve(Trapezoidal(), UniformMesh(30)).objective - 720;
+  const double fine = block.Solve(Trapezoidal(), UniformMesh(60)).objective - 720;
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.05) << coarse << ", " << fine;
-  EXPECT_NEAR(block.Solve(HermiteSimpson(), 30).objective, 720, 0.5);
+  EXPECT_NEAR(block.Solve(HermiteSimpson(), UniformMesh(30)).objective, 720, 0.5);
 }
 
 /// 120 / T^5 + w T is least at T^6 = 600 / w.
 TEST(RateCost, CountsSecondsWhereTheDurationIsFree) {
-  SmoothlyPushedBlock block({0.5, 5});
+  MovedBlock block({0.5, 5});
   block.move.AddRateCost(block.u, 3);
   block.problem.AddCost({block.move.duration(), At::kEnd}, 3 * 600.0 / 64);
-  const OptimalControlResult result = block.Solve(GaussLobatto(4), 3);
+  const OptimalControlResult result = block.Solve(GaussLobatto(4), UniformMesh(3));
   ASSERT_TRUE(result.succeeded()) << result.message;
   EXPECT_NEAR(result.trajectory.phases[0].duration, 2, 1e-6);
   EXPECT_NEAR(result.objective, 3 * (120.0 / 32 + 600.0 / 64 * 2), 1e-6);
@@ -78,12 +52,12 @@ TEST(RateCost, CountsSecondsWhereTheDurationIsFree) {
 /// quarter of the time each, each. With a = T / 4 the way is 2 a^3: T^3 = 32.
 TEST(BoundRate, TheQuickestMotionHasItsClosedForm) {
   for (const TranscriptionScheme& scheme : {Trapezoidal(), HermiteSimpson()}) {
-    SmoothlyPushedBlock block({1, 10});
+    MovedBlock block({1, 10});
     block.move.BoundRate(block.u, {-2, 1});
     block.move.BoundRate(block.u, {-1, 3});
     for (const At end : {At::kStart, At::kEnd}) block.move.Fix(block.u, 0, end);
     block.problem.AddCost({block.move.duration(), At::kEnd});
-    const OptimalControlResult result = block.Solve(scheme, 8);
+    const OptimalControlResult result = block.Solve(scheme, UniformMesh(8));
     ASSERT_TRUE(result.succeeded()) << result.message;
     EXPECT_NEAR(result.objective, std::cbrt(32.0), 1e-6) << scheme.name;
     EXPECT_LT(result.mesh_error, 1e-6) << scheme.name;
@@ -96,11 +70,11 @@ TEST(BoundRate, TheQuickestMotionHasItsClosedForm) {
 
 /// Slopes of degree 2 are bounded at three points. Beyond the bound between them, the error shows.
 TEST(BoundRate, IsExceededBetweenItsPointsByNoMoreThanTheMeshErrorSays) {
-  SmoothlyPushedBlock block({1, 10});
+  MovedBlock block({1, 10});
   block.move.BoundRate(block.u, {-1, 1});
   for (const At end : {At::kStart, At::kEnd}) block.move.Fix(block.u, 0, end);
   block.problem.AddCost({block.move.duration(), At::kEnd});
-  const OptimalControlResult result = block.Solve(GaussLobatto(4), 3);
+  const OptimalControlResult result = block.Solve(GaussLobatto(4), UniformMesh(3));
   ASSERT_TRUE(result.succeeded()) << result.message;
   double greatest = 0;
   for (double s = 0; s <= 1; s += 0.01) {
@@ -164,7 +138,7 @@ TEST(ContinuedControls, DoNotJumpBetweenPhases) {
 }
 
 TEST(ControlRates, OfWhatIsNoControlAreRefused) {
-  SmoothlyPushedBlock block({1, 1});
+  MovedBlock block({1, 1});
   EXPECT_EQ(MessageOf([&] { block.move.AddRateCost(block.x); }),
             "block: phase 'move': 'x' is no control: the derivatives of coordinates have costs and "
             "bounds of their own");

@@ -6,44 +6,18 @@
 #include "collocation/study/optimal_control.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "collocation/study/stored_solution_writer.h"
+#include "tests/collocation/study/moved_block.h"
 #include "tests/message_of.h"
 #include "tests/models/temporary_folder.h"
 
 namespace possibility::collocation {
 namespace {
 
-/// A block of 1 kg, moved by 1 m from rest to rest with a force of -2 to 1 N.
-struct BlockWithOpenNodes {
-  explicit BlockWithOpenNodes(Bounds duration)
-      : problem("block"),
-        move(problem.AddPhase("move", 2)),
-        x(move.AddCoordinate("x")),
-        u(move.AddControl("force")) {
-    move.SetDuration(duration);
-    move.SetDynamics(FunctionOf([](auto force) { return force; }), {u});
-    for (const At end : {At::kStart, At::kEnd}) move.Fix(move.Rate(x), 0, end);
-    move.Fix(x, 0, At::kStart);
-    move.Fix(x, 1, At::kEnd);
-  }
-
-  OptimalControlResult Solve(const TranscriptionScheme& scheme, const Mesh& mesh) const {
-    OptimalControlOptions options;
-    options.scheme = scheme;
-    options.meshes = {mesh};
-    options.solver.tolerance = 1e-11;
-    return SolveOptimalControl(problem, options);
-  }
-
-  OptimalControlProblem problem;
-  Phase& move;
-  Variable x, u;
-};
-
 class EveryOpenScheme : public ::testing::TestWithParam<TranscriptionScheme> {};
 
 /// The force is 1 until 2/3 of the time and -2 from then on: 3/4 t^2 = 1 for the first part.
 TEST_P(EveryOpenScheme, AForceThatJumpsAtAKnotIsExact) {
-  BlockWithOpenNodes block({0.5, 5});
+  MovedBlock block({0.5, 5});
   block.move.Bound(block.u, {-2, 1});
   block.problem.AddCost({block.move.duration(), At::kEnd});
   const OptimalControlResult result = block.Solve(GetParam(), {0, 1.0 / 3, 2.0 / 3, 1});
@@ -60,7 +34,7 @@ TEST_P(EveryOpenScheme, AForceThatJumpsAtAKnotIsExact) {
 
 /// The least effort is 12, with a force of 6 - 12 t: bounds at an end bind the polynomial there.
 TEST_P(EveryOpenScheme, BoundsAtAnEndHoldWhereNoVariableIs) {
-  BlockWithOpenNodes block({1, 1});
+  MovedBlock block({1, 1});
   block.move.AddIntegralCost("effort", FunctionOf([](auto f) { return f * f; }), {block.u});
   const OptimalControlResult free = block.Solve(GetParam(), UniformMesh(3));
   EXPECT_NEAR(free.objective, 12, 1e-8);
@@ -80,7 +54,7 @@ TEST_P(EveryOpenScheme, BoundsAtAnEndHoldWhereNoVariableIs) {
 }
 
 TEST_P(EveryOpenScheme, IsStoredAndStartsTheSameProblem) {
-  BlockWithOpenNodes block({1, 1});
+  MovedBlock block({1, 1});
   block.move.AddIntegralCost("effort", FunctionOf([](auto f) { return f * f; }), {block.u});
   const OptimalControlResult cold = block.Solve(GetParam(), UniformMesh(4));
   const models::TemporaryFolder folder;
@@ -97,7 +71,7 @@ TEST_P(EveryOpenScheme, IsStoredAndStartsTheSameProblem) {
 }
 
 TEST_P(EveryOpenScheme, HasNoRatesOfControls) {
-  BlockWithOpenNodes block({1, 1});
+  MovedBlock block({1, 1});
   block.move.BoundRate(block.u, {-1, 1});
   EXPECT_EQ(
       MessageOf([&] { block.Solve(GetParam(), UniformMesh(3)); }),
