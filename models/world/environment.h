@@ -8,8 +8,8 @@
 
 namespace possibility::models {
 
-/// One rigid obstacle. If `is_ground`, its top face (a box standing upright, any yaw) is ground
-/// that the robot may bear on.
+/// One rigid obstacle. The robot may bear on it if `is_ground`: on the side of a box that faces up
+/// most (GroundMap), or where Environment::faces says so.
 struct Obstacle {
   std::string name;
   Shape shape;
@@ -17,9 +17,16 @@ struct Obstacle {
   bool is_ground = false;
 };
 
+/// A convex polygon of one plane that the robot may bear on, in the world.
+struct GroundFace {
+  std::string name;
+  std::vector<Eigen::Vector3d> corners;  ///< m, counter-clockwise seen from above
+};
+
 /// A static world. Immutable once loaded.
 struct Environment {
   std::vector<Obstacle> obstacles;
+  std::vector<GroundFace> faces;  ///< ground beside that of boxes
   /// Allowed pelvis positions at a stance: x and y, m.
   Eigen::AlignedBox2d bounds;
 };
