@@ -1,7 +1,9 @@
 #include "actions/footsteps/pose_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <queue>
@@ -27,6 +29,23 @@ struct Move {
 constexpr Move kMoves[] = {{1, 0, 0},   {1, 1, 0},  {0, 1, 0},  {-1, 1, 0}, {-1, 0, 0},
                            {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {0, 0, 1},  {0, 0, -1}};
 
+using Times = std::array<std::array<double, std::size(kMoves)>, PoseField::kHeadings>;
+
+/// Of the moves from each heading, s.
+Times TimesOfMoves(double cell, double first_heading, const PoseField::Paces& paces) {
+  Times times;
+  for (int heading = 0; heading < PoseField::kHeadings; ++heading) {
+    const Eigen::Rotation2Dd turned(first_heading + heading * kTurn);
+    for (std::size_t i = 0; i < std::size(kMoves); ++i) {
+      const Move& move = kMoves[i];
+      const Vector2d way = turned.inverse() * (cell * Vector2d(move.column, move.row));
+      times[heading][i] = paces.ahead * std::abs(way.x()) + paces.aside * std::abs(way.y()) +
+                          paces.turn * kTurn * std::abs(move.heading);
+    }
+  }
+  return times;
+}
+
 int Cell(double at, int count) {
   return static_cast<int>(std::clamp(std::floor(at), 0.0, count - 1.0));
 }
@@ -50,22 +69,20 @@ PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double firs
     const auto place = static_cast<int>(index / kHeadings);
     queue.push({0, place % columns_, place / columns_, static_cast<int>(index % kHeadings)});
   }
+  const Times times_of_moves = TimesOfMoves(cell, first_heading, paces);
   std::size_t visited = 0;
   while (!queue.empty()) {
     const Entry at = queue.top();
     queue.pop();
     if (at.time > times_[Index(at.column, at.row, at.heading)]) continue;
     if (++visited % kPosesPerQuestion == 0) cancellation.ThrowIfCancelled();
-    const Eigen::Rotation2Dd turned(first_heading_ + at.heading * kTurn);
-    for (const Move& move : kMoves) {
+    for (std::size_t i = 0; i < std::size(kMoves); ++i) {
+      const Move& move = kMoves[i];
       const int column = at.column + move.column;
       const int row = at.row + move.row;
       if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
       const int heading = (at.heading + move.heading + kHeadings) % kHeadings;
-      const Vector2d way = turned.inverse() * (cell_ * Vector2d(move.column, move.row));
-      const double time = at.time + paces.ahead * std::abs(way.x()) +
-                          paces.aside * std::abs(way.y()) +
-                          paces.turn * kTurn * std::abs(move.heading);
+      const double time = at.time + times_of_moves[at.heading][i];
       const std::size_t index = Index(column, row, heading);
       if (time >= times_[index]) continue;
       if (open[index] < 0) {
