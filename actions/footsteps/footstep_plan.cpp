@@ -183,7 +183,7 @@ struct FootstepSearch::Search {
                     kTrunkFrom * stance.gait->posture.root_height, limits.trunk_margin)),
         reaches(ReachesOf(*model.robot, stance, 0.97)),
         headings(SquareHeadingsOf(*world.environment)),
-        field(FieldOf(cancellation)) {
+        field(FieldOf()) {
     for (int limb = 0; limb < 2; ++limb) {
       displacements[limb] = DisplacementsOf(limb);
       const SupportPolygon patch(stance.bearing_points[limb]);
@@ -192,6 +192,7 @@ struct FootstepSearch::Search {
           stance.centre_of_mass;
       root_over[limb] = Vector2d(stance.X_SR.translation().head<2>()) + shift;
     }
+    field.At(start.pose, cancellation);  // most of the field
     Begin({start.pose, start.z});
   }
 
@@ -225,7 +226,7 @@ struct FootstepSearch::Search {
     return result;
   }
 
-  PoseField FieldOf(const CancellationToken& cancellation) const {
+  PoseField FieldOf() const {
     std::vector<PlanarPose> places;
     for (const GroundedStance& goal : goals) places.push_back(goal.pose);
     const std::vector<double>& levels = world.ground->levels();
@@ -233,7 +234,7 @@ struct FootstepSearch::Search {
                                  2 * kLevelStep / limits.turn};
     return PoseField(
         world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
-        [&](const PlanarPose& pose) {
+        [this, &levels](const PlanarPose& pose) {
           for (std::size_t level = 0; level < levels.size(); ++level) {
             if (!world.ground->IsNear(static_cast<int>(level), pose.position(),
                                       limits.forward / 2)) {
@@ -242,8 +243,7 @@ struct FootstepSearch::Search {
             if (TrunkIsFree(pose, levels[level])) return true;
           }
           return false;
-        },
-        cancellation);
+        });
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -267,10 +267,8 @@ struct FootstepSearch::Search {
     return Interpolate(node.feet[0].stance, node.feet[1].stance, 0.5);
   }
 
-  double Heuristic(const Node& node) const { return field.At(Middle(node)); }
-
   void Push(Node node) {
-    const double heuristic = Heuristic(node);
+    const double heuristic = field.At(Middle(node));
     if (!std::isfinite(heuristic)) return;
     nodes.push_back(std::move(node));
     open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size()) - 1});
