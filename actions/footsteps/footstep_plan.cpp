@@ -37,6 +37,10 @@ constexpr double kSecondsPerMetreUp = 2;
 constexpr double kEasySquat = 0.02;
 constexpr double kSecondsPerSquat = 60;
 
+/// Work of one turn: a place that is tried counts as this share of a state.
+constexpr std::int64_t kPlacesPerState = 16;
+constexpr std::int64_t kWorkPerQuestion = 256;
+
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
 /// The part of the body that is tested while limbs step: above this share of the root's height.
@@ -120,6 +124,17 @@ bool FootstepSearch::Knows(const models::Gait& gait) {
 struct FootstepSearch::Search {
   using Refusal = std::function<bool(const Footstep&, const Foothold&)>;
 
+  /// Where the limb that moves next may go: not tested yet.
+  struct Candidate {
+    double value = 0;
+    int place = 0;  ///< number of PlaceOf
+    int level = 0;
+    bool operator>(const Candidate& other) const {
+      if (value != other.value) return value > other.value;
+      return place != other.place ? place > other.place : level > other.level;
+    }
+  };
+
   /// Both limbs' places, and the limb that moves next.
   struct Node {
     std::array<Foothold, 2> feet;
@@ -128,12 +143,30 @@ struct FootstepSearch::Search {
     double cost = 0;
     double lift = 0;         ///< of the step that led here
     bool is_tested = false;  ///< against obstacles
+    double squat = 0;        ///< before the next step; once expanded
+    std::vector<Candidate> candidates;  ///< a heap, the least value on top; once expanded
   };
+  /// A node, or the best candidate of a node that has been expanded.
   struct Open {
     double value = 0;
     int node = 0;
+    bool is_candidate = false;
     bool operator>(const Open& other) const {
-      return value != other.value ? value > other.value : node > other.node;
+      if (value != other.value) return value > other.value;
+      return node != other.node ? node < other.node : is_candidate > other.is_candidate;
+    }
+  };
+
+  /// A state, rounded.
+  using Key = std::array<std::int32_t, 9>;
+  struct HashOfKey {
+    std::size_t operator()(const Key& key) const {
+      std::uint64_t hash = 0;
+      for (const std::int32_t number : key) {
+        hash = (hash ^ static_cast<std::uint32_t>(number)) * 0x9E3779B97F4A7C15;
+        hash ^= hash >> 29;
+      }
+      return hash;
     }
   };
 
@@ -150,7 +183,7 @@ struct FootstepSearch::Search {
                     kTrunkFrom * stance.gait->posture.root_height, limits.trunk_margin)),
         reaches(ReachesOf(*model.robot, stance, 0.97)),
         headings(SquareHeadingsOf(*world.environment)),
-        field(FieldOf(cancellation)) {
+        field(FieldOf()) {
     for (int limb = 0; limb < 2; ++limb) {
       displacements[limb] = DisplacementsOf(limb);
       const SupportPolygon patch(stance.bearing_points[limb]);
@@ -159,12 +192,17 @@ struct FootstepSearch::Search {
           stance.centre_of_mass;
       root_over[limb] = Vector2d(stance.X_SR.translation().head<2>()) + shift;
     }
+    field.At(start.pose, cancellation);  // most of the field
+    Begin({start.pose, start.z});
+  }
+
+  void Begin(const Foothold& start) {
     for (const int next : {0, 1}) {
       Node node;
-      for (Foothold& foot : node.feet) foot = {start.pose, start.z};
+      node.feet.fill(start);
       node.next = next;
       node.is_tested = true;
-      Push(node);
+      Push(std::move(node));
     }
   }
 
@@ -188,7 +226,7 @@ struct FootstepSearch::Search {
     return result;
   }
 
-  PoseField FieldOf(const CancellationToken& cancellation) const {
+  PoseField FieldOf() const {
     std::vector<PlanarPose> places;
     for (const GroundedStance& goal : goals) places.push_back(goal.pose);
     const std::vector<double>& levels = world.ground->levels();
@@ -196,7 +234,7 @@ struct FootstepSearch::Search {
                                  2 * kLevelStep / limits.turn};
     return PoseField(
         world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
-        [&](const PlanarPose& pose) {
+        [this, &levels](const PlanarPose& pose) {
           for (std::size_t level = 0; level < levels.size(); ++level) {
             if (!world.ground->IsNear(static_cast<int>(level), pose.position(),
                                       limits.forward / 2)) {
@@ -205,24 +243,23 @@ struct FootstepSearch::Search {
             if (TrunkIsFree(pose, levels[level])) return true;
           }
           return false;
-        },
-        cancellation);
+        });
   }
 
-  static std::int64_t Quantised(double value, double size) { return std::llround(value / size); }
+  static std::int32_t Quantised(double value, double size) {
+    return static_cast<std::int32_t>(std::lround(value / size));
+  }
 
-  static std::string KeyOf(const Node& node) {
-    std::string key;
-    const auto add = [&key](std::int64_t number) {
-      key.append(reinterpret_cast<const char*>(&number), sizeof number);
-    };
+  static Key KeyOf(const Node& node) {
+    Key key;
+    std::size_t i = 0;
     for (const Foothold& foot : node.feet) {
-      add(Quantised(foot.stance.x, kSamePlace));
-      add(Quantised(foot.stance.y, kSamePlace));
-      add(Quantised(WrapAngle(foot.stance.yaw), kSameTurn));
-      add(Quantised(foot.z, kSameHeight));
+      key[i++] = Quantised(foot.stance.x, kSamePlace);
+      key[i++] = Quantised(foot.stance.y, kSamePlace);
+      key[i++] = Quantised(WrapAngle(foot.stance.yaw), kSameTurn);
+      key[i++] = Quantised(foot.z, kSameHeight);
     }
-    add(node.next);
+    key[i] = node.next;
     return key;
   }
 
@@ -230,12 +267,10 @@ struct FootstepSearch::Search {
     return Interpolate(node.feet[0].stance, node.feet[1].stance, 0.5);
   }
 
-  double Heuristic(const Node& node) const { return field.At(Middle(node)); }
-
-  void Push(const Node& node) {
-    const double heuristic = Heuristic(node);
+  void Push(Node node) {
+    const double heuristic = field.At(Middle(node));
     if (!std::isfinite(heuristic)) return;
-    nodes.push_back(node);
+    nodes.push_back(std::move(node));
     open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size()) - 1});
   }
 
@@ -283,56 +318,117 @@ struct FootstepSearch::Search {
     return !is_refused || !is_refused({moved, from, to, *lift}, node->feet[node->next]);
   }
 
-  void TryPlace(int parent, int limb, const PlanarPose& there) {
-    const Node from = nodes[parent];  // a copy: pushing moves the nodes
-    const std::vector<double>& levels = world.ground->levels();
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-      if (std::abs(levels[level] - from.feet[1 - limb].z) > limits.rise + 1e-6) continue;
-      const auto place = ground.Place(limb, there, static_cast<int>(level));
-      if (place) TryStep(parent, limb, *place);
+  /// Places that the limb which moves next may try: goals, displacements at square headings, and
+  /// displacements. None if it is not one of the family.
+  std::optional<PlanarPose> PlaceOf(const Node& node, int number) const {
+    const int limb = node.next;
+    const PlanarPose& other = node.feet[1 - limb].stance;
+    if (number < static_cast<int>(goals.size())) {
+      if (!IsWithin(limb, other.Inverse() * goals[number].pose)) return std::nullopt;
+      return goals[number].pose;
     }
+    number -= static_cast<int>(goals.size());
+    const int each = static_cast<int>(displacements[limb].size());
+    const int heading = number / each;
+    PlanarPose displacement = displacements[limb][number % each];
+    if (heading < static_cast<int>(headings.size())) {
+      if (displacement.yaw != 0) return std::nullopt;
+      displacement.yaw = WrapAngle(4 * (headings[heading] - other.yaw)) / 4;
+      if (std::abs(displacement.yaw) > limits.turn || std::abs(displacement.yaw) < 1e-6) {
+        return std::nullopt;
+      }
+    }
+    return other * displacement;
   }
 
-  void TryStep(int parent, int limb, const Foothold& place) {
-    const Node from = nodes[parent];  // a copy: pushing moves the nodes
-    const Foothold& other = from.feet[1 - limb];
-    const std::optional<double> squat = Squat(limb, place, other);
-    const std::optional<double> before = Squat(limb, from.feet[limb], other);
-    if (!squat || !before) return;
-    if (GapBetween(PatchAt(stance, limb, place.stance), PatchAt(stance, 1 - limb, other.stance)) <
-        kPatchGap) {
-      return;
+  int PlacesOf(int limb) const {
+    return static_cast<int>(goals.size() + (headings.size() + 1) * displacements[limb].size());
+  }
+
+  /// Levels that the limb which moves next may reach.
+  std::vector<int> LevelsNear(const Node& node) const {
+    const Foothold& other = node.feet[1 - node.next];
+    const double reach = limits.forward + limits.lateral + FootholdGround::kMostShift +
+                         2 * stance.patch_centres[node.next].head<2>().norm();
+    std::vector<int> near;
+    const std::vector<double>& levels = world.ground->levels();
+    for (int level = 0; level < static_cast<int>(levels.size()); ++level) {
+      if (std::abs(levels[level] - other.z) > limits.rise + 1e-6) continue;
+      if (world.ground->IsNear(level, other.stance.position(), reach)) near.push_back(level);
     }
+    return near;
+  }
+
+  /// Values of the places about a node, as if the limb could go there. They are tested later, best
+  /// first.
+  void Expand(int index) {
+    Node& node = nodes[index];
+    const int limb = node.next;
+    const Foothold& other = node.feet[1 - limb];
+    const std::optional<double> squat = Squat(limb, node.feet[limb], other);
+    if (!squat) return;
+    node.squat = *squat;
+    const std::vector<int> near = LevelsNear(node);
+    const int places = PlacesOf(limb);
+    for (int place = 0; place < places; ++place) {
+      const std::optional<PlanarPose> there = PlaceOf(node, place);
+      if (!there) continue;
+      const double time = field.At(Interpolate(other.stance, *there, 0.5));
+      if (!std::isfinite(time)) continue;
+      for (const int level : near) {
+        const Foothold foothold{*there, world.ground->levels()[level]};
+        node.candidates.push_back(
+            {CostOf(node, foothold, *squat) + kGreed * time, place, level});
+      }
+    }
+    std::make_heap(node.candidates.begin(), node.candidates.end(), std::greater<>());
+    PushCandidate(index);
+  }
+
+  double CostOf(const Node& node, const Foothold& place, double squat) const {
+    return node.cost + actions::ExpectedDuration({node.next, node.feet[node.next], place, 0}) +
+           kSecondsPerSquat * squat;
+  }
+
+  void PushCandidate(int index) {
+    const std::vector<Candidate>& candidates = nodes[index].candidates;
+    if (!candidates.empty()) open.push({candidates.front().value, index, true});
+  }
+
+  /// The node's best candidate.
+  Candidate Take(int index) {
+    std::vector<Candidate>& candidates = nodes[index].candidates;
+    std::pop_heap(candidates.begin(), candidates.end(), std::greater<>());
+    const Candidate best = candidates.back();
+    candidates.pop_back();
+    PushCandidate(index);
+    return best;
+  }
+
+  void TryPlace(int parent, int place, int level) {
+    const Node& from = nodes[parent];
+    const auto foothold = ground.Place(from.next, *PlaceOf(from, place), level);
+    if (foothold) TryStep(parent, *foothold);
+  }
+
+  void TryStep(int parent, const Foothold& place) {
+    const Node& from = nodes[parent];
+    const int limb = from.next;
+    const Foothold& other = from.feet[1 - limb];
     Node node;
     node.feet = from.feet;
     node.feet[limb] = place;
     node.next = 1 - limb;
     node.parent = parent;
-    node.cost = from.cost + actions::ExpectedDuration({limb, from.feet[limb], place, 0}) +
-                kSecondsPerSquat * std::max(*squat, *before);
-    if (!closed.contains(KeyOf(node))) Push(node);
-  }
-
-  void Expand(int index) {
-    const int limb = nodes[index].next;
-    const Foothold other = nodes[index].feet[1 - limb];
-    for (const GroundedStance& goal : goals) {
-      if (IsWithin(limb, other.stance.Inverse() * goal.pose) &&
-          std::abs(goal.z - other.z) <= limits.rise) {
-        TryPlace(index, limb, goal.pose);
-      }
+    if (closed.contains(KeyOf(node))) return;
+    const std::optional<double> squat = Squat(limb, place, other);
+    if (!squat) return;
+    if (GapBetween(PatchAt(stance, limb, place.stance), PatchAt(stance, 1 - limb, other.stance)) <
+        kPatchGap) {
+      return;
     }
-    for (const double heading : headings) {
-      const double turn = WrapAngle(4 * (heading - other.stance.yaw)) / 4;
-      if (std::abs(turn) > limits.turn || std::abs(turn) < 1e-6) continue;
-      for (const PlanarPose& displacement : displacements[limb]) {
-        if (displacement.yaw != 0) continue;
-        TryPlace(index, limb, other.stance * PlanarPose{displacement.x, displacement.y, turn});
-      }
-    }
-    for (const PlanarPose& displacement : displacements[limb]) {
-      TryPlace(index, limb, other.stance * displacement);
-    }
+    node.cost = CostOf(from, place, std::max(*squat, from.squat));
+    Push(std::move(node));
   }
 
   /// Whether a displacement in the other limb's stance is one of the family.
@@ -384,7 +480,7 @@ struct FootstepSearch::Search {
   std::array<Vector2d, 2> root_over;  ///< of the stance: the root over a limb that bears alone
   std::vector<Node> nodes;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  std::unordered_set<std::string> closed;
+  std::unordered_set<Key, HashOfKey> closed;
   std::int64_t expanded = 0;
 };
 
@@ -401,14 +497,20 @@ std::int64_t FootstepSearch::states() const { return search_->expanded; }
 FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
                                                const CancellationToken& cancellation) {
   Search& search = *search_;
-  for (std::int64_t i = 0; i < states; ++i) {
+  for (std::int64_t work = 0; work < states * kPlacesPerState; ++work) {
     if (search.open.empty() || search.expanded >= most_states) return Status::kExhausted;
-    const int index = search.open.top().node;
+    if (work % kWorkPerQuestion == 0) cancellation.ThrowIfCancelled();
+    const auto [value, index, is_candidate] = search.open.top();
     search.open.pop();
-    if (i % 16 == 0) cancellation.ThrowIfCancelled();
+    if (is_candidate) {
+      const Search::Candidate candidate = search.Take(index);
+      search.TryPlace(index, candidate.place, candidate.level);
+      continue;
+    }
     if (!search.closed.insert(Search::KeyOf(search.nodes[index])).second) continue;
     if (!search.Test(&search.nodes[index], is_refused)) continue;
     ++search.expanded;
+    work += kPlacesPerState - 1;
     if (const int goal = search.GoalAt(search.nodes[index]); goal >= 0) {
       goal_ = goal;
       steps_ = search.StepsTo(index);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
 #include <functional>
+#include <queue>
 #include <vector>
 
 #include "actions/motion/planar_pose.h"
@@ -10,7 +13,8 @@
 namespace possibility::actions {
 
 /// Times of the quickest ways to some goals among poses of a lattice in SE(2), by Dijkstra's
-/// algorithm. A pose has ten neighbours: eight cells around it, and a turn to either side.
+/// algorithm, which runs as far as the questions need. A pose has ten neighbours: eight cells around
+/// it, and a turn to either side. One thread at a time.
 class PoseField {
  public:
   struct Paces {
@@ -21,17 +25,31 @@ class PoseField {
   static constexpr int kHeadings = 16;
 
   /// `bounds`, `cell`: m. `first_heading`: rad, one of the lattice's headings. `is_open`: of a pose
-  /// of the lattice; asked once per pose, and only where a way leads. The poses nearest to goals
-  /// are open. @throws Cancelled.
+  /// of the lattice; asked once per pose, and only where a way or a question leads. The poses
+  /// nearest to goals are open.
   PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
             const std::vector<PlanarPose>& goals, const Paces& paces,
-            const std::function<bool(const PlanarPose&)>& is_open,
-            const CancellationToken& cancellation = {});
+            std::function<bool(const PlanarPose&)> is_open);
 
-  /// From the nearest pose of the lattice, s. Infinite if no way leads from there.
-  double At(const PlanarPose& pose) const { return times_[IndexOf(pose)]; }
+  /// From the nearest pose of the lattice, s. Infinite if that is not open or no way leads from
+  /// there. @throws Cancelled.
+  double At(const PlanarPose& pose, const CancellationToken& cancellation = {});
 
  private:
+  static constexpr int kMovesOfAPose = 10;
+  enum class State : signed char { kUnknown, kOpen, kClosed };
+
+  /// A pose that a way leads to, with its time.
+  struct Entry {
+    double time = 0;
+    std::size_t index = 0;
+    bool operator>(const Entry& other) const {
+      return time != other.time ? time > other.time : index > other.index;
+    }
+  };
+
+  bool IsOpen(std::size_t index);
+  void Visit(const Entry& at);
   std::size_t IndexOf(const PlanarPose& pose) const;
   std::size_t Index(int column, int row, int heading) const {
     return (static_cast<std::size_t>(row) * columns_ + column) * kHeadings + heading;
@@ -41,7 +59,12 @@ class PoseField {
   double cell_;
   double first_heading_;
   int columns_ = 1, rows_ = 1;
-  std::vector<double> times_;
+  std::function<bool(const PlanarPose&)> is_open_;
+  std::array<std::array<double, kMovesOfAPose>, kHeadings> times_of_moves_;  ///< by heading, s
+  std::vector<double> times_;  ///< final up to the time of the queue's first entry
+  std::vector<State> states_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  std::size_t visited_ = 0;
 };
 
 }  // namespace possibility::actions

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace possibility::actions {
 namespace {
@@ -19,21 +20,21 @@ PoseField FieldTo(const PlanarPose& goal, const PoseField::Paces& paces,
 bool Everywhere(const PlanarPose&) { return true; }
 
 TEST(PoseFieldTest, TimeAlongAnAxisIsDistanceTimesPace) {
-  const PoseField field = FieldTo({0.55, 1.55, 0}, {2, 5, 1}, Everywhere);
+  PoseField field = FieldTo({0.55, 1.55, 0}, {2, 5, 1}, Everywhere);
   EXPECT_NEAR(field.At({2.55, 1.55, 0}), 4, 1e-9);
   EXPECT_NEAR(field.At({0.55, 0.55, 0}), 5, 1e-9);
   EXPECT_NEAR(field.At({0.55, 1.55, 0}), 0, 1e-12);
 }
 
 TEST(PoseFieldTest, ATurnTakesItsTime) {
-  const PoseField field = FieldTo({2, 1.5, 0}, {1, 1, 3}, Everywhere);
+  PoseField field = FieldTo({2, 1.5, 0}, {1, 1, 3}, Everywhere);
   EXPECT_NEAR(field.At({2, 1.5, std::numbers::pi}), 3 * std::numbers::pi, 1e-9);
   EXPECT_NEAR(field.At({2, 1.5, -std::numbers::pi / 2}), 1.5 * std::numbers::pi, 1e-9);
 }
 
 /// Sideways is dear: it is quicker to turn, walk and turn back.
 TEST(PoseFieldTest, ALongWayAsideIsWalked) {
-  const PoseField field = FieldTo({2, 0.05, 0}, {1, 100, 0.1}, Everywhere);
+  PoseField field = FieldTo({2, 0.05, 0}, {1, 100, 0.1}, Everywhere);
   EXPECT_NEAR(field.At({2, 2.55, 0}), 2.5 + 0.1 * std::numbers::pi, 1e-9);
 }
 
@@ -45,7 +46,7 @@ TEST(PoseFieldTest, AGapThatIsOpenToOneHeadingIsPassedInIt) {
         std::abs(WrapAngle(pose.yaw - across)) < 0.1 && std::abs(pose.y - 1.5) < 0.3;
     return !in_wall || sidles;
   };
-  const PoseField field = FieldTo({3.55, 1.55, 0}, {1, 2, 0.5}, is_open);
+  PoseField field = FieldTo({3.55, 1.55, 0}, {1, 2, 0.5}, is_open);
   // To the wall and beyond it ahead, through it aside, and a quarter turn there and back.
   const double time = field.At({0.55, 1.55, 0});
   EXPECT_GT(time, 3 + 0.5 * std::numbers::pi);
@@ -54,15 +55,32 @@ TEST(PoseFieldTest, AGapThatIsOpenToOneHeadingIsPassedInIt) {
 
 TEST(PoseFieldTest, WithoutAWayTheTimeIsInfinite) {
   const auto is_open = [](const PlanarPose& pose) { return pose.x < 2 || pose.x > 2.2; };
-  const PoseField field = FieldTo({3.5, 1.5, 0}, {1, 1, 1}, is_open);
+  PoseField field = FieldTo({3.5, 1.5, 0}, {1, 1, 1}, is_open);
   EXPECT_TRUE(std::isinf(field.At({0.5, 1.5, 0})));
   EXPECT_TRUE(std::isfinite(field.At({2.5, 0.5, 1})));
 }
 
 TEST(PoseFieldTest, CancellationEndsIt) {
-  EXPECT_THROW(PoseField(kRoom, 0.01, 0, {{2, 1.5, 0}}, {1, 1, 1}, Everywhere,
-                         CancellationToken([] { return false; })),
-               Cancelled);
+  PoseField field(kRoom, 0.01, 0, {{2, 1.5, 0}}, {1, 1, 1}, Everywhere);
+  EXPECT_THROW(field.At({0.1, 0.1, 0}, CancellationToken([] { return false; })), Cancelled);
+}
+
+/// Questions near the goal first, or the farthest one first: the answers are the same.
+TEST(PoseFieldTest, AnswersDoNotDependOnTheOrderOfQuestions) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  const auto is_open = [](const PlanarPose& pose) {
+    return std::abs(std::sin(2.3 * pose.x) + std::cos(3.1 * pose.y + pose.yaw)) > 0.3;
+  };
+  std::vector<PlanarPose> poses;
+  for (int i = 0; i < 500; ++i) {
+    poses.push_back({4 * share(random), 3 * share(random), 6.28 * share(random)});
+  }
+  PoseField one = FieldTo({2, 1.5, 0}, {1, 3, 0.7}, is_open);
+  PoseField other = FieldTo({2, 1.5, 0}, {1, 3, 0.7}, is_open);
+  std::vector<double> times;
+  for (const PlanarPose& pose : poses) times.push_back(one.At(pose));
+  for (std::size_t i = poses.size(); i-- > 0;) EXPECT_EQ(other.At(poses[i]), times[i]);
 }
 
 }  // namespace
