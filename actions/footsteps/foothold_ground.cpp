@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actions/motion/limb_tilt.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
@@ -18,6 +19,11 @@ constexpr double kSide = 0.012;
 constexpr double kShift = 0.015;  // m, between places that are tried
 constexpr double kLift = 0.03;    // m, between lifts that are tried
 constexpr int kSwingSamples = 12;
+
+/// Of the friction coefficient, for slopes: the rest is for motion.
+constexpr double kUsableFriction = 0.85;
+
+bool IsUpright(const Eigen::Isometry3d& X) { return X.linear().col(2) == Vector3d::UnitZ(); }
 
 /// Around the shapes of the limb's link, in the nominal posture.
 Eigen::AlignedBox3d FootBox(const models::RobotModel& robot, const NominalStance& stance,
@@ -36,35 +42,82 @@ Eigen::AlignedBox3d FootBox(const models::RobotModel& robot, const NominalStance
 
 }  // namespace
 
+bool AreOnOneSlope(const Foothold& a, const Foothold& b) {
+  return !a.IsLevel() && a.normal == b.normal && a.offset == b.offset;
+}
+
+Eigen::Isometry3d FrameOf(const NominalStance& stance, int limb, const Foothold& place) {
+  if (place.IsLevel()) return place.stance.At(place.z);
+  const Vector3d& centre = stance.patch_centres[limb];
+  const Vector2d from_above = place.stance * Vector2d(centre.head<2>());
+  Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+  X_WS.linear() = StandingOn(place.normal, place.stance.yaw);
+  X_WS.translation() = Vector3d(from_above.x(), from_above.y(), place.z) -
+                       X_WS.linear() * Vector3d(centre.x(), centre.y(), 0);
+  return X_WS;
+}
+
+Eigen::Isometry3d PatchPoseOf(const NominalStance& stance, int limb, const Foothold& place) {
+  return FrameOf(stance, limb, place) * Eigen::Translation3d(stance.patch_centres[limb]) *
+         Eigen::AngleAxisd(stance.patch_headings[limb], Vector3d::UnitZ());
+}
+
 FootholdGround::FootholdGround(const models::RobotModel& robot, const NominalStance& stance,
                                const World& world, double margin)
-    : stance_(stance), world_(world), margin_(margin), checker_(*world.environment) {
+    : stance_(stance),
+      world_(world),
+      margin_(margin),
+      steepest_(kUsableFriction * robot.friction),
+      checker_(*world.environment) {
   for (int limb = 0; limb < static_cast<int>(stance.gait->limbs.size()); ++limb) {
     feet_.emplace_back(std::vector<Eigen::AlignedBox3d>{FootBox(robot, stance, limb)});
   }
 }
 
-bool FootholdGround::Holds(int limb, int level, const PlanarPose& stance) const {
+bool FootholdGround::IsGentle(int plane) const {
+  const Vector3d& normal = world_.ground->planes()[plane].normal;
+  return normal.head<2>().norm() <= steepest_ * normal.z();
+}
+
+Foothold FootholdGround::On(int limb, const PlanarPose& stance, int plane) const {
+  const models::GroundPlane& ground = world_.ground->planes()[plane];
+  const Vector2d centre = stance * Vector2d(stance_.patch_centres[limb].head<2>());
+  return {stance, ground.HeightAt(centre), ground.normal, ground.offset};
+}
+
+bool FootholdGround::Holds(int limb, int plane, const Foothold& place) const {
   const std::vector<Vector2d>& points = stance_.bearing_points[limb];
+  if (place.IsLevel()) {
+    return std::all_of(points.begin(), points.end(), [&](const Vector2d& p) {
+      return world_.ground->Clearance(plane, place.stance * p) >= margin_;
+    });
+  }
+  const Eigen::Isometry3d X_WS = FrameOf(stance_, limb, place);
   return std::all_of(points.begin(), points.end(), [&](const Vector2d& p) {
-    return world_.ground->Clearance(level, stance * p) >= margin_;
+    const Vector3d there = X_WS * Vector3d(p.x(), p.y(), 0);
+    return world_.ground->Clearance(plane, there.head<2>()) >= margin_;
   });
 }
 
-bool FootholdGround::IsFree(int limb, const PlanarPose& stance, double z) const {
-  return checker_.AreFree(feet_[limb], stance.At(z));
+bool FootholdGround::IsFree(int limb, const Eigen::Isometry3d& X_WS) const {
+  const models::UprightBoxes& foot = feet_[limb];
+  if (IsUpright(X_WS)) return checker_.AreFree(foot, X_WS);
+  for (std::size_t i = 0; i < foot.shapes().size(); ++i) {
+    if (!checker_.IsFree(foot.shapes()[i], X_WS * foot.X_SB()[i], 0)) return false;
+  }
+  return true;
 }
 
-std::optional<Foothold> FootholdGround::Place(int limb, const PlanarPose& stance, int level) const {
-  const double z = world_.ground->levels()[level];
-  if (!world_.ground->IsNear(level, stance * Vector2d(stance_.patch_centres[limb].head<2>()),
+std::optional<Foothold> FootholdGround::Place(int limb, const PlanarPose& stance, int plane) const {
+  if (!IsGentle(plane) ||
+      !world_.ground->IsNear(plane, stance * Vector2d(stance_.patch_centres[limb].head<2>()),
                              kMostShift)) {
     return std::nullopt;
   }
   for (double shift = 0; shift <= kMostShift; shift += kShift) {
     for (const double ahead : {shift, -shift}) {
-      const PlanarPose there = stance * PlanarPose{ahead, 0, 0};
-      if (Holds(limb, level, there) && IsFree(limb, there, z)) return Foothold{there, z};
+      const Foothold there = On(limb, stance * PlanarPose{ahead, 0, 0}, plane);
+      if (Holds(limb, plane, there) && IsFree(limb, FrameOf(stance_, limb, there))) return there;
       if (shift == 0) break;
     }
   }
@@ -73,14 +126,22 @@ std::optional<Foothold> FootholdGround::Place(int limb, const PlanarPose& stance
 
 bool FootholdGround::SwingIsFree(int limb, const Foothold& from, const Foothold& to,
                                  double clearance, double lift) const {
+  const Eigen::Isometry3d X_from = FrameOf(stance_, limb, from);
+  const Eigen::Isometry3d X_to = FrameOf(stance_, limb, to);
+  const Vector3d centre = stance_.patch_centres[limb];
   const SwingPath path{
-      {from.stance.x, from.stance.y, from.z}, {to.stance.x, to.stance.y, to.z}, clearance, lift, 1};
+      X_from * centre, X_to * centre, clearance, lift, 1, BearOnOneSlope(X_from, X_to)};
+  const TurnAngles before = AnglesOf(X_from.linear());
+  const TurnAngles after = AnglesOf(X_to.linear());
   for (int i = 1; i < kSwingSamples; ++i) {
     const double t = static_cast<double>(i) / kSwingSamples;
-    const Vector3d p = path.At(t).value;
-    const double yaw =
-        from.stance.yaw + path.Progress(t).value * WrapAngle(to.stance.yaw - from.stance.yaw);
-    if (!IsFree(limb, {p.x(), p.y(), yaw}, p.z() - kGap)) return false;
+    const double s = path.Progress(t).value;
+    Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
+    X_WS.linear() = RotationOf({before.yaw + s * WrapAngle(after.yaw - before.yaw),
+                                before.pitch + s * (after.pitch - before.pitch),
+                                before.roll + s * (after.roll - before.roll)});
+    X_WS.translation() = path.At(t).value - X_WS.linear() * centre - kGap * X_WS.linear().col(2);
+    if (!IsFree(limb, X_WS)) return false;
   }
   return true;
 }

@@ -13,11 +13,24 @@
 
 namespace possibility::actions {
 
-/// Where a limb bears: the stance that it stands in, and the height of its ground.
+/// Where a limb bears: the stance that it stands in, seen from above, and its ground.
 struct Foothold {
   PlanarPose stance;
-  double z = 0;  ///< m
+  double z = 0;                                       ///< m, of the ground under the patch's centre
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the ground, unit
+  double offset = 0;                                  ///< of a slope (models::GroundPlane), m
+
+  bool IsLevel() const { return normal == Eigen::Vector3d::UnitZ(); }
 };
+
+bool AreOnOneSlope(const Foothold& a, const Foothold& b);
+
+/// The stance frame S as the limb's patch carries it, in the world: S itself on level ground;
+/// otherwise tilted with the ground, about the patch's centre.
+Eigen::Isometry3d FrameOf(const NominalStance& stance, int limb, const Foothold& place);
+
+/// Pose of the limb's patch there (models::ContactPatch::Frame).
+Eigen::Isometry3d PatchPoseOf(const NominalStance& stance, int limb, const Foothold& place);
 
 /// Where single limbs of a gait may bear, and how they get there. Const functions may run in
 /// several threads.
@@ -27,9 +40,14 @@ class FootholdGround {
   FootholdGround(const models::RobotModel& robot, const NominalStance& stance, const World& world,
                  double margin);
 
-  /// The limb on ground of a level. Where the ground ends under the limb, or its link would hit
+  /// The limb on ground of a plane. Where the ground ends under the limb, or its link would hit
   /// something, it is moved ahead or back, by kMostShift at most. None if that does not help.
-  std::optional<Foothold> Place(int limb, const PlanarPose& stance, int level) const;
+  std::optional<Foothold> Place(int limb, const PlanarPose& stance, int plane) const;
+
+  /// Whether friction holds a foot on the plane.
+  bool IsGentle(int plane) const;
+  /// There, were it ground.
+  Foothold On(int limb, const PlanarPose& stance, int plane) const;
 
   /// Least lift (SwingPath) with which the limb's link swings from one place to the other without a
   /// hit. None if `most` (m) is not enough.
@@ -39,14 +57,16 @@ class FootholdGround {
   static constexpr double kMostShift = 0.06;  ///< m
 
  private:
-  bool Holds(int limb, int level, const PlanarPose& stance) const;
-  bool IsFree(int limb, const PlanarPose& stance, double z) const;
+  bool Holds(int limb, int plane, const Foothold& place) const;
+  /// Whether the box about the limb's link is free, in a stance frame.
+  bool IsFree(int limb, const Eigen::Isometry3d& X_WS) const;
   bool SwingIsFree(int limb, const Foothold& from, const Foothold& to, double clearance,
                    double lift) const;
 
   const NominalStance& stance_;
   const World& world_;
   double margin_;
+  double steepest_;  ///< tangent
   models::CollisionChecker checker_;
   std::vector<models::UprightBoxes> feet_;  ///< by limb: box about its link, in the stance frame
 };

@@ -35,11 +35,11 @@ constexpr double kLeastSelfDistance = 0.001;
 /// The root as high as the legs reach: more than that above the stance, as a share of its height.
 constexpr double kTall = 0.21;
 
-bool IsHigh(const Footstep& step) { return step.lift > 0 || step.from.z != step.to.z; }
+bool IsHigh(const Footstep& step) { return step.lift > 0 || step.ChangeOfHeight() > 0; }
 
 double SwingDuration(const Footstep& step) {
   if (!IsHigh(step)) return kLevelSwing;
-  return kHighSwing + kSecondsPerMetreUp * (step.lift + std::abs(step.to.z - step.from.z));
+  return kHighSwing + kSecondsPerMetreUp * (step.lift + step.ChangeOfHeight());
 }
 
 }  // namespace
@@ -52,11 +52,6 @@ int FootstepMotion::StepOfPhase(int phase, int steps) {
   return std::clamp((phase - 1) / 2, 0, steps - 1);
 }
 
-Eigen::Isometry3d FootstepMotion::PatchAt(int limb, const Foothold& place) const {
-  return place.stance.At(place.z) * Eigen::Translation3d(stance_->patch_centres[limb]) *
-         Eigen::AngleAxisd(stance_->patch_headings[limb], Eigen::Vector3d::UnitZ());
-}
-
 models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& slowness,
                                                    const Foothold& start,
                                                    const std::vector<Footstep>& steps) const {
@@ -64,7 +59,7 @@ models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& sl
   models::ContactInterval standing;
   for (std::size_t limb = 0; limb < stance_->gait->limbs.size(); ++limb) {
     schedule.contacts.push_back(robot_->contacts[stance_->gait->limbs[limb].contact].name);
-    standing.bearing.emplace_back(PatchAt(static_cast<int>(limb), start));
+    standing.bearing.emplace_back(PatchPoseOf(*stance_, static_cast<int>(limb), start));
   }
   standing.duration = kStart;
   schedule.intervals.push_back(standing);
@@ -73,7 +68,7 @@ models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& sl
     swing.bearing[steps[i].limb].reset();
     swing.duration = slowness[i] * SwingDuration(steps[i]);
     schedule.intervals.push_back(std::move(swing));
-    standing.bearing[steps[i].limb] = PatchAt(steps[i].limb, steps[i].to);
+    standing.bearing[steps[i].limb] = PatchPoseOf(*stance_, steps[i].limb, steps[i].to);
     const bool next_is_high = i + 1 < steps.size() && IsHigh(steps[i + 1]);
     standing.duration =
         slowness[i] * (IsHigh(steps[i]) || next_is_high ? kHighDoubleSupport : kDoubleSupport);
@@ -164,6 +159,7 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
     place.stance.x -= origin.x();
     place.stance.y -= origin.y();
     place.z -= origin.z();
+    place.offset -= place.normal.dot(origin);
     return place;
   };
   std::vector<Footstep> near = steps;

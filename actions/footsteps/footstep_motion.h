@@ -65,7 +65,6 @@ class FootstepMotion {
                              const CancellationToken& cancellation) const;
   models::ContactSchedule ScheduleOf(const std::vector<double>& slowness, const Foothold& start,
                                      const std::vector<Footstep>& steps) const;
-  Eigen::Isometry3d PatchAt(int limb, const Foothold& place) const;
   void RequireSelfClearance(const std::vector<Phase>& motion, double distance, int steps) const;
 
   const models::RobotModel* robot_;

@@ -111,7 +111,7 @@ FootstepLimits FootstepLimits::Of(const models::RobotModel& robot, const Nominal
 }
 
 double ExpectedDuration(const Footstep& step) {
-  const double height = step.lift + std::abs(step.to.z - step.from.z);
+  const double height = step.lift + step.ChangeOfHeight();
   return height > 0 ? kHighStep + kSecondsPerMetreUp * height : kLevelStep;
 }
 
@@ -128,10 +128,10 @@ struct FootstepSearch::Search {
   struct Candidate {
     double value = 0;
     int place = 0;  ///< number of PlaceOf
-    int level = 0;
+    int plane = 0;
     bool operator>(const Candidate& other) const {
       if (value != other.value) return value > other.value;
-      return place != other.place ? place > other.place : level > other.level;
+      return place != other.place ? place > other.place : plane > other.plane;
     }
   };
 
@@ -141,9 +141,9 @@ struct FootstepSearch::Search {
     int next = 0;
     int parent = -1;
     double cost = 0;
-    double lift = 0;         ///< of the step that led here
-    bool is_tested = false;  ///< against obstacles
-    double squat = 0;        ///< before the next step; once expanded
+    double lift = 0;                    ///< of the step that led here
+    bool is_tested = false;             ///< against obstacles
+    double squat = 0;                   ///< before the next step; once expanded
     std::vector<Candidate> candidates;  ///< a heap, the least value on top; once expanded
   };
   /// A node, or the best candidate of a node that has been expanded.
@@ -229,21 +229,16 @@ struct FootstepSearch::Search {
   PoseField FieldOf() const {
     std::vector<PlanarPose> places;
     for (const GroundedStance& goal : goals) places.push_back(goal.pose);
-    const std::vector<double>& levels = world.ground->levels();
     const PoseField::Paces paces{kLevelStep / limits.forward, 2 * kLevelStep / limits.lateral,
                                  2 * kLevelStep / limits.turn};
-    return PoseField(
-        world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
-        [this, &levels](const PlanarPose& pose) {
-          for (std::size_t level = 0; level < levels.size(); ++level) {
-            if (!world.ground->IsNear(static_cast<int>(level), pose.position(),
-                                      limits.forward / 2)) {
-              continue;
-            }
-            if (TrunkIsFree(pose, levels[level])) return true;
-          }
-          return false;
-        });
+    return PoseField(world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(),
+                     places, paces, [this](const PlanarPose& pose) {
+                       for (const int plane : PlanesNear(pose.position(), limits.forward / 2)) {
+                         const double z = world.ground->planes()[plane].HeightAt(pose.position());
+                         if (TrunkIsFree(pose, z)) return true;
+                       }
+                       return false;
+                     });
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -281,8 +276,9 @@ struct FootstepSearch::Search {
     const Vector2d root = other.stance * root_over[1 - limb];
     const double yaw = other.stance.yaw + WrapAngle(place.stance.yaw - other.stance.yaw) / 2;
     const Vector2d centre = place.stance * Vector2d(stance.patch_centres[limb].head<2>());
-    const auto highest = reaches[limb]->HighestRoot(
-        {root.x(), root.y(), yaw}, {centre.x(), centre.y(), place.z}, place.stance.yaw);
+    const auto highest =
+        reaches[limb]->HighestRoot({root.x(), root.y(), yaw}, {centre.x(), centre.y(), place.z},
+                                   FrameOf(stance, limb, place).linear());
     if (!highest || *highest < other.z + limits.lowest_root) return std::nullopt;
     return std::max(0.0, other.z + stance.gait->posture.root_height - kEasySquat - *highest);
   }
@@ -345,17 +341,25 @@ struct FootstepSearch::Search {
     return static_cast<int>(goals.size() + (headings.size() + 1) * displacements[limb].size());
   }
 
-  /// Levels that the limb which moves next may reach.
-  std::vector<int> LevelsNear(const Node& node) const {
+  /// Planes that a foot can stand on and that have ground near p.
+  std::vector<int> PlanesNear(const Vector2d& p, double distance) const {
+    std::vector<int> near;
+    for (int plane = 0; plane < static_cast<int>(world.ground->planes().size()); ++plane) {
+      if (ground.IsGentle(plane) && world.ground->IsNear(plane, p, distance)) near.push_back(plane);
+    }
+    return near;
+  }
+
+  /// Planes that the limb which moves next may reach.
+  std::vector<int> PlanesNear(const Node& node) const {
     const Foothold& other = node.feet[1 - node.next];
     const double reach = limits.forward + limits.lateral + FootholdGround::kMostShift +
                          2 * stance.patch_centres[node.next].head<2>().norm();
-    std::vector<int> near;
-    const std::vector<double>& levels = world.ground->levels();
-    for (int level = 0; level < static_cast<int>(levels.size()); ++level) {
-      if (std::abs(levels[level] - other.z) > limits.rise + 1e-6) continue;
-      if (world.ground->IsNear(level, other.stance.position(), reach)) near.push_back(level);
-    }
+    std::vector<int> near = PlanesNear(other.stance.position(), reach);
+    std::erase_if(near, [&](int plane) {
+      return plane < static_cast<int>(world.ground->levels().size()) &&
+             std::abs(world.ground->levels()[plane] - other.z) > limits.rise + 1e-6;
+    });
     return near;
   }
 
@@ -368,17 +372,17 @@ struct FootstepSearch::Search {
     const std::optional<double> squat = Squat(limb, node.feet[limb], other);
     if (!squat) return;
     node.squat = *squat;
-    const std::vector<int> near = LevelsNear(node);
+    const std::vector<int> near = PlanesNear(node);
     const int places = PlacesOf(limb);
     for (int place = 0; place < places; ++place) {
       const std::optional<PlanarPose> there = PlaceOf(node, place);
       if (!there) continue;
       const double time = field.At(Interpolate(other.stance, *there, 0.5));
       if (!std::isfinite(time)) continue;
-      for (const int level : near) {
-        const Foothold foothold{*there, world.ground->levels()[level]};
-        node.candidates.push_back(
-            {CostOf(node, foothold, *squat) + kGreed * time, place, level});
+      for (const int plane : near) {
+        const Foothold foothold = ground.On(limb, *there, plane);
+        if (std::abs(foothold.z - other.z) > limits.rise + 1e-6) continue;
+        node.candidates.push_back({CostOf(node, foothold, *squat) + kGreed * time, place, plane});
       }
     }
     std::make_heap(node.candidates.begin(), node.candidates.end(), std::greater<>());
@@ -405,9 +409,9 @@ struct FootstepSearch::Search {
     return best;
   }
 
-  void TryPlace(int parent, int place, int level) {
+  void TryPlace(int parent, int place, int plane) {
     const Node& from = nodes[parent];
-    const auto foothold = ground.Place(from.next, *PlaceOf(from, place), level);
+    const auto foothold = ground.Place(from.next, *PlaceOf(from, place), plane);
     if (foothold) TryStep(parent, *foothold);
   }
 
@@ -504,7 +508,7 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
     search.open.pop();
     if (is_candidate) {
       const Search::Candidate candidate = search.Take(index);
-      search.TryPlace(index, candidate.place, candidate.level);
+      search.TryPlace(index, candidate.place, candidate.plane);
       continue;
     }
     if (!search.closed.insert(Search::KeyOf(search.nodes[index])).second) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,6 +21,9 @@ struct Footstep {
   Foothold from;
   Foothold to;
   double lift = 0;  ///< m, of the swing (SwingPath)
+
+  /// Up or down to another level or slope, m.
+  double ChangeOfHeight() const { return AreOnOneSlope(from, to) ? 0 : std::abs(to.z - from.z); }
 };
 
 /// The family of steps that a search chooses from.

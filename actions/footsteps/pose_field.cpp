@@ -24,7 +24,8 @@ constexpr Move kMoves[] = {{1, 0, 0},   {1, 1, 0},  {0, 1, 0},  {-1, 1, 0}, {-1,
                            {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {0, 0, 1},  {0, 0, -1}};
 
 /// Of the moves from each heading, s.
-std::array<std::array<double, std::size(kMoves)>, PoseField::kHeadings> TimesOfMoves(double cell, double first_heading, const PoseField::Paces& paces) {
+std::array<std::array<double, std::size(kMoves)>, PoseField::kHeadings> TimesOfMoves(
+    double cell, double first_heading, const PoseField::Paces& paces) {
   std::array<std::array<double, std::size(kMoves)>, PoseField::kHeadings> times;
   for (int heading = 0; heading < PoseField::kHeadings; ++heading) {
     const Eigen::Rotation2Dd turned(first_heading + heading * kTurn);

@@ -13,8 +13,8 @@
 namespace possibility::actions {
 
 /// Times of the quickest ways to some goals among poses of a lattice in SE(2), by Dijkstra's
-/// algorithm, which runs as far as the questions need. A pose has ten neighbours: eight cells around
-/// it, and a turn to either side. One thread at a time.
+/// algorithm, which runs as far as the questions need. A pose has ten neighbours: eight cells
+/// around it, and a turn to either side. One thread at a time.
 class PoseField {
  public:
   struct Paces {

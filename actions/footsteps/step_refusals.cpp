@@ -1,12 +1,17 @@
 #include "actions/footsteps/step_refusals.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace possibility::actions {
 namespace {
 
-/// Steps that differ by less are the same, m.
+/// Steps that differ by less are the same, m and rad.
 constexpr double kSame = 0.01;
+
+double TiltOf(const Foothold& place) {
+  return std::atan2(place.normal.head<2>().norm(), place.normal.z());
+}
 
 }  // namespace
 
@@ -20,7 +25,10 @@ StepRefusals::Measures StepRefusals::Of(const Footstep& step, const Foothold& ot
           distance(step.to),
           std::max(0.0, step.to.z - other.z),
           std::max(0.0, other.z - step.to.z),
-          step.lift};
+          step.lift,
+          TiltOf(step.from),
+          TiltOf(step.to),
+          TiltOf(other)};
 }
 
 bool StepRefusals::Refuses(const Footstep& step, const Foothold& other) const {

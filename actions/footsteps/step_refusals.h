@@ -7,8 +7,8 @@
 
 namespace possibility::actions {
 
-/// What the robot could not do: a step that is at least as long and as high in every respect as one
-/// that failed is refused, too.
+/// What the robot could not do: a step that is at least as long, as high and as tilted in every
+/// respect as one that failed is refused, too.
 class StepRefusals {
  public:
   /// `other`: where the other limb bears.
@@ -16,8 +16,9 @@ class StepRefusals {
   bool Refuses(const Footstep& step, const Foothold& other) const;
 
  private:
-  /// Distances and heights of both ends of the step from the other limb, and the lift; m.
-  using Measures = std::array<double, 7>;
+  /// Distances and heights of both ends of the step from the other limb, and the lift, m; tilts of
+  /// the three footholds, rad.
+  using Measures = std::array<double, 10>;
   static Measures Of(const Footstep& step, const Foothold& other);
 
   std::vector<Measures> refused_;

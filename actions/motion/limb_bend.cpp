@@ -19,7 +19,8 @@ std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::Ga
     const double lower = joint(i + 1).X_PJ.translation().norm();
     if (std::min(upper, lower) <= shorter) continue;
     shorter = std::min(upper, lower);
-    best = LimbBend{joint(i).name, i, limb.joints[i - 1] + 1, limb.joints[i + 1] + 1, upper + lower};
+    best =
+        LimbBend{joint(i).name, i, limb.joints[i - 1] + 1, limb.joints[i + 1] + 1, upper + lower};
   }
   return best;
 }

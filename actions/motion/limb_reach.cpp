@@ -11,8 +11,8 @@ using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
 std::optional<double> LimbReach::HighestRoot(const PlanarPose& root, const Vector3d& centre,
-                                             double patch_yaw) const {
-  const Vector3d foot = centre + AngleAxisd(patch_yaw, Vector3d::UnitZ()) * ankle;
+                                             const Eigen::Matrix3d& turned) const {
+  const Vector3d foot = centre + turned * ankle;
   const Vector3d from_root = AngleAxisd(root.yaw, Vector3d::UnitZ()) * hip;
   const double away = (foot.head<2>() - root.position() - from_root.head<2>()).squaredNorm();
   const double squared = length * length - away;

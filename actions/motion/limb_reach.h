@@ -18,10 +18,10 @@ struct LimbReach {
   double length = 0;                                ///< m, greatest distance of the two
 
   /// Height of the root at which the limb is stretched, m; none if its place is out of reach from
-  /// every height. `root`: seen from above. `centre`: of the patch, world; `patch_yaw`: rad, of the
+  /// every height. `root`: seen from above. `centre`: of the patch, world; `turned`: axes of the
   /// stance frame that the patch stands in.
   std::optional<double> HighestRoot(const PlanarPose& root, const Eigen::Vector3d& centre,
-                                    double patch_yaw) const;
+                                    const Eigen::Matrix3d& turned) const;
 };
 
 /// By limb; none for limbs without a bend. `stretch`: share of the straight limb's length.

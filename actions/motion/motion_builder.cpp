@@ -110,11 +110,14 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
                                 const MotionPhase* after, double start, Eigen::VectorXd* guess) {
   Phase result;
   Bearing bearing;
-  for (int contact : phase.contacts) {
+  for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
+    const int contact = phase.contacts[i];
     const models::ContactPatch& patch = robot_->contacts[contact];
+    const Eigen::Vector3d normal =
+        phase.normals.empty() ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : phase.normals[i];
     result.contacts.push_back(patch.name);
     for (const Eigen::Vector3d& p : patch.points) {
-      bearing.points.push_back({patch.link, p});
+      bearing.points.push_back({patch.link, p, normal});
       const auto& down = phase.coming_down;
       bearing.comes_down.push_back(!Contains(before, contact) ||
                                    std::find(down.begin(), down.end(), contact) != down.end());

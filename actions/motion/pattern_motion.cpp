@@ -11,6 +11,7 @@
 #include <string>
 
 #include "actions/motion/limb_reach.h"
+#include "actions/motion/limb_tilt.h"
 #include "actions/motion/pendulum_spline.h"
 #include "actions/motion/planar_pose.h"
 #include "actions/motion/required_zero_moment_point.h"
@@ -120,6 +121,20 @@ class Pattern {
     return contacts;
   }
 
+  /// Of the ground of Contacts(k).
+  std::vector<Vector3d> Normals(int k) const {
+    std::vector<Vector3d> normals;
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      const auto& bearing = schedule_.intervals[k].bearing[limb];
+      if (!bearing) continue;
+      const bool is_level =
+          !stance_.gait->limbs[limb].hold_orientation || IsLevel(bearing->linear());
+      normals.push_back(is_level ? Vector3d(Vector3d::UnitZ())
+                                 : Vector3d(bearing->linear().col(2).normalized()));
+    }
+    return normals;
+  }
+
   /// `t`: s since the interval began.
   WholeBodyTask Task(int k, double t) const {
     const Interval& interval = intervals_[k];
@@ -140,9 +155,21 @@ class Pattern {
  private:
   std::size_t NumLimbs() const { return stance_.gait->limbs.size(); }
 
+  /// Axes of the stance frame that a limb's patch stands in; upright if the limb does not hold its
+  /// orientation.
+  Eigen::Matrix3d StanceAxes(int limb, const Isometry3d& X) const {
+    if (!stance_.gait->limbs[limb].hold_orientation) return Turned(Heading(X));
+    return X.linear() * Turned(-stance_.patch_headings[limb]);
+  }
+
+  static Eigen::Matrix3d Turned(double yaw) {
+    return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+  }
+
   /// Yaw of the stance frame that a limb's patch stands in.
   double StanceYaw(int limb, const Isometry3d& X) const {
-    return Heading(X) - stance_.patch_headings[limb];
+    if (IsLevel(X.linear())) return Heading(X) - stance_.patch_headings[limb];
+    return AnglesOf(StanceAxes(limb, X)).yaw;
   }
 
   /// The stance frame that a limb's patch stands in.
@@ -204,14 +231,28 @@ class Pattern {
     return sum / count;
   }
 
+  /// A patch's points, seen from above.
+  void AddFootprint(int limb, const Isometry3d& X, std::vector<Vector2d>* points) const {
+    const PlanarPose at = StanceOf(limb, X);
+    const Eigen::Matrix3d axes = StanceAxes(limb, X);
+    for (const Vector2d& p : stance_.bearing_points[limb]) {
+      if (IsLevel(axes)) {
+        points->push_back(at * p);
+        continue;
+      }
+      const Vector2d arm = p - Vector2d(stance_.patch_centres[limb].head<2>());
+      const Vector3d there = X.translation() + axes * Vector3d(arm.x(), arm.y(), 0);
+      points->emplace_back(there.head<2>());
+    }
+  }
+
   /// The point of the support of interval `k` closest to Balanced, within the margin.
   Vector3d SupportedZmp(int k) const {
     std::vector<Vector2d> points;
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
       const auto& bearing = schedule_.intervals[k].bearing[limb];
       if (!bearing) continue;
-      const PlanarPose at = StanceOf(static_cast<int>(limb), *bearing);
-      for (const Vector2d& p : stance_.bearing_points[limb]) points.push_back(at * p);
+      AddFootprint(static_cast<int>(limb), *bearing, &points);
     }
     return OnGround(k, SupportPolygon(points).Nearest(Balanced(k), settings_.zmp_margin));
   }
@@ -333,8 +374,8 @@ class Pattern {
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
       if (!reaches[limb]) continue;
       const LimbTask task = TaskOf(k, static_cast<int>(limb), t - intervals_[k].start);
-      const std::optional<double> reach =
-          reaches[limb]->HighestRoot(root, task.position.value, task.yaw.value);
+      const std::optional<double> reach = reaches[limb]->HighestRoot(
+          root, task.position.value, TurnedBy(task.yaw, task.pitch, task.roll).orientation);
       if (!reach) {
         throw MotionError(fmt::format("{} does not reach its place", schedule_.contacts[limb]), k);
       }
@@ -425,8 +466,16 @@ class Pattern {
     task.orientation = stance_.patch_orientations[limb];
     task.position = ConstantVector<Vector3d>(from.translation());
     task.yaw = Constant(StanceYaw(limb, from));
+    const TurnAngles tilt = Tilt(limb, from);
+    task.pitch = Constant(tilt.pitch);
+    task.roll = Constant(tilt.roll);
     if (!schedule_.intervals[k].bearing[limb]) Swing(k, limb, t, &task);
     return task;
+  }
+
+  TurnAngles Tilt(int limb, const Isometry3d& X) const {
+    if (IsLevel(X.linear())) return {};
+    return AnglesOf(StanceAxes(limb, X));
   }
 
   void Swing(int k, int limb, double t, LimbTask* task) const {
@@ -440,11 +489,16 @@ class Pattern {
     const double duration = intervals_[last].start + intervals_[last].duration - begin;
     const double swung = intervals_[k].start + t - begin;
     const double lift = settings_.lifts.empty() ? 0 : settings_.lifts[first];
-    const SwingPath path{from.translation(), to.translation(), settings_.clearance, lift, duration};
+    const SwingPath path{from.translation(), to.translation(),        settings_.clearance, lift,
+                         duration,           BearOnOneSlope(from, to)};
     task->position = path.At(swung);
     const ScalarSignal s = path.Progress(swung);
     const double yaw = StanceYaw(limb, from);
-    task->yaw = Blend(yaw, yaw + WrapAngle(Heading(to) - Heading(from)), s);
+    task->yaw = Blend(yaw, yaw + WrapAngle(StanceYaw(limb, to) - yaw), s);
+    const TurnAngles before = Tilt(limb, from);
+    const TurnAngles after = Tilt(limb, to);
+    task->pitch = Blend(before.pitch, after.pitch, s);
+    task->roll = Blend(before.roll, after.roll, s);
   }
 
   const models::RobotModel& robot_;
@@ -476,6 +530,7 @@ std::vector<MotionPhase> PatternPhases(const models::RobotModel& robot, const No
     MotionPhase phase;
     phase.duration = pattern->duration(k);
     phase.contacts = pattern->Contacts(k);
+    phase.normals = pattern->Normals(k);
     phase.task = [pattern, k](double t) { return pattern->Task(k, t); };
     phases.push_back(std::move(phase));
   }

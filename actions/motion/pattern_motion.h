@@ -33,8 +33,8 @@ struct PatternSettings {
   double turning_time = 1;  ///< s: for the joints to get there; at most the whole motion
 };
 
-/// The whole body's motion of a contact schedule on level surfaces, which may differ in height,
-/// without an optimiser: the centre of mass follows the linear inverted pendulum over a zero moment
+/// The whole body's motion of a contact schedule on surfaces of any height and tilt, without an
+/// optimiser: the centre of mass follows the linear inverted pendulum over a zero moment
 /// point inside the support, and a dynamic filter (Kajita et al. 2003) replaces the pendulum's
 /// error by that of the whole robot. From rest to rest in the nominal posture, or with `end_joints`
 /// at the end; in between the root may be higher, and it rises and falls with the supports.

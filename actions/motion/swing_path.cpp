@@ -27,6 +27,7 @@ Signal<Eigen::Vector3d> SwingPath::At(double t) const {
              Blend(0, to.z() - top, RestToRest(t - kDown * duration, (1 - kDown) * duration));
   } else {
     height = Blend(from.z(), from.z() + clearance, Bump(t, duration));
+    if (on_slope) height = height + Blend(0, to.z() - from.z(), Progress(t));
   }
   position.value.z() = height.value;
   position.rate.z() = height.rate;

@@ -15,8 +15,10 @@ struct SwingPath {
   /// crosses this high above the higher end (at least `clearance`).
   double lift = 0;
   double duration = 1;  ///< s
+  /// The ends bear on one slope: without a lift, the patch stays above the line that joins them.
+  bool on_slope = false;
 
-  bool IsHigh() const { return lift > 0 || from.z() != to.z(); }
+  bool IsHigh() const { return lift > 0 || (from.z() != to.z() && !on_slope); }
   /// `t`: s since the start.
   Signal<Eigen::Vector3d> At(double t) const;
   /// Share of the horizontal way, from 0 to 1.

@@ -19,9 +19,7 @@ constexpr double kLargestStep = 0.3;
 /// (Shamanskii 1967).
 constexpr double kGoodStep = 1e-3;
 
-Matrix3d TurnedBy(double yaw, const Matrix3d& R) {
-  return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() * R;
-}
+LinkTurn TurnOf(const LimbTask& limb) { return TurnedBy(limb.yaw, limb.pitch, limb.roll); }
 
 int RowCount(const WholeBodyTask& task) {
   int rows = task.centre_of_mass ? 2 : 0;
@@ -31,15 +29,19 @@ int RowCount(const WholeBodyTask& task) {
 
 }  // namespace
 
-RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch) {
+LinkTurn TurnedBy(const ScalarSignal& yaw, const ScalarSignal& pitch, const ScalarSignal& roll) {
   const Vector3d z = Vector3d::UnitZ();
-  RootTurn turn;
-  turn.orientation =
-      TurnedBy(yaw.value, Eigen::AngleAxisd(pitch.value, Vector3d::UnitY()).toRotationMatrix());
-  const Vector3d y = TurnedBy(yaw.value, Matrix3d::Identity()).col(1);
-  turn.angular_velocity = yaw.rate * z + pitch.rate * y;
-  turn.angular_acceleration =
-      yaw.acceleration * z + pitch.acceleration * y + yaw.rate * pitch.rate * z.cross(y);
+  const Matrix3d turned = Eigen::AngleAxisd(yaw.value, z).toRotationMatrix();
+  const Vector3d y = turned.col(1);
+  LinkTurn turn;
+  turn.orientation = turned * Eigen::AngleAxisd(pitch.value, Vector3d::UnitY()).toRotationMatrix();
+  const Vector3d x = turn.orientation.col(0);
+  turn.orientation *= Eigen::AngleAxisd(roll.value, Vector3d::UnitX()).toRotationMatrix();
+  const Vector3d before_roll = yaw.rate * z + pitch.rate * y;
+  turn.angular_velocity = before_roll + roll.rate * x;
+  turn.angular_acceleration = yaw.acceleration * z + pitch.acceleration * y +
+                              roll.acceleration * x + yaw.rate * pitch.rate * z.cross(y) +
+                              roll.rate * before_roll.cross(x);
   return turn;
 }
 
@@ -119,7 +121,7 @@ void WholeBodySolver::Residual(const WholeBodyTask& task) {
   for (const LimbTask& limb : task.limbs) {
     const models::ContactPatch& patch = robot.contacts[limb.limb->contact];
     if (limb.limb->hold_orientation) {
-      const Matrix3d target = TurnedBy(limb.yaw.value, limb.orientation);
+      const Matrix3d target = TurnOf(limb).orientation * limb.orientation;
       residual_.segment<3>(row) =
           models::RotationVector(target * kinematics_.X_WL()[patch.link].linear().transpose());
       row += 3;
@@ -151,15 +153,15 @@ void WholeBodySolver::Jacobian(const WholeBodyTask& task) {
   if (!unknowns_.empty()) factor_.compute(reduced_);
 }
 
-RootTurn WholeBodySolver::Turn(const WholeBodyTask& task) {
-  return task.root_turn ? *task.root_turn : YawAndPitch(task.root_yaw, task.root_pitch);
+LinkTurn WholeBodySolver::Turn(const WholeBodyTask& task) {
+  return task.root_turn ? *task.root_turn : TurnedBy(task.root_yaw, task.root_pitch);
 }
 
 void WholeBodySolver::KnownRates(const WholeBodyTask& task, WholeBodyState* state) const {
   const int nv = kinematics_.model().nv();
   state->v.setZero(nv);
   state->a.setZero(nv);
-  const RootTurn turn = Turn(task);
+  const LinkTurn turn = Turn(task);
   state->v.head<3>() = turn.angular_velocity;
   state->a.head<3>() = turn.angular_acceleration;
   state->v[5] = task.root_height.rate;
@@ -197,8 +199,9 @@ void WholeBodySolver::SolveRates(const WholeBodyTask& task, WholeBodyState* stat
   }
   for (const LimbTask& limb : task.limbs) {
     if (limb.limb->hold_orientation) {
-      rate.segment<3>(row) << 0, 0, limb.yaw.rate;
-      acceleration.segment<3>(row) << 0, 0, limb.yaw.acceleration;
+      const LinkTurn turn = TurnOf(limb);
+      rate.segment<3>(row) = turn.angular_velocity;
+      acceleration.segment<3>(row) = turn.angular_acceleration;
       row += 3;
     }
     rate.segment<3>(row) = limb.position.rate;

@@ -30,19 +30,23 @@ struct LimbTask {
   const models::GaitLimb* limb = nullptr;
   /// Patch centre, world, m.
   Signal<Eigen::Vector3d> position = ConstantVector<Eigen::Vector3d>(Eigen::Vector3d::Zero());
-  ScalarSignal yaw;                                           ///< turns `orientation` about +z
-  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< of the link at yaw 0
+  /// Rz(yaw) Ry(pitch) Rx(roll) turns `orientation`; limbs that do not hold it ignore all four.
+  ScalarSignal yaw;
+  ScalarSignal pitch;
+  ScalarSignal roll;
+  Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();  ///< of the link if nothing turns it
 };
 
-/// Orientation of the root, in world axes.
-struct RootTurn {
+/// Orientation of a link, in world axes.
+struct LinkTurn {
   Eigen::Matrix3d orientation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
 };
 
-/// Rz(yaw) Ry(pitch) over time.
-RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch);
+/// Rz(yaw) Ry(pitch) Rx(roll) over time.
+LinkTurn TurnedBy(const ScalarSignal& yaw, const ScalarSignal& pitch,
+                  const ScalarSignal& roll = Constant(0));
 
 /// Task of the whole body at one instant. The unknowns are the joints of the limbs and, if there is
 /// a task for the centre of mass, x and y of the root: as many as rows. The motion is therefore a
@@ -50,7 +54,7 @@ RootTurn YawAndPitch(const ScalarSignal& yaw, const ScalarSignal& pitch);
 struct WholeBodyTask {
   ScalarSignal root_yaw;
   ScalarSignal root_pitch;
-  std::optional<RootTurn> root_turn;  ///< in place of yaw and pitch
+  std::optional<LinkTurn> root_turn;  ///< in place of yaw and pitch
   ScalarSignal root_height;
   /// Used if there is no task for the centre of mass.
   Signal<Eigen::Vector2d> root_position = ConstantVector<Eigen::Vector2d>(Eigen::Vector2d::Zero());
@@ -85,7 +89,7 @@ class WholeBodySolver {
   void SelectUnknowns(const WholeBodyTask& task);
   void Residual(const WholeBodyTask& task);
   void Jacobian(const WholeBodyTask& task);
-  static RootTurn Turn(const WholeBodyTask& task);
+  static LinkTurn Turn(const WholeBodyTask& task);
   void KnownRates(const WholeBodyTask& task, WholeBodyState* state) const;
   void SolveRates(const WholeBodyTask& task, WholeBodyState* state);
 

@@ -44,12 +44,12 @@ Signal<VectorXd> Planar(const PhaseTrajectory& plan, double t) {
 }
 
 /// `turn` followed by exp(phi(t)).
-RootTurn TurnedOnBy(const Signal<Vector3d>& phi, const RootTurn& turn) {
+LinkTurn TurnedOnBy(const Signal<Vector3d>& phi, const LinkTurn& turn) {
   const Eigen::Matrix3d R = models::Exponential(phi.value).toRotationMatrix();
   const Eigen::Matrix3d J = models::LeftJacobian(phi.value);
   const Vector3d own = J * phi.rate;
   const Vector3d carried = R * turn.angular_velocity;
-  RootTurn result;
+  LinkTurn result;
   result.orientation = R * turn.orientation;
   result.angular_velocity = own + carried;
   result.angular_acceleration = J * phi.acceleration +
@@ -233,7 +233,7 @@ Knot StanceMotion::PlannedKnot(const PhaseTrajectory& plan, double s) const {
 WholeBodyState StanceMotion::StateAt(const Knot& knot, const Support& support) {
   const int n = robot_.num_joints();
   WholeBodyTask task;
-  RootTurn& turn = task.root_turn.emplace();
+  LinkTurn& turn = task.root_turn.emplace();
   turn.orientation = Orientation(knot.q).toRotationMatrix();
   turn.angular_velocity = knot.v.head<3>();
   task.root_height = {knot.q[6], knot.v[5], 0};
@@ -263,7 +263,7 @@ Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const 
   const int n = robot_.num_joints();
   const Signal<VectorXd> planned = Planar(plan, 0);
   const Signal<VectorXd> planned_joints = Joints(plan, 0);
-  const RootTurn planned_turn = YawAndPitch(Constant(0), Entry(planned, 0));
+  const LinkTurn planned_turn = TurnedBy(Constant(0), Entry(planned, 0));
   const Vector3d turned_off = models::RotationVector(Orientation(from.q).toRotationMatrix() *
                                                      planned_turn.orientation.transpose());
   const Vector3d turning_off =
@@ -289,7 +289,7 @@ Phase StanceMotion::Follow(const PhaseTrajectory& plan, const Knot& from, const 
     const Signal<Vector3d> turn = DyingOut<Vector3d>(turned_off, turning_off, t, settled);
     const Signal<Vector3d> shift = DyingOut<Vector3d>(place_off, velocity_off, t, settled);
     WholeBodyTask task;
-    task.root_turn = TurnedOnBy(turn, YawAndPitch(Constant(0), Entry(planar, 0)));
+    task.root_turn = TurnedOnBy(turn, TurnedBy(Constant(0), Entry(planar, 0)));
     const ScalarSignal x = Entry(shift, 0) + Entry(planar, 1);
     const ScalarSignal y = Entry(shift, 1);
     task.root_position = {Vector2d(x.value, y.value), Vector2d(x.rate, y.rate),

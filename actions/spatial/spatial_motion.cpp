@@ -81,7 +81,7 @@ class Tracker {
   static WholeBodyTask TaskOf(const dynamics::FloatingMotion& motion) {
     const Eigen::Index n = motion.q.size() - 7;
     WholeBodyTask task;
-    RootTurn& turn = task.root_turn.emplace();
+    LinkTurn& turn = task.root_turn.emplace();
     turn.orientation =
         Eigen::Quaterniond(motion.q[0], motion.q[1], motion.q[2], motion.q[3]).matrix();
     turn.angular_velocity = motion.v.head<3>();

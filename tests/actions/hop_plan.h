@@ -168,11 +168,11 @@ class Hop {
   }
 
   /// exp(phi(t)) with phi the quintic that dies out, begun at `phi` with angular velocity `omega`.
-  static RootTurn Turned(const Eigen::Vector3d& phi, const Eigen::Vector3d& omega, double t) {
+  static LinkTurn Turned(const Eigen::Vector3d& phi, const Eigen::Vector3d& omega, double t) {
     const Eigen::Vector3d rate = models::LeftJacobian(phi).inverse() * omega;
     const Signal<Eigen::Vector3d> left = DyingOut<Eigen::Vector3d>(phi, rate, t, kAbsorb);
     const double angle = left.value.norm();
-    RootTurn turn;
+    LinkTurn turn;
     if (angle > 0) {
       turn.orientation = Eigen::AngleAxisd(angle, left.value / angle).toRotationMatrix();
     }

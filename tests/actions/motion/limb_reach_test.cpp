@@ -28,7 +28,7 @@ TEST(LimbReachTest, TheRootIsHighestOverAStraightLeg) {
   const models::ContactPatch& sole = robot.contacts[robot.ContactIndex("left_sole")];
   const Eigen::Vector3d centre = kinematics.Position(sole.link, sole.Centre());
   ASSERT_TRUE(reaches[0]);
-  const auto highest = reaches[0]->HighestRoot({}, centre, 0);
+  const auto highest = reaches[0]->HighestRoot({}, centre, Eigen::Matrix3d::Identity());
   ASSERT_TRUE(highest);
   EXPECT_NEAR(*highest, q[6], 1e-3);  // the knee is a little off the line from hip to ankle
 }
@@ -38,8 +38,8 @@ TEST(LimbReachTest, WhatIsFartherAwayThanTheLimbIsLongIsOutOfReach) {
   const NominalStance stance = SolveNominalStance(robot, robot.GaitNamed("walk"));
   for (const auto& reach : ReachesOf(robot, stance, 1)) {
     ASSERT_TRUE(reach);
-    EXPECT_FALSE(reach->HighestRoot({}, {1.5, 0, 0}, 0));
-    EXPECT_TRUE(reach->HighestRoot({}, {0.3, 0, 0}, 0));
+    EXPECT_FALSE(reach->HighestRoot({}, {1.5, 0, 0}, Eigen::Matrix3d::Identity()));
+    EXPECT_TRUE(reach->HighestRoot({}, {0.3, 0, 0}, Eigen::Matrix3d::Identity()));
   }
 }
 
