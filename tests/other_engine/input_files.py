@@ -34,12 +34,16 @@ class Robot:
 
 @dataclass
 class Ground:
-    """Upright boxes: x and y of the centres, half extents (n x 2), yaws and heights of the tops."""
+    """Sides of boxes that face up most: middles (n x 3), axes (n x 3 x 3: two along the side, then
+    out of it, as columns), half extents (n x 2)."""
 
-    centres: np.ndarray
+    middles: np.ndarray
+    axes: np.ndarray
     half_sizes: np.ndarray
-    yaws: np.ndarray
-    tops: np.ndarray
+
+    @property
+    def normals(self):
+        return self.axes[:, :, 2]
 
 
 @dataclass
@@ -142,9 +146,28 @@ def _read_ground(file):
     where = f"{file}: environment.ground"
     sizes = _numbers([_get(box, "size", list, where) for box in boxes], (None, 3), where)
     positions = _numbers([_get(box, "position", list, where) for box in boxes], (None, 3), where)
-    yaws = _numbers([box.get("yaw_deg", 0) for box in boxes], (None,), where)
-    return Ground(positions[:, :2], sizes[:, :2] / 2, np.radians(yaws),
-                  positions[:, 2] + sizes[:, 2] / 2)
+    turns = _numbers([box.get("rpy_deg", [0, 0, box.get("yaw_deg", 0)]) for box in boxes],
+                     (None, 3), where)
+    sides = [_upper_side(*box) for box in zip(positions, sizes, np.radians(turns))]
+    return Ground(*(np.array(part) for part in zip(*sides)))
+
+
+def _rotation(roll, pitch, yaw):
+    """Rz(yaw) Ry(pitch) Rx(roll)."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
+    return (np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+            @ np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+            @ np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]]))
+
+
+def _upper_side(position, size, turn):
+    """Middle, axes and half extents of the side of a box that faces up most."""
+    axes = _rotation(*turn)
+    out = int(np.argmax(np.round(abs(axes[2]), 9) + [0, 0, 1e-9]))
+    normal = axes[:, out] * np.sign(axes[2, out])
+    along = [(out + 1) % 3, (out + 2) % 3]
+    return (position + normal * size[out] / 2,
+            np.column_stack([axes[:, along[0]], axes[:, along[1]], normal]), size[along] / 2)
 
 
 def _bearing_points(contacts, robot, where):

@@ -110,10 +110,12 @@ class SampleChecks:
         beyond = np.maximum(robot.lowest - state.joints, state.joints - robot.highest)
         note_largest("joint beyond its range", np.maximum(beyond, 0), phase, time, joints)
         if phase.points:
-            note_largest("force outside its cone", outside_cone(forces, self._friction), phase,
-                         time, phase.points)
-            pressed = forces[:, 2] > BEARS
-            used = np.hypot(forces[:, 0], forces[:, 1])[pressed] / forces[pressed, 2]
+            normals = self.normals_at(robot.places(phase.points))
+            note_largest("force outside its cone", outside_cone(forces, normals, self._friction),
+                         phase, time, phase.points)
+            load, sideways = split(forces, normals)
+            pressed = load > BEARS
+            used = sideways[pressed] / load[pressed]
             note_largest("friction used / friction", used / self._friction, phase, time,
                          [point for point, bears in zip(phase.points, pressed) if bears])
             self._contact_points(phase, time)
@@ -131,22 +133,38 @@ class SampleChecks:
         speeds = np.linalg.norm(self._robot.velocities(phase.points), axis=1)
         note_largest("speed of a bearing point", speeds, phase, time, phase.points)
 
-    def _above_ground(self, places):
-        """For each place: vertical distance from the nearest top of a box that reaches under it (of
-        any, if none does), and how far beyond the nearest edge it is."""
+    def _distances(self, places):
+        """From each place (rows) to each side of ground (columns): along the vertical, and beyond
+        the nearest edge, along the side."""
         ground = self._plan.ground
-        offset = places[:, None, :2] - ground.centres
-        c, s = np.cos(ground.yaws), np.sin(ground.yaws)
-        local = np.stack([c * offset[..., 0] + s * offset[..., 1],
-                          c * offset[..., 1] - s * offset[..., 0]], axis=-1)
+        offset = places[:, None, :] - ground.middles
+        vertical = np.einsum("ijk,jk->ij", offset, ground.normals) / ground.normals[:, 2]
+        foot = offset - vertical[..., None] * np.array([0, 0, 1])  # on the side's plane
+        local = np.einsum("ijk,jkl->ijl", foot, ground.axes[:, :, :2])
         outside = np.linalg.norm(np.maximum(abs(local) - ground.half_sizes, 0), axis=-1)
-        vertical = abs(places[:, None, 2] - ground.tops)
+        return abs(vertical), outside
+
+    def _above_ground(self, places):
+        """For each place: vertical distance from the nearest side of ground above or below it (from
+        any, if none is), and how far beyond the nearest edge it is."""
+        vertical, outside = self._distances(places)
         reaches = (outside <= EDGE) | (outside.min(axis=1) > EDGE)[:, None]
         return (np.where(reaches, vertical, np.inf).min(axis=1),
                 np.where(reaches, outside, np.inf).min(axis=1))
 
+    def normals_at(self, places):
+        """Of the ground nearest to each place."""
+        vertical, outside = self._distances(places)
+        return self._plan.ground.normals[np.hypot(vertical, outside).argmin(axis=1)]
 
-def outside_cone(forces, friction):
-    """By how much each force (n x 3, N) pulls at level ground or exceeds friction."""
-    sideways = np.hypot(forces[:, 0], forces[:, 1])
-    return np.maximum(np.maximum(-forces[:, 2], sideways - friction * forces[:, 2]), 0)
+
+def split(forces, normals):
+    """Each force (n x 3, N) along the ground's normal, and across it."""
+    load = np.sum(forces * normals, axis=1)
+    return load, np.linalg.norm(forces - load[:, None] * normals, axis=1)
+
+
+def outside_cone(forces, normals, friction):
+    """By how much each force (n x 3, N) pulls at its ground or exceeds friction."""
+    load, sideways = split(forces, normals)
+    return np.maximum(np.maximum(-load, sideways - friction * load), 0)

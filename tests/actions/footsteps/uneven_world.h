@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,17 @@ struct UnevenWorld {
   /// Ground from x = `from` to `to`, with its top at `z`; m.
   UnevenWorld& Ground(double from, double to, double z, double width = 3) {
     Add({to - from, width, 0.5}, {(from + to) / 2, 0, z - 0.25}, true);
+    return *this;
+  }
+  /// A slope from (x, z) = `from` to `to`, m.
+  UnevenWorld& Slope(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width = 3) {
+    const Eigen::Vector2d along = to - from;
+    const double angle = std::atan2(along.y(), along.x());
+    const Eigen::Vector2d middle = (from + to) / 2 +
+                                   0.1 * Eigen::Vector2d(std::sin(angle), -std::cos(angle));
+    Add({along.norm(), width, 0.2}, {middle.x(), 0, middle.y()}, true);
+    environment.obstacles.back().X_WO.linear() =
+        Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
     return *this;
   }
   UnevenWorld& Box(const Eigen::Vector3d& size, const Eigen::Vector3d& position) {

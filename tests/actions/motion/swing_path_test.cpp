@@ -15,7 +15,9 @@ std::vector<SwingPath> SomeSwings() {
           {{0, 0, 0}, {0.4, 0.1, 0}, 0.05, 0.2, 1},
           {{0, 0, 0}, {0.25, 0, 0.15}, 0.03, 0, 1.2},
           {{0, 0, 0.2}, {0.3, 0, 0}, 0.03, 0.02, 0.9},
-          {{1, 2, 0.3}, {0.7, 2, 0.3}, 0.04, 0.1, 0.7}};
+          {{1, 2, 0.3}, {0.7, 2, 0.3}, 0.04, 0.1, 0.7},
+          {{1, 2, 0.3}, {1.3, 2.1, 0.37}, 0.04, 0, 0.6, true},
+          {{1, 2, 0.3}, {1.3, 2.1, 0.37}, 0.04, 0.1, 0.6, true}};
 }
 
 double HigherEnd(const SwingPath& swing) { return std::max(swing.from.z(), swing.to.z()); }
@@ -55,6 +57,20 @@ TEST(SwingPathTest, AHighSwingIsAboveBothEndsWhereverItIsFarFromThem) {
           << across << " of the way";
     }
   }
+}
+
+TEST(SwingPathTest, OnASlopeTheSwingFollowsTheLineBetweenItsEnds) {
+  const SwingPath swing{{1, 2, 0.3}, {1.3, 2.1, 0.37}, 0.04, 0, 0.6, true};
+  EXPECT_FALSE(swing.IsHigh());
+  double highest = 0;
+  for (double t = 0; t <= swing.duration; t += swing.duration / 200) {
+    const Vector3d p = swing.At(t).value;
+    const double across = (p - swing.from).head<2>().norm() / (swing.to - swing.from).head<2>().norm();
+    const double above = p.z() - (swing.from.z() + across * (swing.to.z() - swing.from.z()));
+    EXPECT_GT(above, -1e-12);
+    highest = std::max(highest, above);
+  }
+  EXPECT_NEAR(highest, swing.clearance, 1e-3);
 }
 
 TEST(SwingPathTest, ReachesItsLift) {
