@@ -8,6 +8,7 @@
 #include <queue>
 #include <unordered_set>
 
+#include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/pose_field.h"
 #include "actions/motion/limb_bend.h"
 #include "actions/motion/support_polygon.h"
@@ -36,10 +37,15 @@ constexpr double kSecondsPerMetreUp = 2;
 /// count as slower, s/m.
 constexpr double kEasySquat = 0.02;
 constexpr double kSecondsPerSquat = 60;
+/// Expected by the field of poses, s/m: with high steps, low roots, and a second foot that follows.
+constexpr double kSecondsPerMetreClimbed = 12;
 
 /// Work of one turn: a place that is tried counts as this share of a state.
 constexpr std::int64_t kPlacesPerState = 16;
 constexpr std::int64_t kWorkPerQuestion = 256;
+
+/// A search that goes on for so many states asks whether the ground can be reached at all.
+constexpr std::int64_t kStatesBeforeFlood = 400;
 
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
@@ -141,9 +147,9 @@ struct FootstepSearch::Search {
     int next = 0;
     int parent = -1;
     double cost = 0;
-    double lift = 0;         ///< of the step that led here
-    bool is_tested = false;  ///< against obstacles
-    double squat = 0;        ///< before the next step; once expanded
+    double lift = 0;                    ///< of the step that led here
+    bool is_tested = false;             ///< against obstacles
+    double squat = 0;                   ///< before the next step; once expanded
     std::vector<Candidate> candidates;  ///< a heap, the least value on top; once expanded
   };
   /// A node, or the best candidate of a node that has been expanded.
@@ -176,6 +182,7 @@ struct FootstepSearch::Search {
       : stance(model.gaits[gait]->stance),
         limits(limits),
         world(world),
+        start(start),
         goals(goals),
         ground(*model.robot, stance, world, limits.margin),
         checker(*world.environment),
@@ -229,21 +236,36 @@ struct FootstepSearch::Search {
   PoseField FieldOf() const {
     std::vector<PlanarPose> places;
     for (const GroundedStance& goal : goals) places.push_back(goal.pose);
-    const std::vector<double>& levels = world.ground->levels();
     const PoseField::Paces paces{kLevelStep / limits.forward, 2 * kLevelStep / limits.lateral,
-                                 2 * kLevelStep / limits.turn};
+                                 2 * kLevelStep / limits.turn, kSecondsPerMetreClimbed,
+                                 limits.rise + kSameHeight};
     return PoseField(
         world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
-        [this, &levels](const PlanarPose& pose) {
-          for (std::size_t level = 0; level < levels.size(); ++level) {
-            if (!world.ground->IsNear(static_cast<int>(level), pose.position(),
-                                      limits.forward / 2)) {
-              continue;
-            }
-            if (TrunkIsFree(pose, levels[level])) return true;
-          }
-          return false;
-        });
+        [this](const PlanarPose& pose) { return TrunkMayBeAt(pose); },
+        [this](const Vector2d& p) { return HeightAt(p); });
+  }
+
+  /// Over ground that is near, of some level.
+  bool TrunkMayBeAt(const PlanarPose& pose) const {
+    const std::vector<double>& levels = world.ground->levels();
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      if (!world.ground->IsNear(static_cast<int>(level), pose.position(), limits.forward / 2)) {
+        continue;
+      }
+      if (TrunkIsFree(pose, levels[level])) return true;
+    }
+    return false;
+  }
+
+  /// Of the highest ground at p or near it.
+  double HeightAt(const Vector2d& p) const {
+    const std::vector<double>& levels = world.ground->levels();
+    for (const double distance : {0.0, limits.forward / 2}) {
+      for (int level = static_cast<int>(levels.size()) - 1; level >= 0; --level) {
+        if (world.ground->IsNear(level, p, distance)) return levels[level];
+      }
+    }
+    return 0;
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -377,8 +399,7 @@ struct FootstepSearch::Search {
       if (!std::isfinite(time)) continue;
       for (const int level : near) {
         const Foothold foothold{*there, world.ground->levels()[level]};
-        node.candidates.push_back(
-            {CostOf(node, foothold, *squat) + kGreed * time, place, level});
+        node.candidates.push_back({CostOf(node, foothold, *squat) + kGreed * time, place, level});
       }
     }
     std::make_heap(node.candidates.begin(), node.candidates.end(), std::greater<>());
@@ -455,6 +476,16 @@ struct FootstepSearch::Search {
     return -1;
   }
 
+  /// Leaves nothing to search if no goal can be reached.
+  void AskFlood(const CancellationToken& cancellation) {
+    is_flooded = true;
+    const FootholdFlood flood(stance, world, limits, start, cancellation);
+    const bool may_be_reached =
+        std::any_of(goals.begin(), goals.end(),
+                    [&](const GroundedStance& goal) { return flood.Reaches(goal); });
+    if (!may_be_reached) open = {};
+  }
+
   std::vector<Footstep> StepsTo(int index) const {
     std::vector<Footstep> steps;
     for (; nodes[index].parent >= 0; index = nodes[index].parent) {
@@ -469,6 +500,7 @@ struct FootstepSearch::Search {
   const NominalStance& stance;
   FootstepLimits limits;
   const World& world;
+  GroundedStance start;
   std::vector<GroundedStance> goals;
   FootholdGround ground;
   models::CollisionChecker checker;
@@ -482,6 +514,7 @@ struct FootstepSearch::Search {
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   std::unordered_set<Key, HashOfKey> closed;
   std::int64_t expanded = 0;
+  bool is_flooded = false;
 };
 
 FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
@@ -499,6 +532,10 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
   Search& search = *search_;
   for (std::int64_t work = 0; work < states * kPlacesPerState; ++work) {
     if (search.open.empty() || search.expanded >= most_states) return Status::kExhausted;
+    if (search.expanded >= kStatesBeforeFlood && !search.is_flooded) {
+      search.AskFlood(cancellation);
+      continue;
+    }
     if (work % kWorkPerQuestion == 0) cancellation.ThrowIfCancelled();
     const auto [value, index, is_candidate] = search.open.top();
     search.open.pop();

@@ -29,6 +29,14 @@ struct UnevenWorld {
     Add(size, position, false);
     return *this;
   }
+  void Add(const Eigen::Vector3d& size, const Eigen::Vector3d& position, bool is_ground) {
+    models::Obstacle obstacle;
+    obstacle.name = fmt::format("box {}", environment.obstacles.size());
+    obstacle.shape = models::Shape::Box(size);
+    obstacle.X_WO.translation() = position;
+    obstacle.is_ground = is_ground;
+    environment.obstacles.push_back(std::move(obstacle));
+  }
   /// Six treads of 0.30 m from x = 0.3 on, and a landing.
   static UnevenWorld Stairs(double rise) {
     UnevenWorld world;
@@ -56,16 +64,6 @@ struct UnevenWorld {
   models::Environment environment;
   std::unique_ptr<models::GroundMap> ground;
   World world;
-
- private:
-  void Add(const Eigen::Vector3d& size, const Eigen::Vector3d& position, bool is_ground) {
-    models::Obstacle obstacle;
-    obstacle.name = fmt::format("box {}", environment.obstacles.size());
-    obstacle.shape = models::Shape::Box(size);
-    obstacle.X_WO.translation() = position;
-    obstacle.is_ground = is_ground;
-    environment.obstacles.push_back(std::move(obstacle));
-  }
 };
 
 }  // namespace possibility::actions
