@@ -62,21 +62,26 @@ Eigen::Isometry3d PatchPoseOf(const NominalStance& stance, int limb, const Footh
          Eigen::AngleAxisd(stance.patch_headings[limb], Vector3d::UnitZ());
 }
 
+std::vector<int> GentlePlanes(const models::RobotModel& robot, const models::GroundMap& ground) {
+  std::vector<int> gentle;
+  for (int plane = 0; plane < static_cast<int>(ground.planes().size()); ++plane) {
+    const Vector3d& normal = ground.planes()[plane].normal;
+    const double steepest = kUsableFriction * robot.friction;
+    if (normal.head<2>().norm() <= steepest * normal.z()) gentle.push_back(plane);
+  }
+  return gentle;
+}
+
 FootholdGround::FootholdGround(const models::RobotModel& robot, const NominalStance& stance,
                                const World& world, double margin)
     : stance_(stance),
       world_(world),
       margin_(margin),
-      steepest_(kUsableFriction * robot.friction),
+      planes_(GentlePlanes(robot, *world.ground)),
       checker_(*world.environment) {
   for (int limb = 0; limb < static_cast<int>(stance.gait->limbs.size()); ++limb) {
     feet_.emplace_back(std::vector<Eigen::AlignedBox3d>{FootBox(robot, stance, limb)});
   }
-}
-
-bool FootholdGround::IsGentle(int plane) const {
-  const Vector3d& normal = world_.ground->planes()[plane].normal;
-  return normal.head<2>().norm() <= steepest_ * normal.z();
 }
 
 Foothold FootholdGround::On(int limb, const PlanarPose& stance, int plane) const {
@@ -109,8 +114,7 @@ bool FootholdGround::IsFree(int limb, const Eigen::Isometry3d& X_WS) const {
 }
 
 std::optional<Foothold> FootholdGround::Place(int limb, const PlanarPose& stance, int plane) const {
-  if (!IsGentle(plane) ||
-      !world_.ground->IsNear(plane, stance * Vector2d(stance_.patch_centres[limb].head<2>()),
+  if (!world_.ground->IsNear(plane, stance * Vector2d(stance_.patch_centres[limb].head<2>()),
                              kMostShift)) {
     return std::nullopt;
   }

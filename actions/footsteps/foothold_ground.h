@@ -32,6 +32,9 @@ Eigen::Isometry3d FrameOf(const NominalStance& stance, int limb, const Foothold&
 /// Pose of the limb's patch there (models::ContactPatch::Frame).
 Eigen::Isometry3d PatchPoseOf(const NominalStance& stance, int limb, const Foothold& place);
 
+/// Planes of the ground on which friction holds a foot.
+std::vector<int> GentlePlanes(const models::RobotModel& robot, const models::GroundMap& ground);
+
 /// Where single limbs of a gait may bear, and how they get there. Const functions may run in
 /// several threads.
 class FootholdGround {
@@ -40,12 +43,12 @@ class FootholdGround {
   FootholdGround(const models::RobotModel& robot, const NominalStance& stance, const World& world,
                  double margin);
 
-  /// The limb on ground of a plane. Where the ground ends under the limb, or its link would hit
-  /// something, it is moved ahead or back, by kMostShift at most. None if that does not help.
+  /// The limb on ground of a plane, which is one of planes(). Where the ground ends under the limb,
+  /// or its link would hit something, it is moved ahead or back, by kMostShift at most. None if
+  /// that does not help.
   std::optional<Foothold> Place(int limb, const PlanarPose& stance, int plane) const;
 
-  /// Whether friction holds a foot on the plane.
-  bool IsGentle(int plane) const;
+  const std::vector<int>& planes() const { return planes_; }  ///< GentlePlanes
   /// There, were it ground.
   Foothold On(int limb, const PlanarPose& stance, int plane) const;
 
@@ -66,7 +69,7 @@ class FootholdGround {
   const NominalStance& stance_;
   const World& world_;
   double margin_;
-  double steepest_;  ///< tangent
+  std::vector<int> planes_;
   models::CollisionChecker checker_;
   std::vector<models::UprightBoxes> feet_;  ///< by limb: box about its link, in the stance frame
 };

@@ -8,6 +8,7 @@
 #include <queue>
 #include <unordered_set>
 
+#include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/pose_field.h"
 #include "actions/motion/limb_bend.h"
 #include "actions/motion/support_polygon.h"
@@ -36,10 +37,15 @@ constexpr double kSecondsPerMetreUp = 2;
 /// count as slower, s/m.
 constexpr double kEasySquat = 0.02;
 constexpr double kSecondsPerSquat = 60;
+/// Expected by the field of poses, s/m: with high steps, low roots, and a second foot that follows.
+constexpr double kSecondsPerMetreClimbed = 12;
 
 /// Work of one turn: a place that is tried counts as this share of a state.
 constexpr std::int64_t kPlacesPerState = 16;
 constexpr std::int64_t kWorkPerQuestion = 256;
+
+/// A search that goes on for so many states asks whether the ground can be reached at all.
+constexpr std::int64_t kStatesBeforeFlood = 400;
 
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
@@ -176,6 +182,7 @@ struct FootstepSearch::Search {
       : stance(model.gaits[gait]->stance),
         limits(limits),
         world(world),
+        start(start),
         goals(goals),
         ground(*model.robot, stance, world, limits.margin),
         checker(*world.environment),
@@ -230,15 +237,32 @@ struct FootstepSearch::Search {
     std::vector<PlanarPose> places;
     for (const GroundedStance& goal : goals) places.push_back(goal.pose);
     const PoseField::Paces paces{kLevelStep / limits.forward, 2 * kLevelStep / limits.lateral,
-                                 2 * kLevelStep / limits.turn};
-    return PoseField(world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(),
-                     places, paces, [this](const PlanarPose& pose) {
-                       for (const int plane : PlanesNear(pose.position(), limits.forward / 2)) {
-                         const double z = world.ground->planes()[plane].HeightAt(pose.position());
-                         if (TrunkIsFree(pose, z)) return true;
-                       }
-                       return false;
-                     });
+                                 2 * kLevelStep / limits.turn, kSecondsPerMetreClimbed,
+                                 limits.rise + kSameHeight};
+    return PoseField(
+        world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
+        [this](const PlanarPose& pose) { return TrunkMayBeAt(pose); },
+        [this](const Vector2d& p) { return HeightAt(p); });
+  }
+
+  /// Over ground that is near.
+  bool TrunkMayBeAt(const PlanarPose& pose) const {
+    const std::vector<int> near = PlanesNear(pose.position(), limits.forward / 2);
+    return std::any_of(near.begin(), near.end(), [&](int plane) {
+      return TrunkIsFree(pose, world.ground->planes()[plane].HeightAt(pose.position()));
+    });
+  }
+
+  /// Of the highest ground at p or near it.
+  double HeightAt(const Vector2d& p) const {
+    for (const double distance : {0.0, limits.forward / 2}) {
+      double highest = -std::numeric_limits<double>::infinity();
+      for (const int plane : PlanesNear(p, distance)) {
+        highest = std::max(highest, world.ground->planes()[plane].HeightAt(p));
+      }
+      if (std::isfinite(highest)) return highest;
+    }
+    return 0;
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -344,8 +368,8 @@ struct FootstepSearch::Search {
   /// Planes that a foot can stand on and that have ground near p.
   std::vector<int> PlanesNear(const Vector2d& p, double distance) const {
     std::vector<int> near;
-    for (int plane = 0; plane < static_cast<int>(world.ground->planes().size()); ++plane) {
-      if (ground.IsGentle(plane) && world.ground->IsNear(plane, p, distance)) near.push_back(plane);
+    for (const int plane : ground.planes()) {
+      if (world.ground->IsNear(plane, p, distance)) near.push_back(plane);
     }
     return near;
   }
@@ -459,6 +483,16 @@ struct FootstepSearch::Search {
     return -1;
   }
 
+  /// Leaves nothing to search if no goal can be reached.
+  void AskFlood(const CancellationToken& cancellation) {
+    is_flooded = true;
+    const FootholdFlood flood(stance, world, ground.planes(), limits, start, cancellation);
+    const bool may_be_reached =
+        std::any_of(goals.begin(), goals.end(),
+                    [&](const GroundedStance& goal) { return flood.Reaches(goal); });
+    if (!may_be_reached) open = {};
+  }
+
   std::vector<Footstep> StepsTo(int index) const {
     std::vector<Footstep> steps;
     for (; nodes[index].parent >= 0; index = nodes[index].parent) {
@@ -473,6 +507,7 @@ struct FootstepSearch::Search {
   const NominalStance& stance;
   FootstepLimits limits;
   const World& world;
+  GroundedStance start;
   std::vector<GroundedStance> goals;
   FootholdGround ground;
   models::CollisionChecker checker;
@@ -486,6 +521,7 @@ struct FootstepSearch::Search {
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   std::unordered_set<Key, HashOfKey> closed;
   std::int64_t expanded = 0;
+  bool is_flooded = false;
 };
 
 FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
@@ -503,6 +539,10 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
   Search& search = *search_;
   for (std::int64_t work = 0; work < states * kPlacesPerState; ++work) {
     if (search.open.empty() || search.expanded >= most_states) return Status::kExhausted;
+    if (search.expanded >= kStatesBeforeFlood && !search.is_flooded) {
+      search.AskFlood(cancellation);
+      continue;
+    }
     if (work % kWorkPerQuestion == 0) cancellation.ThrowIfCancelled();
     const auto [value, index, is_candidate] = search.open.top();
     search.open.pop();

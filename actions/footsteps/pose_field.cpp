@@ -47,17 +47,21 @@ int Cell(double at, int count) {
 
 PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
                      const std::vector<PlanarPose>& goals, const Paces& paces,
-                     std::function<bool(const PlanarPose&)> is_open)
+                     std::function<bool(const PlanarPose&)> is_open,
+                     std::function<double(const Eigen::Vector2d&)> height)
     : bounds_(bounds),
       cell_(cell),
       first_heading_(first_heading),
+      paces_(paces),
       is_open_(std::move(is_open)),
+      height_(std::move(height)),
       times_of_moves_(TimesOfMoves(cell, first_heading, paces)) {
   columns_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().x() / cell)));
   rows_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().y() / cell)));
   const std::size_t poses = Index(0, rows_, 0);
   times_.assign(poses, std::numeric_limits<double>::infinity());
   states_.assign(poses, State::kUnknown);
+  if (height_) heights_.assign(poses / kHeadings, std::numeric_limits<double>::quiet_NaN());
   for (const PlanarPose& goal : goals) {
     const std::size_t index = IndexOf(goal);
     times_[index] = 0;
@@ -68,14 +72,28 @@ PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double firs
 
 bool PoseField::IsOpen(std::size_t index) {
   if (states_[index] == State::kUnknown) {
-    const std::size_t place = index / kHeadings;
-    const Vector2d p =
-        bounds_.min() + cell_ * Vector2d(static_cast<double>(place % columns_) + 0.5,
-                                         static_cast<double>(place / columns_) + 0.5);
+    const Vector2d p = CentreOf(index / kHeadings);
     const double yaw = first_heading_ + static_cast<double>(index % kHeadings) * kTurn;
     states_[index] = is_open_({p.x(), p.y(), yaw}) ? State::kOpen : State::kClosed;
   }
   return states_[index] == State::kOpen;
+}
+
+Vector2d PoseField::CentreOf(std::size_t place) const {
+  return bounds_.min() + cell_ * Vector2d(static_cast<double>(place % columns_) + 0.5,
+                                          static_cast<double>(place / columns_) + 0.5);
+}
+
+double PoseField::HeightOf(std::size_t place) {
+  double& height = heights_[place];
+  if (std::isnan(height)) height = height_(CentreOf(place));
+  return height;
+}
+
+double PoseField::ClimbTime(std::size_t from, std::size_t to) {
+  if (heights_.empty() || from == to) return 0;
+  const double climb = std::abs(HeightOf(to) - HeightOf(from));
+  return climb <= paces_.most_climb ? paces_.climb * climb : 0;
 }
 
 double PoseField::At(const PlanarPose& pose, const CancellationToken& cancellation) {
@@ -100,8 +118,9 @@ void PoseField::Visit(const Entry& at) {
     const int row = place / columns_ + move.row;
     if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
     const int heading = (at_heading + move.heading + kHeadings) % kHeadings;
-    const double time = at.time + times_of_moves_[at_heading][i];
     const std::size_t index = Index(column, row, heading);
+    const double time = at.time + times_of_moves_[at_heading][i] +
+                        ClimbTime(at.index / kHeadings, index / kHeadings);
     if (time >= times_[index] || !IsOpen(index)) continue;
     times_[index] = time;
     queue_.push({time, index});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "actions/footsteps/step_refusals.h"
 #include "tests/actions/footsteps/uneven_world.h"
@@ -126,6 +127,82 @@ TEST_F(FootstepPlanTest, TheSameSearchFindsTheSameSteps) {
     }
   }
   EXPECT_EQ(places[0], places[1]);
+}
+
+/// Strips of ground across the way, which a robot that walks straight ahead crosses or not: a
+/// search over the positions of both feet on a line, with steps shorter than the family's, says so.
+class StripsTest : public FootstepPlanTest {
+ protected:
+  struct Strip {
+    double from = 0, to = 0, z = 0;
+  };
+
+  std::vector<Strip> RandomStrips() {
+    std::uniform_real_distribution<double> length(0.32, 0.8), gap(0.02, 0.4), height(0, 0.05);
+    std::vector<Strip> strips = {{-3, 0, 0}};
+    while (strips.back().to < 1.5) {
+      const double from = strips.back().to + gap(random_);
+      strips.push_back({from, from + length(random_), height(random_)});
+    }
+    strips.back().to = 5;
+    return strips;
+  }
+
+  /// Index of the strip that a foot of the stance at x bears on, well away from the edges; -1.
+  int StripAt(const std::vector<Strip>& strips, double x) const {
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      bool bears = true;
+      for (const Eigen::Vector2d& p : stance_.bearing_points[0]) {
+        bears = bears && x + p.x() > strips[i].from + 0.02 && x + p.x() < strips[i].to - 0.02;
+      }
+      if (bears) return static_cast<int>(i);
+    }
+    return -1;
+  }
+
+  bool LineIsCrossed(const std::vector<Strip>& strips, double start, double goal) const {
+    const auto cells = static_cast<int>((goal - start) / kStep) + 1;
+    const auto most = static_cast<int>(0.85 * limits_.forward / kStep);
+    // Whether one foot may stand in a cell while the other one is that many cells behind.
+    std::vector<std::vector<bool>> known(cells, std::vector<bool>(most + 1, false));
+    std::vector<std::pair<int, int>> open = {{0, 0}};
+    while (!open.empty()) {
+      const auto [ahead, behind] = open.back();
+      open.pop_back();
+      for (int cell = ahead; cell <= std::min(cells - 1, ahead + most); ++cell) {
+        if (StripAt(strips, start + cell * kStep) < 0 || known[cell][cell - ahead]) continue;
+        known[cell][cell - ahead] = true;
+        open.emplace_back(cell, cell - ahead);
+      }
+    }
+    return known[cells - 1][0];
+  }
+
+  static constexpr double kStep = 0.01;  // m
+  std::mt19937 random_{4};
+};
+
+TEST_F(StripsTest, WhatIsCrossedOnALineIsFound) {
+  int crossed = 0, found = 0;
+  constexpr int kWorlds = 60;
+  for (int i = 0; i < kWorlds; ++i) {
+    const std::vector<Strip> strips = RandomStrips();
+    UnevenWorld world;
+    for (const Strip& strip : strips) world.Ground(strip.from, strip.to, strip.z);
+    const double end = strips.back().from + 0.5;
+    const auto start = UnevenWorld::StanceAt(-0.5);
+    const auto goal = UnevenWorld::StanceAt(end, strips.back().z);
+    const bool is_crossed = LineIsCrossed(strips, -0.5, end);
+    const bool is_found = Search(&world, start, goal) == FootstepSearch::Status::kFound;
+    EXPECT_TRUE(is_found || !is_crossed) << "world " << i;
+    crossed += is_crossed;
+    found += is_found;
+    if (!is_found) continue;
+    ExpectFootholds(world);
+    ExpectSequence(start, goal);
+  }
+  EXPECT_GT(crossed, 5);
+  EXPECT_LT(found, kWorlds);
 }
 
 TEST(StepRefusalsTest, ALongerOrHigherStepThanOneThatFailedIsRefused) {

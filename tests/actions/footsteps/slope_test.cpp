@@ -68,8 +68,8 @@ TEST(Slope, FeetLieOnTheirGround) {
     on_slopes += step.to.IsLevel() ? 0 : 1;
     for (const Vector2d& p : ridge.stance().bearing_points[step.limb]) {
       const Vector3d there = X_WS * Vector3d(p.x(), p.y(), 0);
-      const auto planes = ridge.world().ground->PlanesAt(there.head<2>(), there.z() - 1e-9,
-                                                         there.z() + 1e-9);
+      const auto planes =
+          ridge.world().ground->PlanesAt(there.head<2>(), there.z() - 1e-9, there.z() + 1e-9);
       ASSERT_EQ(planes.size(), 1u);
       EXPECT_GE(ridge.world().ground->Clearance(planes[0], there.head<2>()), 0.01 - 1e-6);
     }
@@ -90,9 +90,9 @@ TEST(Slope, SolesAreFlatOnTheSlopeThroughoutTheMotion) {
     for (const Knot& knot : phase.knots) {
       kinematics.SetPosition(knot.q);
       for (const std::string& name : phase.contacts) {
-        const auto patch = std::find_if(
-            DrcHubo1().contacts.begin(), DrcHubo1().contacts.end(),
-            [&](const models::ContactPatch& contact) { return contact.name == name; });
+        const auto patch =
+            std::find_if(DrcHubo1().contacts.begin(), DrcHubo1().contacts.end(),
+                         [&](const models::ContactPatch& contact) { return contact.name == name; });
         for (const Vector3d& p_L : patch->points) {
           const Vector3d p = kinematics.Position(patch->link, p_L);
           EXPECT_FALSE(

@@ -30,8 +30,8 @@ struct UnevenWorld {
   UnevenWorld& Slope(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width = 3) {
     const Eigen::Vector2d along = to - from;
     const double angle = std::atan2(along.y(), along.x());
-    const Eigen::Vector2d middle = (from + to) / 2 +
-                                   0.1 * Eigen::Vector2d(std::sin(angle), -std::cos(angle));
+    const Eigen::Vector2d middle =
+        (from + to) / 2 + 0.1 * Eigen::Vector2d(std::sin(angle), -std::cos(angle));
     Add({along.norm(), width, 0.2}, {middle.x(), 0, middle.y()}, true);
     environment.obstacles.back().X_WO.linear() =
         Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -40,6 +40,14 @@ struct UnevenWorld {
   UnevenWorld& Box(const Eigen::Vector3d& size, const Eigen::Vector3d& position) {
     Add(size, position, false);
     return *this;
+  }
+  void Add(const Eigen::Vector3d& size, const Eigen::Vector3d& position, bool is_ground) {
+    models::Obstacle obstacle;
+    obstacle.name = fmt::format("box {}", environment.obstacles.size());
+    obstacle.shape = models::Shape::Box(size);
+    obstacle.X_WO.translation() = position;
+    obstacle.is_ground = is_ground;
+    environment.obstacles.push_back(std::move(obstacle));
   }
   /// Six treads of 0.30 m from x = 0.3 on, and a landing.
   static UnevenWorld Stairs(double rise) {
@@ -68,16 +76,6 @@ struct UnevenWorld {
   models::Environment environment;
   std::unique_ptr<models::GroundMap> ground;
   World world;
-
- private:
-  void Add(const Eigen::Vector3d& size, const Eigen::Vector3d& position, bool is_ground) {
-    models::Obstacle obstacle;
-    obstacle.name = fmt::format("box {}", environment.obstacles.size());
-    obstacle.shape = models::Shape::Box(size);
-    obstacle.X_WO.translation() = position;
-    obstacle.is_ground = is_ground;
-    environment.obstacles.push_back(std::move(obstacle));
-  }
 };
 
 }  // namespace possibility::actions

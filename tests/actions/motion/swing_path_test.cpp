@@ -65,7 +65,8 @@ TEST(SwingPathTest, OnASlopeTheSwingFollowsTheLineBetweenItsEnds) {
   double highest = 0;
   for (double t = 0; t <= swing.duration; t += swing.duration / 200) {
     const Vector3d p = swing.At(t).value;
-    const double across = (p - swing.from).head<2>().norm() / (swing.to - swing.from).head<2>().norm();
+    const double across =
+        (p - swing.from).head<2>().norm() / (swing.to - swing.from).head<2>().norm();
     const double above = p.z() - (swing.from.z() + across * (swing.to.z() - swing.from.z()));
     EXPECT_GT(above, -1e-12);
     highest = std::max(highest, above);

@@ -1,0 +1,161 @@
+#include "actions/footsteps/foothold_flood.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/actions/footsteps/uneven_world.h"
+
+namespace possibility::actions {
+namespace {
+
+class FootholdFloodTest : public ::testing::Test {
+ protected:
+  double Random(double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random_);
+  }
+
+  /// Banks at both ends, and stones or strips of any sizes and heights between them.
+  UnevenWorld RandomTerrain() {
+    UnevenWorld world;
+    world.Ground(-3, 0, 0).Ground(Random(1.5, 3), 5, Random(0, 0.3));
+    const bool are_stones = Random(0, 1) < 0.5;
+    for (double x = 0; x < 3; x += Random(0.1, 0.5)) {
+      const double z = 0.05 * std::floor(Random(0, 6));
+      if (are_stones) {
+        const Eigen::Vector3d size(Random(0.1, 0.6), Random(0.1, 0.8), 0.5);
+        world.Add(size, {x, Random(-0.5, 0.5), z - 0.25}, true);
+      } else {
+        world.Ground(x, x + Random(0.05, 0.5), z);
+      }
+    }
+    return world;
+  }
+
+  /// Banks at both ends, and boards of any tilt between them.
+  UnevenWorld RandomBoards() {
+    UnevenWorld world;
+    world.Ground(-3, 0, 0).Ground(Random(1.5, 3), 5, Random(0, 0.3));
+    for (double x = 0.2; x < 3; x += Random(0.2, 0.5)) {
+      world.Add({Random(0.2, 0.7), Random(0.3, 1), 0.1}, {x, Random(-0.4, 0.4), Random(-0.1, 0.3)},
+                true);
+      world.environment.obstacles.back().X_WO.linear() =
+          (Eigen::AngleAxisd(Random(-3, 3), Eigen::Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(Random(0, 0.4), Eigen::Vector3d::UnitX()))
+              .toRotationMatrix();
+    }
+    return world;
+  }
+
+  bool Bears(const models::GroundMap& ground, int limb, int plane, const Foothold& place) const {
+    const Eigen::Isometry3d X_WS = FrameOf(stance_, limb, place);
+    for (const Eigen::Vector2d& p : stance_.bearing_points[limb]) {
+      const Eigen::Vector3d there = X_WS * Eigen::Vector3d(p.x(), p.y(), 0);
+      if (ground.Clearance(plane, there.head<2>()) < limits_.margin) return false;
+    }
+    return true;
+  }
+
+  /// A step of the family, drawn at random; whether it leads to ground.
+  bool Step(const World& world, int limb, const Foothold& other, Foothold* place) {
+    const double side = stance_.patch_centres[limb].y() > 0 ? 1 : -1;
+    const PlanarPose displacement{Random(-limits_.forward, limits_.forward),
+                                  side * Random(-0.1, 1) * limits_.lateral,
+                                  Random(-limits_.turn, limits_.turn)};
+    const double shift = Random(-FootholdGround::kMostShift, FootholdGround::kMostShift);
+    const PlanarPose there = other.stance * displacement * PlanarPose{shift, 0, 0};
+    if (!world.environment->bounds.contains(there.position())) return false;
+    const std::vector<models::GroundPlane>& planes = world.ground->planes();
+    const auto plane = static_cast<int>(Random(0, static_cast<double>(planes.size())));
+    const Eigen::Vector2d centre = there * Eigen::Vector2d(stance_.patch_centres[limb].head<2>());
+    *place = {there, planes[plane].HeightAt(centre), planes[plane].normal, planes[plane].offset};
+    return std::abs(place->z - other.z) <= limits_.rise &&
+           Bears(*world.ground, limb, plane, *place);
+  }
+
+  FootholdFlood FloodOf(const World& world, const GroundedStance& start,
+                        const CancellationToken& cancellation = {}) const {
+    return {stance_, world, GentlePlanes(DrcHubo1(), *world.ground), limits_, start, cancellation};
+  }
+
+  bool IsReached(UnevenWorld* world, const GroundedStance& goal) const {
+    return FloodOf(world->Built(), UnevenWorld::StanceAt(-1)).Reaches(goal);
+  }
+
+  const NominalStance& stance_ = WalkingHubo().gaits[0]->stance;
+  FootstepLimits limits_ = FootstepLimits::Of(DrcHubo1(), stance_);
+  std::mt19937 random_{20};
+};
+
+TEST_F(FootholdFloodTest, WhatStepsReachIsNeverDenied) {
+  int steps = 0, away = 0;
+  for (int terrain = 0; terrain < 40; ++terrain) {
+    UnevenWorld uneven = terrain % 2 == 0 ? RandomTerrain() : RandomBoards();
+    const World& world = uneven.Built();
+    const GroundedStance start = UnevenWorld::StanceAt(-0.4);
+    const FootholdFlood flood = FloodOf(world, start);
+    std::array<Foothold, 2> feet;
+    feet.fill({start.pose, start.z});
+    int limb = 0;
+    for (int attempt = 0; attempt < 20000; ++attempt) {
+      Foothold place;
+      if (!Step(world, limb, feet[1 - limb], &place)) continue;
+      ASSERT_TRUE(flood.Reaches(limb, place))
+          << "terrain " << terrain << ": " << place.stance.x << " " << place.stance.y << " "
+          << place.stance.yaw << " at " << place.z;
+      feet[limb] = place;
+      limb = 1 - limb;
+      ++steps;
+      away += place.z > 0;
+    }
+  }
+  EXPECT_GT(steps, 10000);
+  EXPECT_GT(away, 1000);
+}
+
+TEST_F(FootholdFloodTest, AWideGapAHighStepAndSmallStonesAreDenied) {
+  const double reach = FootholdFlood::ReachOf(stance_, limits_);
+  for (const bool is_wide : {false, true}) {
+    UnevenWorld gap;
+    gap.Ground(-3, 0, 0).Ground(is_wide ? reach + 0.1 : 0.2, 5, 0);
+    EXPECT_TRUE(IsReached(&gap, UnevenWorld::StanceAt(-2)));
+    EXPECT_EQ(IsReached(&gap, UnevenWorld::StanceAt(2)), !is_wide);
+  }
+  for (const double rise : {0.1, 0.2}) {
+    UnevenWorld stairs = UnevenWorld::Stairs(rise);
+    EXPECT_EQ(IsReached(&stairs, UnevenWorld::StanceAt(3, 6 * rise)), rise < limits_.rise);
+  }
+  for (const double size : {0.1, 0.4}) {
+    UnevenWorld stones;
+    stones.Ground(-3, 0, 0).Ground(2, 5, 0);
+    for (double x = 0.25; x < 1.9; x += 0.45) {
+      for (const double y : {-0.3, 0.0, 0.3}) stones.Add({size, 0.1, 0.5}, {x, y, -0.25}, true);
+    }
+    EXPECT_FALSE(IsReached(&stones, UnevenWorld::StanceAt(3)));
+    UnevenWorld wider;
+    wider.Ground(-3, 0, 0).Ground(2, 5, 0);
+    for (double x = 0.25; x < 1.9; x += 0.45) {
+      wider.Add({size, size, 0.5}, {x, 0.1, -0.25}, true);
+      wider.Add({size, size, 0.5}, {x, -0.1, -0.25}, true);
+    }
+    EXPECT_EQ(IsReached(&wider, UnevenWorld::StanceAt(3)), size > 0.3);
+  }
+}
+
+TEST_F(FootholdFloodTest, GroundAboveOtherGroundIsReachedFromItsMiddle) {
+  UnevenWorld world;
+  world.Ground(-3, 5, 0).Ground(1, 2, 0.1, 1).Ground(1.4, 1.6, 0.35, 0.4);
+  EXPECT_TRUE(IsReached(&world, UnevenWorld::StanceAt(1.5, 0.1)));
+  EXPECT_FALSE(IsReached(&world, UnevenWorld::StanceAt(1.5, 0.35)));
+}
+
+TEST_F(FootholdFloodTest, CancellationEndsIt) {
+  UnevenWorld world;
+  world.Ground(-3, 5, 0);
+  EXPECT_THROW(
+      FloodOf(world.Built(), UnevenWorld::StanceAt(-1), CancellationToken([] { return false; })),
+      Cancelled);
+}
+
+}  // namespace
+}  // namespace possibility::actions
