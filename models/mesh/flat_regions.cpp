@@ -198,6 +198,7 @@ class Grower {
   FlatRegion RegionOf(const std::vector<int>& triangles, const Plane& plane) const {
     FlatRegion region;
     region.normal = plane.normal;
+    region.triangles = triangles;
     for (const int t : triangles) region.area += areas_[t];
     // Seen along z if the plane is level enough, otherwise along its normal: two axes of that view,
     // and how a point of the view returns to the plane.

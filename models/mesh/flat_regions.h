@@ -11,6 +11,7 @@ namespace possibility::models {
 struct FlatRegion {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, outwards
   double area = 0;                                    ///< m^2, of the triangles
+  std::vector<int> triangles;                         ///< of the mesh
   /// Together the region: convex, exactly in one plane, counter-clockwise seen from outside.
   std::vector<std::vector<Eigen::Vector3d>> polygons;
 

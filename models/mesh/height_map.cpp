@@ -94,9 +94,14 @@ Eigen::MatrixXd ParseCsv(std::string_view text, const std::filesystem::path& fil
                                     static_cast<Eigen::Index>(columns));
 }
 
-std::string EndingOfMap(const std::filesystem::path& file) {
+std::string EndingInSmallLetters(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+std::string EndingOfMap(const std::filesystem::path& file) {
+  std::string ending = EndingInSmallLetters(file);
   if (ending != ".png" && ending != ".csv") {
     FailAt(file, "expected a height map whose name ends in .png or .csv");
   }
@@ -104,6 +109,8 @@ std::string EndingOfMap(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+bool EndsInPng(const std::filesystem::path& file) { return EndingInSmallLetters(file) == ".png"; }
 
 Eigen::MatrixXd ReadHeights(const std::filesystem::path& file) {
   EndingOfMap(file);

@@ -19,7 +19,10 @@ inline constexpr std::size_t kMostSamples = kMostTriangles / 2;
 /// fewer than 2 x 2 or more than kMostSamples samples.
 Eigen::MatrixXd ReadHeights(const std::filesystem::path& file);
 
-/// The same from the file's bytes.
+/// Whether a file's name ends in .png, in small letters or capitals.
+bool EndsInPng(const std::filesystem::path& file);
+
+/// The same as ReadHeights from the file's bytes.
 Eigen::MatrixXd ParseHeights(const std::string& bytes, const std::filesystem::path& file);
 
 /// The surface through all samples, `cell` (m) apart: x along the rows to the right, y up the

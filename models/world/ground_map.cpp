@@ -254,7 +254,8 @@ struct GroundMap::Impl {
 GroundMap::GroundMap(const Environment& environment) : impl_(std::make_unique<Impl>()) {
   std::vector<std::pair<double, Face>> tops;
   for (const Obstacle& obstacle : environment.obstacles) {
-    if (obstacle.is_ground) tops.emplace_back(TopHeight(obstacle), TopFace(obstacle));
+    if (obstacle.is_ground && obstacle.surface < 0)
+      tops.emplace_back(TopHeight(obstacle), TopFace(obstacle));
   }
   std::stable_sort(tops.begin(), tops.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
