@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,23 +22,37 @@ constexpr double kPointHeight = 1e-3;    // m
 constexpr double kEdgeTolerance = 1e-6;  // m
 constexpr double kLiftOffStep = 5e-3;    // s, between tests of a point that may leave the ground
 
+/// Planes that p bears on.
+std::vector<int> PlanesUnder(const Vector3d& p, const models::GroundMap& ground) {
+  return ground.PlanesAt(p.head<2>(), p.z() - kPointHeight, p.z() + kPointHeight);
+}
+
+/// The plane whose ground is nearest to p, in height and beyond its edge; -1 without any.
+int NearestPlane(const Vector3d& p, const models::GroundMap& ground) {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int plane = 0; plane < static_cast<int>(ground.planes().size()); ++plane) {
+    const double above = ground.planes()[plane].HeightAt(p.head<2>()) - p.z();
+    const double beyond = std::max(0.0, -ground.Clearance(plane, p.head<2>()));
+    const double distance = std::hypot(above, beyond);
+    if (nearest >= 0 && !(distance < least)) continue;
+    nearest = plane;
+    least = distance;
+  }
+  return nearest;
+}
+
 void CheckGround(const Vector3d& p, const BearingPoint& point, const models::RobotModel& robot,
                  const models::GroundMap& ground, const Instant& at, ViolationLog* log) {
-  // LevelAt returns the highest level within reach, so abutting faces at one height form no seam.
-  if (ground.LevelAt(p.head<2>(), p.z(), kPointHeight)) return;
-  const std::vector<double>& levels = ground.levels();
-  int nearest = -1;
-  for (int level = 0; level < static_cast<int>(levels.size()); ++level) {
-    if (nearest < 0 || std::abs(levels[level] - p.z()) < std::abs(levels[nearest] - p.z())) {
-      nearest = level;
-    }
-  }
+  if (!PlanesUnder(p, ground).empty()) return;
+  const int nearest = NearestPlane(p, ground);
   if (nearest < 0) {
     log->Report(ViolationKind::kContactGround, at, NameOf(robot, point) + ", no ground at all");
     return;
   }
   const bool on_height = log->RequireAtMost(
-      ViolationKind::kContactGround, at, std::abs(levels[nearest] - p.z()), 0, kPointHeight, "m",
+      ViolationKind::kContactGround, at,
+      std::abs(ground.planes()[nearest].HeightAt(p.head<2>()) - p.z()), 0, kPointHeight, "m",
       [&] { return NameOf(robot, point) + " above or below the nearest ground"; });
   if (!on_height) return;
   log->RequireAtLeast(ViolationKind::kContactGround, at, ground.Clearance(nearest, p.head<2>()), 0,
@@ -59,6 +75,7 @@ class Footprints {
     contacts.points = BearingPoints(robot_, phase);
     contacts.anchors.resize(3, static_cast<Eigen::Index>(contacts.points.size()));
     const VerifierState state = evaluator_->Evaluate(phase.knots.front());
+    contacts.normals = Normals(contacts.points, state);
     for (std::size_t i = 0; i < contacts.points.size(); ++i) {
       const BearingPoint& point = contacts.points[i];
       contacts.anchors.col(i) = SetDown(point, state);
@@ -74,6 +91,28 @@ class Footprints {
     BearingPoint point;
     Vector3d anchor;
   };
+
+  /// A patch bears on the plane that holds most of its points; the plane's normal counts for them.
+  Eigen::Matrix3Xd Normals(const std::vector<BearingPoint>& points,
+                           const VerifierState& state) const {
+    std::vector<std::vector<int>> planes;
+    std::map<int, std::map<int, int>> votes;  // by patch and plane
+    for (const BearingPoint& point : points) {
+      planes.push_back(PlanesUnder(state.Position(point), ground_));
+      for (const int plane : planes.back()) ++votes[point.patch][plane];
+    }
+    Eigen::Matrix3Xd normals = Vector3d::UnitZ().replicate(1, static_cast<int>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::map<int, int>& of_patch = votes[points[i].patch];
+      const auto best = std::max_element(planes[i].begin(), planes[i].end(), [&](int a, int b) {
+        return of_patch.at(a) < of_patch.at(b);
+      });
+      if (best != planes[i].end()) {
+        normals.col(static_cast<int>(i)) = ground_.planes()[*best].normal;
+      }
+    }
+    return normals;
+  }
 
   const Vector3d& SetDown(const BearingPoint& point, const VerifierState& state) {
     const PointKey key(point.patch, point.index);
@@ -91,8 +130,8 @@ class Footprints {
 
   bool IsOffGround(const BearingPoint& point, const VerifierState& state) const {
     const Vector3d p = state.Position(point);
-    const std::optional<int> level = ground_.LevelBelow(p.head<2>(), p.z());
-    return !level || p.z() - ground_.levels()[*level] > kPointHeight;
+    const std::optional<double> height = ground_.HeightBelow(p.head<2>(), p.z());
+    return !height || p.z() - *height > kPointHeight;
   }
 
   /// Forgets the points that leave the ground in a phase that does not list them.

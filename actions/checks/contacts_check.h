@@ -14,6 +14,7 @@ namespace possibility::actions {
 struct PhaseContacts {
   std::vector<BearingPoint> points;
   Eigen::Matrix3Xd anchors;  ///< world, one column per point, m
+  Eigen::Matrix3Xd normals;  ///< of the ground at the points, unit, one column per point
   bool lands = false;        ///< some point is set down at the start of the phase
 };
 

@@ -15,7 +15,8 @@ struct RealisedForces {
 };
 
 /// Inverse dynamics of Simbody at `state` (`dynamics` must be at it) minus the contact forces:
-/// `state.knot.forces`, changed as little as possible, each point in proportion to its load.
+/// `state.knot.forces`, changed as little as possible, each point in proportion to its load: its
+/// force along z.
 RealisedForces RealiseForces(const VerifierState& state, const std::vector<BearingPoint>& points,
                              const models::RobotModel& robot,
                              const dynamics::SimbodyDynamics& dynamics);

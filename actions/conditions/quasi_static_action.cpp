@@ -185,7 +185,7 @@ bool QuasiStaticAction::SomeLimbReachesGround(const Isometry3d& X_WR) const {
       return true;
     }
   }
-  return false;
+  return world_.ground->TiltedGroundIsNear(X_WR.translation(), bearing_reach_);
 }
 
 std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {

@@ -97,13 +97,13 @@ Vector3d PelvisCells::BallAt(const GroundedStance& stance) const {
 /// Corner of the box of possible ball centres: -1 the lowest, 1 the highest.
 Vector3d PelvisCells::Corner(int side) const {
   const Eigen::AlignedBox2d& bounds = world_.environment->bounds;
-  const std::vector<double>& levels = world_.ground->levels();
+  const Eigen::AlignedBox3d ground = world_.ground->bounds();
   const double from_root = ball_.centre_R.norm();
   Vector3d corner;
   if (side < 0) {
-    corner << bounds.min().array() - from_root, levels.front() - reach_;
+    corner << bounds.min().array() - from_root, ground.min().z() - reach_;
   } else {
-    corner << bounds.max().array() + from_root, levels.back() + reach_ + flight_.rise;
+    corner << bounds.max().array() + from_root, ground.max().z() + reach_ + flight_.rise;
   }
   return corner;
 }
@@ -183,7 +183,8 @@ bool PelvisCells::GroundIsNear(const Vector3d& p, double displaced) const {
       return true;
     }
   }
-  return false;
+  const double far = reach_ + std::hypot(flight_.rise, flight_.range);
+  return world_.ground->TiltedGroundIsNear(p, far + displaced);
 }
 
 /// Sufficient: true only if ground is near every point at p's height within `displaced` of it.

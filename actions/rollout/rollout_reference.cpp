@@ -19,9 +19,9 @@ using Eigen::VectorXd;
 constexpr double kEdge = 0.01;  // m: a rigid sole bears on an edge that it overlaps
 constexpr double kRest = 1e-3;  // m/s and rad/s
 
-std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot,
+std::set<int> PlanesUsed(const Segment& segment, const models::RobotModel& robot,
                          const models::GroundMap& ground) {
-  std::set<int> levels;
+  std::set<int> planes;
   dynamics::TreeKinematics kinematics(robot);
   for (const Phase& phase : segment.phases) {
     kinematics.SetPosition(phase.knots.front().q);
@@ -29,12 +29,17 @@ std::set<int> LevelsUsed(const Segment& segment, const models::RobotModel& robot
       const models::ContactPatch& patch = robot.contacts[bearing.patch];
       for (const int i : bearing.points) {
         const Vector3d p = kinematics.Position(patch.link, patch.points[i]);
-        const auto level = ground.LevelAt(p.head<2>(), p.z(), kTouching);
-        if (level) levels.insert(*level);
+        const std::vector<int> here =
+            ground.PlanesAt(p.head<2>(), p.z() - kTouching, p.z() + kTouching);
+        const auto highest = std::max_element(here.begin(), here.end(), [&](int a, int b) {
+          return ground.planes()[a].HeightAt(p.head<2>()) <
+                 ground.planes()[b].HeightAt(p.head<2>());
+        });
+        if (highest != here.end()) planes.insert(*highest);
       }
     }
   }
-  return levels;
+  return planes;
 }
 
 double Turned(const Eigen::Ref<const VectorXd>& q, const VectorXd& planned) {
@@ -72,7 +77,7 @@ RolloutReference::RolloutReference(const Segment& segment, const models::RobotMo
       planned_(dynamics::MultibodyModel::Spatial(robot)),
       model_(dynamics::MultibodyModel::Spatial(perturbation.Perturbed(robot))),
       track_(segment),
-      levels_(LevelsUsed(segment, robot, ground)) {}
+      planes_(PlanesUsed(segment, robot, ground)) {}
 
 bool RolloutReference::ends_at_rest() const {
   return segment_.phases.back().knots.back().v.lpNorm<Eigen::Infinity>() < kRest;
@@ -113,20 +118,21 @@ std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
   const models::RobotModel& robot = model_->tree();
   const auto kinematics = std::make_shared<dynamics::TreeKinematics>(robot);
   std::vector<dynamics::RolloutContact> contacts;
-  for (const int level : levels_) {
+  for (const int index : planes_) {
+    const models::GroundPlane& plane = ground_.planes()[index];
     for (const models::ContactPatch& patch : robot.contacts) {
       for (std::size_t i = 0; i < patch.points.size(); ++i) {
         dynamics::RolloutContact contact;
         contact.name = fmt::format("{} {}", patch.name, i);
-        contact.point = {patch.link, patch.points[i], normal()};
-        contact.offset = ground_.levels()[level] - origin_.z();
+        contact.point = {patch.link, patch.points[i], tilt_ * plane.normal};
+        contact.offset = plane.offset - plane.normal.dot(origin_);
         contact.friction = robot.friction;
-        if (levels_.size() > 1) {
-          contact.lands = [this, kinematics, level, point = contact.point](const VectorXd& q) {
+        if (planes_.size() > 1) {
+          contact.lands = [this, kinematics, index, point = contact.point](const VectorXd& q) {
             kinematics->SetPosition(model_->TreeConfiguration(q));
             const Vector3d p =
                 origin_ + tilt_.transpose() * kinematics->Position(point.link, point.p_L);
-            return ground_.Clearance(level, p.head<2>()) > -kEdge;
+            return ground_.Clearance(index, p.head<2>()) > -kEdge;
           };
         }
         contacts.push_back(std::move(contact));

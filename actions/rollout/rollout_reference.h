@@ -29,8 +29,8 @@ struct RolloutGains {
 };
 
 /// A segment as a simulation follows it: the simulated robot, the ground, the motion, and the
-/// control that follows it by joint torques alone. The ground has the heights at which the plan
-/// bears. On tilted ground, the robot and its plan are tilted with it. Coordinates are relative to
+/// control that follows it by joint torques alone. The ground has the planes on which the plan
+/// bears. If the perturbation tilts the ground, the robot and its plan are tilted with it. Coordinates are relative to
 /// the segment's beginning: far from the origin, the integrator's relative tolerance would be too
 /// coarse for the motion. Arguments must outlive it; it must outlive its contacts and its control.
 class RolloutReference {
@@ -46,13 +46,13 @@ class RolloutReference {
   double start() const { return segment_.phases.front().knots.front().t; }  ///< s
   double end() const { return segment_.phases.back().knots.back().t; }      ///< s
   bool ends_at_rest() const;
-  Eigen::Vector3d normal() const { return tilt_.col(2); }  ///< of the ground
+  Eigen::Vector3d normal() const { return tilt_.col(2); }  ///< of the plan's horizontal planes
 
   /// At a time, clamped to the segment. Independent joints only; nq and nv of the model.
   Eigen::VectorXd Configuration(double t) const;
   Eigen::VectorXd Velocity(double t) const;
 
-  /// Every contact point of the robot with every ground level used. The extent of levels matters
+  /// Every contact point of the robot with every ground plane used. The extent of planes matters
   /// only if there are several.
   std::vector<dynamics::RolloutContact> Contacts() const;
   /// `steps`: feedback that moves the feet; must outlive the control. May be null.
@@ -92,11 +92,11 @@ class RolloutReference {
   const Perturbation& perturbation_;
   RolloutGains gains_;
   Eigen::Vector3d origin_;  ///< m
-  Eigen::Matrix3d tilt_;    ///< of the ground
+  Eigen::Matrix3d tilt_;    ///< of the perturbation
   std::shared_ptr<const dynamics::MultibodyModel> planned_;
   std::shared_ptr<const dynamics::MultibodyModel> model_;  ///< perturbed
   Track track_;
-  std::set<int> levels_;  ///< of the ground, on which the segment bears
+  std::set<int> planes_;  ///< of the ground, on which the segment bears
 };
 
 }  // namespace possibility::actions

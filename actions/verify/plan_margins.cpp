@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "actions/evidence/verifier_state.h"
@@ -67,16 +68,30 @@ class Measurement {
       const Vector3d p = kinematics_.Position(points_[i].link, points_[i].p_L);
       const Vector3d force = knot.forces.col(i);
       places.col(i) = p;
-      if (force.z() > kLightLoad * weight_) {
-        Greatest(force.head<2>().norm() / (robot_.friction * force.z()), &margins_.friction);
-      }
-      if (const auto level = ground_.LevelAt(p.head<2>(), p.z(), kSameHeight)) {
-        Least(ground_.Clearance(*level, p.head<2>()), &margins_.ground_edge);
-      }
+      const std::vector<int> planes =
+          ground_.PlanesAt(p.head<2>(), p.z() - kSameHeight, p.z() + kSameHeight);
+      MeasureFriction(force, planes);
+      if (planes.empty()) continue;
+      double edge = -std::numeric_limits<double>::infinity();
+      for (const int plane : planes) edge = std::max(edge, ground_.Clearance(plane, p.head<2>()));
+      Least(edge, &margins_.ground_edge);
     }
     if (const auto zmp = ZeroMomentPoint(places, knot.forces, kLightLoad * weight_)) {
       Least(SupportMargin(places, zmp->head<2>()), &margins_.zmp);
     }
+  }
+
+  /// On the most favourable of the planes; level without any.
+  void MeasureFriction(const Vector3d& force, const std::vector<int>& planes) {
+    double least = std::numeric_limits<double>::infinity();
+    const auto measure = [&](const Vector3d& normal) {
+      const double load = normal.dot(force);
+      if (load <= kLightLoad * weight_) return;
+      least = std::min(least, (force - load * normal).norm() / (robot_.friction * load));
+    };
+    for (const int plane : planes) measure(ground_.planes()[plane].normal);
+    if (planes.empty()) measure(Vector3d::UnitZ());
+    Greatest(least, &margins_.friction);
   }
 
   void MeasureDistances() {

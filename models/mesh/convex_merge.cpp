@@ -39,6 +39,9 @@ double PerimeterOf(const ConvexPolygon& polygon) {
 /// A corner on a side does no harm; this much below it, it is left out.
 constexpr double kOnSide = 1e-9;  // m
 
+/// In the end so are corners that single precision moved off a side.
+constexpr double kRounding = 2e-7;  // m
+
 class Merger {
  public:
   Merger(const std::vector<Vector2d>& points, const std::vector<std::array<int, 3>>& triangles)
@@ -63,7 +66,7 @@ class Merger {
     }
     std::vector<ConvexPolygon> polygons;
     for (int t = 0; t < static_cast<int>(parts_.size()); ++t) {
-      if (group_[t] == t) polygons.push_back(HullOf(std::move(parts_[t].corners), kOnSide));
+      if (group_[t] == t) polygons.push_back(HullOf(std::move(parts_[t].corners), kRounding));
     }
     return polygons;
   }

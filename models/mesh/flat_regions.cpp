@@ -242,7 +242,7 @@ class Grower {
 
 bool FlatRegion::IsLevelEnough() const {
   // A slope of exactly 45 degrees bears, whatever the rounding.
-  return normal.z() >= std::cos(kSteepestBearing) - 1e-9;
+  return normal.z() >= std::cos(kSteepestBearing) - 1e-10;
 }
 
 std::vector<FlatRegion> FlatRegions(const TriangleMesh& mesh) { return Grower(mesh).Regions(); }

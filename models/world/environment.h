@@ -9,8 +9,8 @@
 
 namespace possibility::models {
 
-/// One rigid obstacle. If `is_ground`, its top face (a box standing upright, any yaw) is ground
-/// that the robot may bear on.
+/// One rigid obstacle. The robot may bear on it if `is_ground`: on the side of a box that faces up
+/// most (GroundMap), or where Environment::faces says so.
 struct Obstacle {
   std::string name;
   Shape shape;
@@ -19,10 +19,10 @@ struct Obstacle {
   int surface = -1;  ///< of Environment::surfaces, which it is a piece of; -1: none
 };
 
-/// A flat piece of ground: a convex polygon, counter-clockwise as seen from above.
+/// A convex polygon of one plane that the robot may bear on, in the world.
 struct GroundFace {
   std::string name;
-  std::vector<Eigen::Vector3d> corners;
+  std::vector<Eigen::Vector3d> corners;  ///< m, counter-clockwise seen from above
 };
 
 /// A mesh or height map as its file has it, in the world. Its obstacles are pieces of it, and its
@@ -37,7 +37,7 @@ struct Surface {
 /// A static world. Immutable once loaded.
 struct Environment {
   std::vector<Obstacle> obstacles;
-  std::vector<GroundFace> faces;  ///< ground beside the tops of ground boxes
+  std::vector<GroundFace> faces;  ///< ground beside that of boxes
   std::vector<Surface> surfaces;
   /// Allowed pelvis positions at a stance: x and y, m.
   Eigen::AlignedBox2d bounds;

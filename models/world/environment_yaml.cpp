@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
 #include "models/shapes/shape_yaml.h"
+#include "models/world/ground_map.h"
 #include "models/world/terrain_yaml.h"
 
 namespace possibility::models {
@@ -36,15 +38,26 @@ Eigen::AlignedBox2d ReadBounds(const YamlNode& node) {
   return {Eigen::Vector2d(x[0], y[0]), Eigen::Vector2d(x[1], y[1])};
 }
 
-/// A ground box stands upright: its only rotation is `yaw_deg`.
+/// Some side must bear.
+void RequireSideUp(const YamlNode& node, const Obstacle& box) {
+  const double up = box.X_WO.linear().row(2).cwiseAbs().maxCoeff();
+  if (up >= std::cos(GroundMap::kSteepest) - 1e-9) return;
+  node.Fail("no side of the box faces up, expected one that is tilted by at most 45 degrees");
+}
+
+/// A ground box stands upright (`yaw_deg`) or is tilted (`rpy_deg`).
 Obstacle ReadGround(const YamlNode& node) {
-  node.MapOf({"name", "size", "position", "yaw_deg"});
+  node.MapOf({"name", "size", "position", "yaw_deg", "rpy_deg"});
   Obstacle ground;
   ground.is_ground = true;
   ground.name = node.At("name").String();
   ground.shape = Shape::Box(node.At("size").PositiveVector3());
   ground.X_WO.translation() = node.At("position").Vector3();
-  if (const auto yaw = node.Find("yaw_deg")) {
+  if (const auto turn = node.Find("rpy_deg")) {
+    if (node.Find("yaw_deg")) turn->Fail("expected either rpy_deg or yaw_deg, got both");
+    ground.X_WO.rotate(FromRollPitchYaw(std::numbers::pi / 180 * turn->Vector3()));
+    RequireSideUp(*turn, ground);
+  } else if (const auto yaw = node.Find("yaw_deg")) {
     ground.X_WO.rotate(Eigen::AngleAxisd(yaw->Degrees(), Eigen::Vector3d::UnitZ()));
   }
   return ground;

@@ -6,269 +6,284 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "models/input/input_error.h"
 #include "models/shapes/bounds_tree.h"
+#include "models/world/ground_region.h"
 
 namespace possibility::models {
 namespace {
 
 using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Every face grows by this on all sides, so that abutting faces overlap; distances then shrink by
-/// it again. Twice this exceeds the gap allowed between abutting faces.
-constexpr double kGrowth = 0.6 * GroundMap::kAbutting;
+/// Largest tilt of a level, rad.
+constexpr double kLevelTilt = 1e-8;
 
-/// An edge counts as inside another face only if it lies this deep in it, m. Where edges of two
-/// faces coincide, rounding must not make each cover the other.
-constexpr double kCoverDepth = 1e-9;
-
-/// Up to so many faces or sides, a tree of bounds takes longer than testing them all.
-constexpr std::size_t kFew = 16;
-
-/// Largest tilt of an upright box, rad.
-constexpr double kMaxTilt = 1e-8;
-
-/// A grown top face.
+/// A face of the ground in space.
 struct Face {
-  Vector2d centre;
-  Vector2d half_extents;
-  Eigen::Matrix2d axes;  ///< columns: its x and y axes in the world
+  std::vector<Vector3d> corners;  ///< counter-clockwise from above
+  Vector3d normal = Vector3d::UnitZ();
 
-  bool Contains(const Vector2d& p) const {
-    const Vector2d local = axes.transpose() * (p - centre);
-    return (local.cwiseAbs().array() <= half_extents.array()).all();
-  }
-
-  /// How far p lies from the nearest side, negative outside.
-  double Depth(const Vector2d& p) const {
-    const Vector2d local = axes.transpose() * (p - centre);
-    return (half_extents - local.cwiseAbs()).minCoeff();
-  }
-
-  std::array<Vector2d, 4> Corners() const {
-    const Vector2d x = axes.col(0) * half_extents.x();
-    const Vector2d y = axes.col(1) * half_extents.y();
-    return {centre - x - y, centre + x - y, centre + x + y, centre - x + y};
-  }
+  bool is_level() const { return (normal - Vector3d::UnitZ()).norm() <= kLevelTilt; }
+  double height() const { return corners.front().z(); }
 };
 
-struct Segment {
-  Vector2d from;
-  Vector2d to;
-
-  double Distance(const Vector2d& p) const {
-    const Vector2d along = to - from;
-    const double t = along.dot(p - from) / along.squaredNorm();
-    return (p - from - std::clamp(t, 0.0, 1.0) * along).norm();
-  }
-};
-
-AlignedBox3d FlatBounds(const Vector2d& p) {
-  const Vector3d point(p.x(), p.y(), 0);
-  return {point, point};
+void RequireUpward(const Face& face, const std::string& name) {
+  if (std::acos(std::clamp(face.normal.z(), -1.0, 1.0)) <= GroundMap::kSteepest + 1e-9) return;
+  throw InputError(
+      fmt::format("obstacle '{}': is ground but no side of it faces up, expected a tilt of at most "
+                  "45 degrees",
+                  name));
 }
 
-AlignedBox3d FlatBounds(const Segment& segment) {
-  return FlatBounds(segment.from).merged(FlatBounds(segment.to));
-}
-
-AlignedBox3d FlatBounds(const Face& face) {
-  AlignedBox3d bounds;
-  for (const Vector2d& corner : face.Corners()) bounds.extend(FlatBounds(corner));
-  return bounds;
-}
-
-template <typename Item>
-BoundsTree FlatTree(const std::vector<Item>& items) {
-  std::vector<AlignedBox3d> bounds;
-  bounds.reserve(items.size());
-  for (const Item& item : items) bounds.push_back(FlatBounds(item));
-  return BoundsTree(std::move(bounds));
-}
-
-/// The part [first, second] of the segment (0 at `from`, 1 at `to`) that lies inside the face by
-/// more than kCoverDepth; empty (first >= second) if none does.
-std::pair<double, double> CoveredPart(const Segment& segment, const Face& face) {
-  const Vector2d start = face.axes.transpose() * (segment.from - face.centre);
-  const Vector2d along = face.axes.transpose() * (segment.to - segment.from);
-  double first = 0, second = 1;
-  for (int i = 0; i < 2; ++i) {
-    const double extent = face.half_extents[i] - kCoverDepth;
-    if (std::abs(along[i]) < kCoverDepth * 1e-3) {
-      if (std::abs(start[i]) >= extent) return {1, 0};
-      continue;
-    }
-    const double a = (-extent - start[i]) / along[i];
-    const double b = (extent - start[i]) / along[i];
-    first = std::max(first, std::min(a, b));
-    second = std::min(second, std::max(a, b));
-  }
-  return {first, second};
-}
-
-/// The parts of an edge that other faces do not cover: pieces of the union's boundary.
-std::vector<Segment> UncoveredParts(const Segment& edge,
-                                    std::vector<std::pair<double, double>> covered) {
-  std::sort(covered.begin(), covered.end());
-  covered.emplace_back(1, 1);
-  std::vector<Segment> parts;
-  double reached = 0;
-  for (const auto& [first, second] : covered) {
-    if (first > reached) {
-      const Vector2d along = edge.to - edge.from;
-      parts.push_back({edge.from + reached * along, edge.from + first * along});
-    }
-    reached = std::max(reached, second);
-  }
-  return parts;
-}
-
-double TopHeight(const Obstacle& obstacle) {
-  if (obstacle.shape.type != ShapeType::kBox) {
-    throw InputError(fmt::format("obstacle '{}': is ground but not a box, expected an upright box",
-                                 obstacle.name));
-  }
-  const double tilt = (obstacle.X_WO.linear().col(2) - Vector3d::UnitZ()).norm();
-  const double height = obstacle.X_WO.translation().z() + obstacle.shape.size.z() / 2;
-  if (!(tilt <= kMaxTilt) || !obstacle.X_WO.matrix().allFinite() || !std::isfinite(height)) {
+/// The side of a box that faces up most.
+Face TopOf(const Obstacle& box) {
+  if (box.shape.type != ShapeType::kBox) {
     throw InputError(
-        fmt::format("obstacle '{}': is ground but tilted, expected an upright box (yaw is free)",
-                    obstacle.name));
+        fmt::format("obstacle '{}': is ground but not a box, expected a box", box.name));
   }
-  return height;
+  if (!box.X_WO.matrix().allFinite() || !box.shape.size.allFinite()) {
+    throw InputError(
+        fmt::format("obstacle '{}': is ground, but its place is not finite", box.name));
+  }
+  int axis = 2;
+  for (const int other : {0, 1}) {
+    const Eigen::RowVector3d up = box.X_WO.linear().row(2);
+    if (std::abs(up[other]) > std::abs(up[axis]) + 1e-9) axis = other;
+  }
+  const double side = box.X_WO(2, axis) < 0 ? -1 : 1;
+  const int a = (axis + 1) % 3;
+  const int b = (axis + 2) % 3;
+  Face face;
+  face.normal = side * box.X_WO.linear().col(axis);
+  RequireUpward(face, box.name);
+  for (const auto& [u, v] :
+       {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
+    Vector3d corner = Vector3d::Zero();
+    corner[axis] = side * box.shape.size[axis] / 2;
+    corner[a] = u * box.shape.size[a] / 2;
+    corner[b] = side * v * box.shape.size[b] / 2;
+    face.corners.push_back(box.X_WO * corner);
+  }
+  if (face.is_level()) {
+    const double height = box.X_WO.translation().z() + box.shape.size[axis] / 2;
+    for (Vector3d& corner : face.corners) corner.z() = height;
+  }
+  return face;
 }
 
-Face TopFace(const Obstacle& obstacle) {
-  return {obstacle.X_WO.translation().head<2>(),
-          obstacle.shape.size.head<2>() / 2 + Vector2d::Constant(kGrowth),
-          obstacle.X_WO.linear().topLeftCorner<2, 2>()};
+/// Twice the vector area (Newell).
+Vector3d Newell(const std::vector<Vector3d>& corners) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    sum +=
+        (corners[i] - corners.front()).cross(corners[(i + 1) % corners.size()] - corners.front());
+  }
+  return sum;
 }
 
-/// All coplanar faces and the boundary of their union.
-class Level {
+Face FaceOf(const GroundFace& ground) {
+  Face face;
+  face.corners = ground.corners;
+  const Vector3d area = Newell(face.corners);
+  if (face.corners.size() < 3 || !(area.norm() > 0) || !area.allFinite()) {
+    throw InputError(fmt::format("ground '{}': a face without an area", ground.name));
+  }
+  face.normal = area.normalized();
+  RequireUpward(face, ground.name);
+  for (const Vector3d& corner : face.corners) {
+    if (std::abs(face.normal.dot(corner - face.corners.front())) > GroundMap::kAbutting) {
+      throw InputError(
+          fmt::format("ground '{}': a face whose corners are not in one plane", ground.name));
+    }
+  }
+  return face;
+}
+
+/// A frame of the plane, z upward. Of a level: the world's, raised.
+Isometry3d FrameOf(const Face& face) {
+  Isometry3d X_WG = Isometry3d::Identity();
+  if (face.is_level()) {
+    X_WG.translation().z() = face.height();
+    return X_WG;
+  }
+  const Vector3d& z = face.normal;
+  const Vector3d x = Vector3d(z.z(), 0, -z.x()).normalized();
+  X_WG.linear() << x, z.cross(x), z;
+  X_WG.translation() = face.corners.front();
+  return X_WG;
+}
+
+/// All coplanar faces.
+class Plane {
  public:
-  explicit Level(std::vector<Face> faces) : faces_(std::move(faces)), face_tree_(FlatTree(faces_)) {
-    for (int face = 0; face < static_cast<int>(faces_.size()); ++face) AddBoundary(face);
-    boundary_tree_ = FlatTree(boundary_);
+  explicit Plane(const std::vector<Face>& faces)
+      : X_WG_(FrameOf(faces.front())), region_(Flattened(faces)) {
+    is_level_ = faces.front().is_level();
+    plane_.normal = X_WG_.linear().col(2);
+    plane_.offset = is_level_ ? faces.front().height() : plane_.normal.dot(X_WG_.translation());
+    for (const Face& face : faces) {
+      for (const Vector3d& corner : face.corners) bounds_.extend(corner);
+    }
   }
 
-  /// Faces are convex, so a line is closest to their sides at one of its ends.
-  bool OneFaceHolds(const Vector2d& from, const Vector2d& to, double radius) const {
-    const double needed = radius + kGrowth;
-    return SomeFaceAt(from, [&](const Face& face) {
-      return face.Depth(from) >= needed && face.Depth(to) >= needed;
-    });
+  const GroundPlane& plane() const { return plane_; }
+  const GroundRegion& region() const { return region_; }
+  const AlignedBox3d& bounds() const { return bounds_; }
+
+  double HeightAt(const Vector2d& p) const {
+    return is_level_ ? plane_.offset : plane_.HeightAt(p);
   }
 
-  double Clearance(const Vector2d& p) const {
-    const double distance = DistanceToBoundary(p, kInfinity);
-    return (IsInside(p) ? distance : -distance) - kGrowth;
+  Vector2d InPlane(const Vector2d& p) const {
+    if (is_level_) return p;
+    return InPlane(Vector3d(p.x(), p.y(), plane_.HeightAt(p)));
   }
 
-  bool IsNear(const Vector2d& p, double distance) const {
-    return IsInside(p) || DistanceToBoundary(p, distance) < distance;
-  }
-
-  /// Whether the clearance is more than -kAbutting: the very edge counts as ground.
-  bool Holds(const Vector2d& p) const {
-    return IsInside(p) ||
-           DistanceToBoundary(p, GroundMap::kAbutting) + kGrowth < GroundMap::kAbutting;
+  bool IsNear(const Vector3d& p, double distance) const {
+    const double above = plane_.normal.dot(p) - plane_.offset;
+    if (!(std::abs(above) <= distance)) return false;
+    return region_.IsNear(InPlane(p), std::sqrt(distance * distance - above * above));
   }
 
  private:
-  void AddBoundary(int face) {
-    const std::array<Vector2d, 4> corners = faces_[face].Corners();
-    for (int i = 0; i < 4; ++i) {
-      const Segment edge{corners[i], corners[(i + 1) % 4]};
-      std::vector<std::pair<double, double>> covered;
-      face_tree_.VisitNear(FlatBounds(edge), 0, [&](int other) {
-        if (other != face) {
-          const std::pair<double, double> part = CoveredPart(edge, faces_[other]);
-          if (part.first < part.second) covered.push_back(part);
-        }
-        return 0.0;
-      });
-      const std::vector<Segment> parts = UncoveredParts(edge, std::move(covered));
-      boundary_.insert(boundary_.end(), parts.begin(), parts.end());
+  Vector2d InPlane(const Vector3d& p) const {
+    return X_WG_.linear().leftCols<2>().transpose() * (p - X_WG_.translation());
+  }
+
+  std::vector<std::vector<Vector2d>> Flattened(const std::vector<Face>& faces) const {
+    std::vector<std::vector<Vector2d>> flat;
+    for (const Face& face : faces) {
+      flat.emplace_back();
+      for (const Vector3d& corner : face.corners) flat.back().push_back(InPlane(corner));
     }
+    return flat;
   }
 
-  /// Whether `test` holds for some face. A face that does not hold p fails the test.
-  template <typename Test>
-  bool SomeFaceAt(const Vector2d& p, const Test& test) const {
-    if (faces_.size() <= kFew) return std::any_of(faces_.begin(), faces_.end(), test);
-    bool found = false;
-    face_tree_.VisitNear(FlatBounds(p), 0, [&](int face) {
-      found = test(faces_[face]);
-      return found ? -1.0 : 0.0;
-    });
-    return found;
-  }
-
-  bool IsInside(const Vector2d& p) const {
-    return SomeFaceAt(p, [&](const Face& face) { return face.Contains(p); });
-  }
-
-  /// Distance to the boundary, at most `at_most`.
-  double DistanceToBoundary(const Vector2d& p, double at_most) const {
-    double nearest = at_most;
-    if (boundary_.size() <= kFew) {
-      for (const Segment& segment : boundary_) nearest = std::min(nearest, segment.Distance(p));
-      return nearest;
-    }
-    boundary_tree_.VisitNear(FlatBounds(p), nearest, [&](int segment) {
-      nearest = std::min(nearest, boundary_[segment].Distance(p));
-      return nearest;
-    });
-    return nearest;
-  }
-
-  std::vector<Face> faces_;
-  BoundsTree face_tree_;
-  std::vector<Segment> boundary_;
-  BoundsTree boundary_tree_;
+  Isometry3d X_WG_;
+  bool is_level_ = false;
+  GroundPlane plane_;
+  GroundRegion region_;
+  AlignedBox3d bounds_;
 };
+
+std::vector<Face> FacesOf(const Environment& environment) {
+  std::vector<Face> faces;
+  for (const Obstacle& obstacle : environment.obstacles) {
+    if (obstacle.is_ground && obstacle.surface < 0 &&
+        obstacle.shape.type != ShapeType::kConvexMesh) {
+      faces.push_back(TopOf(obstacle));
+    }
+  }
+  for (const GroundFace& face : environment.faces) faces.push_back(FaceOf(face));
+  return faces;
+}
+
+/// Level faces by height, ascending.
+std::vector<std::vector<Face>> LevelsOf(std::vector<Face> faces) {
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const Face& a, const Face& b) { return a.height() < b.height(); });
+  std::vector<std::vector<Face>> levels;
+  for (Face& face : faces) {
+    const bool is_next =
+        levels.empty() || face.height() - levels.back().front().height() > GroundMap::kAbutting;
+    if (is_next) levels.emplace_back();
+    levels.back().push_back(std::move(face));
+  }
+  return levels;
+}
+
+bool LiesIn(const Face& face, const Face& first) {
+  return std::all_of(face.corners.begin(), face.corners.end(), [&](const Vector3d& corner) {
+    return std::abs(first.normal.dot(corner - first.corners.front())) <= GroundMap::kAbutting;
+  });
+}
+
+/// Tilted faces by plane. Neighbours in the list are often coplanar, so the search begins there.
+std::vector<std::vector<Face>> SlopesOf(std::vector<Face> faces) {
+  std::vector<std::vector<Face>> slopes;
+  for (Face& face : faces) {
+    auto plane = std::find_if(slopes.rbegin(), slopes.rend(), [&](const std::vector<Face>& other) {
+      return LiesIn(face, other.front()) && LiesIn(other.front(), face);
+    });
+    if (plane == slopes.rend()) {
+      slopes.emplace_back();
+      plane = slopes.rbegin();
+    }
+    plane->push_back(std::move(face));
+  }
+  return slopes;
+}
 
 }  // namespace
 
 struct GroundMap::Impl {
   std::vector<double> heights;
-  std::vector<Level> levels;
+  std::vector<Plane> planes;  ///< the levels first
+  std::vector<GroundPlane> equations;
+  BoundsTree slopes;  ///< of the planes that are no levels
+  AlignedBox3d bounds;
+
+  void Add(const std::vector<Face>& faces) {
+    planes.emplace_back(faces);
+    equations.push_back(planes.back().plane());
+    bounds.extend(planes.back().bounds());
+  }
+
+  void PlantSlopes() {
+    std::vector<AlignedBox3d> boxes;
+    for (std::size_t i = heights.size(); i < planes.size(); ++i) {
+      const Vector3d rounding = Vector3d::Constant(kAbutting);
+      boxes.emplace_back(planes[i].bounds().min() - rounding, planes[i].bounds().max() + rounding);
+    }
+    slopes = BoundsTree(std::move(boxes));
+  }
 
   /// The highest level in [low, high] with ground at p.
   std::optional<int> Highest(const Vector2d& p, double low, double high) const {
     for (int level = static_cast<int>(heights.size()) - 1; level >= 0; --level) {
       const bool in_range = heights[level] >= low && heights[level] <= high;
-      if (in_range && levels[level].Holds(p)) return level;
+      if (in_range && planes[level].region().Holds(p)) return level;
     }
     return std::nullopt;
+  }
+
+  /// Calls `visit` with the tilted planes that have ground at p within [low, high].
+  template <typename Visit>
+  void VisitSlopes(const Vector2d& p, double low, double high, const Visit& visit) const {
+    if (!p.allFinite() || !(low <= high)) return;
+    const AlignedBox3d column(Vector3d(p.x(), p.y(), std::max(low, bounds.min().z() - 1)),
+                              Vector3d(p.x(), p.y(), std::min(high, bounds.max().z() + 1)));
+    slopes.VisitNear(column, 0, [&](int slope) {
+      const int plane = static_cast<int>(heights.size()) + slope;
+      const double height = planes[plane].HeightAt(p);
+      if (height >= low && height <= high &&
+          planes[plane].region().Holds(planes[plane].InPlane(p))) {
+        visit(plane, height);
+      }
+      return 0.0;
+    });
   }
 };
 
 GroundMap::GroundMap(const Environment& environment) : impl_(std::make_unique<Impl>()) {
-  std::vector<std::pair<double, Face>> tops;
-  for (const Obstacle& obstacle : environment.obstacles) {
-    if (obstacle.is_ground && obstacle.surface < 0)
-      tops.emplace_back(TopHeight(obstacle), TopFace(obstacle));
+  std::vector<Face> level, tilted;
+  for (Face& face : FacesOf(environment)) {
+    (face.is_level() ? level : tilted).push_back(std::move(face));
   }
-  std::stable_sort(tops.begin(), tops.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (size_t first = 0; first < tops.size();) {
-    std::vector<Face> faces;
-    size_t next = first;
-    while (next < tops.size() && tops[next].first - tops[first].first <= kAbutting) {
-      faces.push_back(tops[next++].second);
-    }
-    impl_->heights.push_back(tops[first].first);
-    impl_->levels.emplace_back(std::move(faces));
-    first = next;
+  for (const std::vector<Face>& faces : LevelsOf(std::move(level))) {
+    impl_->heights.push_back(faces.front().height());
+    impl_->Add(faces);
   }
+  for (const std::vector<Face>& faces : SlopesOf(std::move(tilted))) impl_->Add(faces);
+  impl_->PlantSlopes();
 }
 
 GroundMap::~GroundMap() = default;
@@ -276,18 +291,33 @@ GroundMap::GroundMap(GroundMap&&) noexcept = default;
 GroundMap& GroundMap::operator=(GroundMap&&) noexcept = default;
 
 const std::vector<double>& GroundMap::levels() const { return impl_->heights; }
+const std::vector<GroundPlane>& GroundMap::planes() const { return impl_->equations; }
+AlignedBox3d GroundMap::bounds() const { return impl_->bounds; }
 
-double GroundMap::Clearance(int level, const Vector2d& p) const {
-  return impl_->levels.at(level).Clearance(p);
+double GroundMap::Clearance(int plane, const Vector2d& p) const {
+  const Plane& ground = impl_->planes.at(plane);
+  return ground.region().Clearance(ground.InPlane(p));
 }
 
-bool GroundMap::OneFaceHolds(int level, const Vector2d& from, const Vector2d& to,
+bool GroundMap::OneFaceHolds(int plane, const Vector2d& from, const Vector2d& to,
                              double radius) const {
-  return impl_->levels.at(level).OneFaceHolds(from, to, radius);
+  const Plane& ground = impl_->planes.at(plane);
+  return ground.region().OneFaceHolds(ground.InPlane(from), ground.InPlane(to), radius);
 }
 
-bool GroundMap::IsNear(int level, const Vector2d& p, double distance) const {
-  return impl_->levels.at(level).IsNear(p, distance);
+bool GroundMap::IsNear(int plane, const Vector2d& p, double distance) const {
+  const Plane& ground = impl_->planes.at(plane);
+  return ground.region().IsNear(ground.InPlane(p), distance);
+}
+
+bool GroundMap::TiltedGroundIsNear(const Vector3d& p, double distance) const {
+  if (impl_->planes.size() == impl_->heights.size() || !p.allFinite()) return false;
+  bool found = false;
+  impl_->slopes.VisitNear(AlignedBox3d(p, p), distance, [&](int slope) {
+    found = impl_->planes[impl_->heights.size() + slope].IsNear(p, distance);
+    return found ? -1.0 : distance;
+  });
+  return found;
 }
 
 std::optional<int> GroundMap::LevelAt(const Vector2d& p, double z, double tolerance) const {
@@ -297,6 +327,27 @@ std::optional<int> GroundMap::LevelAt(const Vector2d& p, double z, double tolera
 std::optional<int> GroundMap::LevelBelow(const Vector2d& p, double z) const {
   constexpr double kAbove = 1e-3;
   return impl_->Highest(p, -kInfinity, z + kAbove);
+}
+
+std::vector<int> GroundMap::PlanesAt(const Vector2d& p, double low, double high) const {
+  std::vector<int> found;
+  for (int level = 0; level < static_cast<int>(impl_->heights.size()); ++level) {
+    const bool in_range = impl_->heights[level] >= low && impl_->heights[level] <= high;
+    if (in_range && impl_->planes[level].region().Holds(p)) found.push_back(level);
+  }
+  impl_->VisitSlopes(p, low, high, [&](int plane, double) { found.push_back(plane); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::optional<double> GroundMap::HeightBelow(const Vector2d& p, double z) const {
+  constexpr double kAbove = 1e-3;
+  std::optional<double> highest;
+  if (const auto level = LevelBelow(p, z)) highest = impl_->heights[*level];
+  impl_->VisitSlopes(p, highest.value_or(-kInfinity), z + kAbove, [&](int, double height) {
+    if (!highest || height > *highest) highest = height;
+  });
+  return highest;
 }
 
 }  // namespace possibility::models

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "models/mesh/flat_regions.h"
+#include "models/world/ground_map.h"
 
 namespace possibility::models {
 namespace {
@@ -24,6 +25,8 @@ constexpr double kSquare = 1e-7;
 
 /// A corner this near to the top of a region is at its top, m.
 constexpr double kAtTop = 1e-3;
+
+static_assert(kSteepestBearing == GroundMap::kSteepest);
 
 Eigen::Matrix3d FrameAlongLongestSide(const Polygon& polygon, const Vector3d& normal) {
   Vector3d longest = Vector3d::Zero();

@@ -236,21 +236,162 @@ TEST(GroundMap, PointThatIsNotFiniteHasNoGround) {
   EXPECT_EQ(map.LevelBelow({0, nan}, 1), std::nullopt);
 }
 
-TEST(GroundMap, RefusesGroundThatIsNotAnUprightBox) {
-  Obstacle tilted = Ground(0, 0, 0, 1, 1);
-  tilted.name = "ramp";
-  tilted.X_WO.rotate(AngleAxisd(1e-3, Vector3d::UnitX()));
-  try {
-    Map({tilted});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("ramp"), std::string::npos);
-  }
+TEST(GroundMap, RefusesGroundWithoutASideThatFacesUp) {
   const Obstacle drum{"drum", Shape::Cylinder(1, 1), Isometry3d::Identity(), true};
   EXPECT_THROW(Map({drum}), InputError);
   Obstacle lost = Ground(0, 0, 0, 1, 1);
   lost.X_WO.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Map({lost}), InputError);
+  Obstacle on_a_corner = Ground(0, 0, 0, 1, 1);
+  on_a_corner.name = "die";
+  on_a_corner.X_WO.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), Vector3d::UnitZ()).toRotationMatrix();
+  try {
+    Map({on_a_corner});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("die"), std::string::npos);
+  }
+}
+
+TEST(GroundMap, RefusesFacesThatAreNoPolygonsOfAPlane) {
+  const auto refuses = [](std::vector<Vector3d> corners) {
+    Environment environment;
+    environment.faces.push_back({"patch", std::move(corners)});
+    try {
+      GroundMap map(environment);
+    } catch (const InputError& error) {
+      return std::string(error.what()).find("patch") != std::string::npos;
+    }
+    return false;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(refuses({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}}));
+  EXPECT_TRUE(refuses({{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_TRUE(refuses({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+  EXPECT_TRUE(refuses({{0, 0, 0}, {1, 0, 0}, {1, 1, nan}}));
+  EXPECT_TRUE(refuses({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.01}}));
+  EXPECT_TRUE(refuses({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}}));    // faces down
+  EXPECT_TRUE(refuses({{0, 0, 0}, {1, 0, 0}, {1, 1, 1.5}}));  // too steep
+}
+
+/// A tilted box, and where its side that faces up most lies.
+struct Board {
+  Obstacle box{"board", Shape::Box({1, 1, 1}), Isometry3d::Identity(), true};
+  int axis = 2;
+  double side = 1;
+
+  explicit Board(RandomGeometry* random) {
+    box.shape.size =
+        Vector3d(random->Uniform(0.3, 2), random->Uniform(0.3, 2), random->Uniform(0.3, 2));
+    // One of the six sides upwards, then turned and tilted.
+    const Vector3d tilt_axis =
+        Vector3d(random->Uniform(-1, 1), random->Uniform(-1, 1), 0.0).normalized();
+    const Eigen::Matrix3d tilt =
+        AngleAxisd(random->Uniform(0.01, 0.7), tilt_axis).toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        AngleAxisd(random->Uniform(-3, 3), Vector3d::UnitZ()).toRotationMatrix();
+    axis = static_cast<int>(random->Uniform(0, 2.999));
+    side = random->Uniform(-1, 1) < 0 ? -1 : 1;
+    const Eigen::Matrix3d rolled =
+        Eigen::Quaterniond::FromTwoVectors(side * Vector3d::Unit(axis), Vector3d::UnitZ())
+            .toRotationMatrix();
+    box.X_WO.linear() = tilt * turn * rolled;
+    box.X_WO.translation() = Vector3d(random->Uniform(-1, 1), random->Uniform(-1, 1), 0.3);
+  }
+
+  /// Signed distance in the plane of the side from the point of it above or below p.
+  double Clearance(const Vector2d& p) const {
+    const Vector3d normal = side * box.X_WO.linear().col(axis);
+    const Vector3d middle =
+        box.X_WO * Vector3d(side * box.shape.size[axis] / 2 * Vector3d::Unit(axis));
+    const double z = middle.z() - normal.head<2>().dot(p - middle.head<2>()) / normal.z();
+    const Vector3d local = box.X_WO.inverse() * Vector3d(p.x(), p.y(), z);
+    Eigen::Array2d outside;
+    for (int i = 0; i < 2; ++i) {
+      const int across = (axis + 1 + i) % 3;
+      outside[i] = std::abs(local[across]) - box.shape.size[across] / 2;
+    }
+    return outside.maxCoeff() > 0 ? -outside.max(0).matrix().norm() : -outside.maxCoeff();
+  }
+};
+
+TEST(GroundMap, TheSideOfABoxThatFacesUpIsGround) {
+  RandomGeometry random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Board board(&random);
+    const GroundMap map = Map({board.box});
+    ASSERT_EQ(map.planes().size(), 1u);
+    EXPECT_TRUE(map.levels().empty());
+    const Vector3d up = board.side * board.box.X_WO.linear().col(board.axis);
+    EXPECT_LT((map.planes()[0].normal - up).norm(), 1e-12);
+    for (int sample = 0; sample < 40; ++sample) {
+      const Vector2d p(random.Uniform(-2, 2), random.Uniform(-2, 2));
+      const double clearance = board.Clearance(p);
+      EXPECT_NEAR(map.Clearance(0, p), clearance, 1e-6);
+      const double z = map.planes()[0].HeightAt(p);
+      EXPECT_EQ(map.PlanesAt(p, z - 1e-3, z + 1e-3).size(), clearance > 0 ? 1u : 0u);
+      EXPECT_TRUE(map.PlanesAt(p, z + 1e-3, z + 1).empty());
+      const auto below = map.HeightBelow(p, z + 0.2);
+      ASSERT_EQ(below.has_value(), clearance > 0);
+      EXPECT_NEAR(below.value_or(z), z, 1e-9);
+      EXPECT_FALSE(map.HeightBelow(p, z - 0.01).has_value());
+    }
+  }
+}
+
+TEST(GroundMap, TiltedGroundIsNearAgreesWithTheNearestPointOfASample) {
+  RandomGeometry random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Board board(&random);
+    const GroundMap map = Map({board.box});
+    for (int sample = 0; sample < 20; ++sample) {
+      const Vector3d p(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-1, 2));
+      double nearest = std::numeric_limits<double>::infinity();
+      constexpr int kSteps = 60;
+      for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= kSteps; ++j) {
+          Vector3d local = Vector3d::Zero();
+          local[board.axis] = board.side * board.box.shape.size[board.axis] / 2;
+          const int a = (board.axis + 1) % 3, b = (board.axis + 2) % 3;
+          local[a] = (static_cast<double>(i) / kSteps - 0.5) * board.box.shape.size[a];
+          local[b] = (static_cast<double>(j) / kSteps - 0.5) * board.box.shape.size[b];
+          nearest = std::min(nearest, (board.box.X_WO * local - p).norm());
+        }
+      }
+      EXPECT_TRUE(map.TiltedGroundIsNear(p, nearest + 1e-6));
+      EXPECT_FALSE(map.TiltedGroundIsNear(p, nearest - 0.03));  // a sample's spacing
+    }
+  }
+}
+
+TEST(GroundMap, PolygonsOfAPlaneHaveNoSeam) {
+  RandomGeometry random(9);
+  for (int trial = 0; trial < 50; ++trial) {
+    // A tilted square as a fan of triangles about a random inner point.
+    const Isometry3d X_WP = Isometry3d(
+        Eigen::Translation3d(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1)) *
+        AngleAxisd(random.Uniform(-3, 3), Vector3d::UnitZ()) *
+        AngleAxisd(trial % 2 == 0 ? 0 : random.Uniform(0.05, 0.7), Vector3d::UnitX()));
+    const Vector3d corners[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    const Vector3d middle(random.Uniform(-0.99, 0.99), random.Uniform(-0.99, 0.99), 0);
+    Environment environment;
+    for (int i = 0; i < 4; ++i) {
+      environment.faces.push_back(
+          {"fan", {X_WP * corners[i], X_WP * corners[(i + 1) % 4], X_WP * middle}});
+    }
+    const GroundMap map(environment);
+    ASSERT_EQ(map.planes().size(), 1u);
+    EXPECT_EQ(map.levels().size(), trial % 2 == 0 ? 1u : 0u);
+    for (int sample = 0; sample < 40; ++sample) {
+      const Vector2d inside(random.Uniform(-1.5, 1.5), random.Uniform(-1.5, 1.5));
+      const Vector3d p = X_WP * Vector3d(inside.x(), inside.y(), 0);
+      const Eigen::Array2d outside = inside.array().abs() - 1;
+      const double clearance =
+          outside.maxCoeff() > 0 ? -outside.max(0).matrix().norm() : -outside.maxCoeff();
+      EXPECT_NEAR(map.Clearance(0, p.head<2>()), clearance, 1e-6);
+    }
+  }
 }
 
 }  // namespace

@@ -253,8 +253,15 @@ const BadScenario kBad[] = {
      "room.yaml:11: environment.bounds.x: expected [lowest, highest], got [4, 0]"},
     {"BoundsShort", "x: [0, 4]", "x: [0]",
      "room.yaml:11: environment.bounds.x: expected [lowest, highest], got a list of 1"},
-    {"GroundTilted", "yaw_deg: 90}\n  obstacles", "rpy_deg: [0, 10, 0]}\n  obstacles",
-     "room.yaml:13: environment.ground[0]: unknown key 'rpy_deg' (did you mean 'yaw_deg'?)"},
+    {"GroundPitch", "yaw_deg: 90}\n  obstacles", "pitch_deg: 10}\n  obstacles",
+     "room.yaml:13: environment.ground[0]: unknown key 'pitch_deg' (did you mean 'rpy_deg'?)"},
+    {"GroundTurnedTwice", "yaw_deg: 90}\n  obstacles",
+     "yaw_deg: 90, rpy_deg: [0, 10, 0]}\n  obstacles",
+     "room.yaml:13: environment.ground[0].rpy_deg: expected either rpy_deg or yaw_deg, got both"},
+    {"GroundOnACorner", "yaw_deg: 90}\n  obstacles", "rpy_deg: [45, 35.26, 0]}\n  obstacles",
+     "room.yaml:13: environment.ground[0].rpy_deg: no side of the box faces up, expected one that "
+     "is "
+     "tilted by at most 45 degrees"},
     {"GroundMissing",
      "ground:\n    - {name: floor, size: [4, 6, 0.5], position: [2, 2, -0.25], yaw_deg: 90}",
      "ground: []",
