@@ -91,7 +91,7 @@ class MainHeadings {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vector2d side = (polygon[(i + 1) % polygon.size()] - polygon[i]).head<2>();
       const double turned = 4 * std::atan2(side.y(), side.x());
-      const double part = turned / (2 * std::numbers::pi) + 1;
+      const double part = turned / (2 * std::numbers::pi) + 3;  // at least 1
       const auto bin = static_cast<std::size_t>(part * kBins) % kBins;
       sums_[bin] += side.norm() * Vector2d(std::cos(turned), std::sin(turned));
       length_ += side.norm();
