@@ -28,15 +28,20 @@ std::int64_t KeyOf(double rise) { return std::llround(rise / kSameRise); }
 /// Headings square to the sides of the ground, each once.
 std::vector<double> SquareHeadings(const models::Environment& environment) {
   std::vector<double> headings;
-  for (const models::Obstacle& obstacle : environment.obstacles) {
-    if (!obstacle.is_ground) continue;
+  const auto add = [&headings](double one_side) {
     for (int side = 0; side < kSides; ++side) {
-      const double heading = Heading(obstacle.X_WO.linear()) + side * std::numbers::pi / 2;
+      const double heading = one_side + side * std::numbers::pi / 2;
       const bool is_known = std::any_of(headings.begin(), headings.end(), [&](double known) {
         return std::abs(WrapAngle(known - heading)) < kSamePlace;
       });
       if (!is_known) headings.push_back(heading);
     }
+  };
+  for (const models::Obstacle& obstacle : environment.obstacles) {
+    if (obstacle.is_ground && obstacle.surface < 0) add(Heading(obstacle.X_WO.linear()));
+  }
+  for (const models::Surface& surface : environment.surfaces) {
+    for (const double heading : surface.headings) add(heading);
   }
   return headings;
 }
@@ -105,7 +110,8 @@ std::vector<FixedManoeuvre::Crossable> FixedManoeuvre::FindCrossables() const {
   std::vector<Crossable> crossables;
   if (!shape_.over) return crossables;
   for (const models::Obstacle& obstacle : world().environment->obstacles) {
-    if (obstacle.is_ground) continue;
+    // A piece of a surface says nothing of what lies beside it.
+    if (obstacle.is_ground || obstacle.surface >= 0) continue;
     for (int side = 0; side < kSides; ++side) {
       const double heading = Heading(obstacle.X_WO.linear()) + side * std::numbers::pi / 2;
       const Eigen::AlignedBox3d bounds = obstacle.shape.Bounds(TurnedBack(heading) * obstacle.X_WO);

@@ -84,16 +84,21 @@ std::vector<Eigen::AlignedBox3d> Above(const std::vector<Eigen::AlignedBox3d>& b
   return above;
 }
 
-/// Headings square to the sides of boxes: of corridors, doors and edges.
+/// Headings square to the sides of boxes and surfaces: of corridors, doors and edges.
 std::vector<double> SquareHeadingsOf(const models::Environment& environment) {
   std::vector<double> headings;
-  for (const models::Obstacle& obstacle : environment.obstacles) {
-    const double yaw = std::atan2(obstacle.X_WO(1, 0), obstacle.X_WO(0, 0));
+  const auto add = [&headings](double yaw) {
     const double heading = WrapAngle(4 * yaw) / 4;
     const bool known = std::any_of(headings.begin(), headings.end(), [&](double other) {
       return std::abs(WrapAngle(4 * (heading - other))) < 4e-3;
     });
     if (!known) headings.push_back(heading);
+  };
+  for (const models::Obstacle& obstacle : environment.obstacles) {
+    if (obstacle.surface < 0) add(std::atan2(obstacle.X_WO(1, 0), obstacle.X_WO(0, 0)));
+  }
+  for (const models::Surface& surface : environment.surfaces) {
+    for (const double heading : surface.headings) add(heading);
   }
   return headings;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/report/action_colors.h"
+#include "models/mesh/convex_merge.h"
 
 namespace possibility::experiments {
 namespace {
@@ -17,6 +18,21 @@ using Eigen::Vector2d;
 
 constexpr double kMargin = 0.15;      // m, around the bounds
 constexpr double kLineWidth = 0.004;  // of the scene's larger extent
+
+/// A surface of more triangles is drawn as its outline: pictures of every piece would be megabytes.
+constexpr std::size_t kMostDrawn = 2000;
+
+bool IsTooFine(const models::Environment& environment, const models::Obstacle& obstacle) {
+  return obstacle.surface >= 0 &&
+         environment.surfaces[obstacle.surface].mesh.triangles.size() > kMostDrawn;
+}
+
+/// Around a surface as seen from above.
+std::vector<Vector2d> OutlineOf(const models::Surface& surface) {
+  std::vector<Vector2d> corners;
+  for (const Eigen::Vector3d& vertex : surface.mesh.vertices) corners.push_back(vertex.head<2>());
+  return models::HullOf(std::move(corners), 0);
+}
 
 /// Corners of a shape's vertical projection, counter-clockwise: its support points in directions
 /// all around.
@@ -45,8 +61,13 @@ std::string Points(const std::vector<Vector2d>& points) {
 std::string Obstacles(const models::Environment& environment, bool ground) {
   std::string svg;
   for (const models::Obstacle& obstacle : environment.obstacles) {
-    if (obstacle.is_ground != ground) continue;
+    if (obstacle.is_ground != ground || IsTooFine(environment, obstacle)) continue;
     svg += fmt::format("<polygon points=\"{}\" class=\"{}\"/>\n", Points(Shadow(obstacle)),
+                       ground ? "ground" : "obstacle");
+  }
+  for (const models::Surface& surface : environment.surfaces) {
+    if (surface.is_ground != ground || surface.mesh.triangles.size() <= kMostDrawn) continue;
+    svg += fmt::format("<polygon points=\"{}\" class=\"{}\"/>\n", Points(OutlineOf(surface)),
                        ground ? "ground" : "obstacle");
   }
   return svg;
@@ -73,6 +94,7 @@ std::string Closed(const actions::Barrier& barrier, const models::Environment& e
   std::string svg;
   for (const models::Obstacle& obstacle : environment.obstacles) {
     const auto& names = barrier.closed_by;
+    if (IsTooFine(environment, obstacle)) continue;
     if (std::find(names.begin(), names.end(), obstacle.name) == names.end()) continue;
     svg += fmt::format("<polygon points=\"{}\" class=\"barrier\"/>\n", Points(Shadow(obstacle)));
   }

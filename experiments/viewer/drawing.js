@@ -103,6 +103,44 @@ function obstacleMesh(obstacle, closes) {
   return group;
 }
 
+/* A mesh or height map, with its own colour where it is level enough to bear, and lines along its
+   edges unless there are too many. */
+const kBearingSlope = Math.cos(Math.PI / 4);
+const kMostOutlined = 20000;  // triangles
+
+function surfaceMesh(surface, closes) {
+  const group = new THREE.Group();
+  const indexed = new THREE.BufferGeometry();
+  indexed.setAttribute(
+      'position', new THREE.BufferAttribute(decodeFloats(surface.vertices), 3));
+  const triangles = new Uint32Array(decodeIntegers(surface.triangles));
+  indexed.setIndex(new THREE.BufferAttribute(triangles, 1));
+  const geometry = indexed.toNonIndexed();  // so that every triangle has a normal of its own
+  geometry.computeVertexNormals();
+  const normals = geometry.attributes.normal;
+  const bears = new THREE.Color('#d0d3d8'), steep = new THREE.Color('#b7aa9b');
+  const obstacle = new THREE.Color(closes ? kBarrierColour : '#d9a066');
+  const colours = new Float32Array(3 * normals.count);
+  for (let i = 0; i < normals.count; ++i) {
+    const colour = closes || !surface.ground ? obstacle
+        : normals.getZ(i) >= kBearingSlope - 1e-6 ? bears : steep;
+    colour.toArray(colours, 3 * i);
+  }
+  geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
+  const isSolid = surface.ground && !closes;
+  const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial(
+      {vertexColors: THREE.VertexColors, side: THREE.DoubleSide, transparent: !isSolid,
+       opacity: isSolid ? 1 : 0.6, depthWrite: isSolid}));
+  mesh.receiveShadow = true;
+  group.add(mesh);
+  if (triangles.length <= 3 * kMostOutlined) {
+    group.add(new THREE.LineSegments(
+        new THREE.EdgesGeometry(indexed, 10),
+        lineMaterial(closes ? '#8f1d1d' : surface.ground ? '#98a0aa' : '#9a6a35', 0.8)));
+  }
+  return group;
+}
+
 function linkGroup(link) {
   const group = new THREE.Group();
   group.matrixAutoUpdate = false;
@@ -222,6 +260,9 @@ class Drawing {
     const closedBy = data.no && data.no.barrier ? data.no.barrier.closed_by : [];
     data.obstacles.forEach((obstacle) => {
       world.add(obstacleMesh(obstacle, closedBy.includes(obstacle.name)));
+    });
+    data.surfaces.forEach((surface) => {
+      world.add(surfaceMesh(surface, closedBy.includes(surface.name)));
     });
     this.scene.add(world);
     const [x0, y0, x1, y1] = data.bounds;

@@ -106,12 +106,31 @@ Json ContactsJson(const models::RobotModel& robot) {
 Json ObstaclesJson(const models::Environment& environment) {
   Json obstacles = Json::array();
   for (const models::Obstacle& obstacle : environment.obstacles) {
+    if (obstacle.surface >= 0) continue;
     obstacles.push_back({{"name", obstacle.name},
                          {"shape", ShapeJson(obstacle.shape)},
                          {"pose", PoseJson(obstacle.X_WO)},
                          {"ground", obstacle.is_ground}});
   }
   return obstacles;
+}
+
+/// Meshes and height maps, each once and whole, not in the pieces that are obstacles.
+Json SurfacesJson(const models::Environment& environment) {
+  Json surfaces = Json::array();
+  for (const models::Surface& surface : environment.surfaces) {
+    std::vector<float> vertices;
+    for (const Eigen::Vector3d& vertex : surface.mesh.vertices) Append(vertex, &vertices);
+    std::vector<std::int32_t> triangles;
+    for (const auto& triangle : surface.mesh.triangles) {
+      triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+    }
+    surfaces.push_back({{"name", surface.name},
+                        {"ground", surface.is_ground},
+                        {"vertices", Packed(vertices)},
+                        {"triangles", Packed(triangles)}});
+  }
+  return surfaces;
 }
 
 Json StanceJson(const models::Stance& stance) {
@@ -240,6 +259,7 @@ std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& 
   json["pairs"] = robot.sagittal_pairs;
   json["contacts"] = ContactsJson(robot);
   json["obstacles"] = ObstaclesJson(scenario.environment);
+  json["surfaces"] = SurfacesJson(scenario.environment);
   json["bounds"] = {bounds.min().x(), bounds.min().y(), bounds.max().x(), bounds.max().y()};
   json["start"] = StanceJson(scenario.start);
   json["goals"] = goals;

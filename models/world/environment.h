@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "models/mesh/triangle_mesh.h"
 #include "models/shapes/shape.h"
 
 namespace possibility::models {
@@ -15,6 +16,7 @@ struct Obstacle {
   Shape shape;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   bool is_ground = false;
+  int surface = -1;  ///< of Environment::surfaces, which it is a piece of; -1: none
 };
 
 /// A convex polygon of one plane that the robot may bear on, in the world.
@@ -23,10 +25,20 @@ struct GroundFace {
   std::vector<Eigen::Vector3d> corners;  ///< m, counter-clockwise seen from above
 };
 
+/// A mesh or height map as its file has it, in the world. Its obstacles are pieces of it, and its
+/// ground is among Environment::faces.
+struct Surface {
+  std::string name;
+  TriangleMesh mesh;
+  bool is_ground = false;
+  std::vector<double> headings;  ///< rad, square to most sides of its ground
+};
+
 /// A static world. Immutable once loaded.
 struct Environment {
   std::vector<Obstacle> obstacles;
   std::vector<GroundFace> faces;  ///< ground beside that of boxes
+  std::vector<Surface> surfaces;
   /// Allowed pelvis positions at a stance: x and y, m.
   Eigen::AlignedBox2d bounds;
 };

@@ -1,11 +1,15 @@
 #include "models/world/environment_yaml.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "models/shapes/shape_yaml.h"
 #include "models/world/ground_map.h"
+#include "models/world/terrain_yaml.h"
 
 namespace possibility::models {
 namespace {
@@ -21,8 +25,7 @@ void RequireNear(const YamlNode& node, double coordinate) {
       "100000 m");
 }
 
-void RequireNear(const YamlNode& node, const Obstacle& obstacle) {
-  const Eigen::AlignedBox3d bounds = obstacle.shape.Bounds(obstacle.X_WO);
+void RequireNear(const YamlNode& node, const Eigen::AlignedBox3d& bounds) {
   RequireNear(node, bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).maxCoeff());
 }
 
@@ -70,20 +73,51 @@ Obstacle ReadObstacle(const YamlNode& node) {
 
 }  // namespace
 
-Environment ReadEnvironment(const YamlNode& node) {
-  node.MapOf({"bounds", "ground", "obstacles"});
+Environment ReadEnvironment(const YamlNode& node, const std::filesystem::path& folder,
+                            std::vector<std::string>* hashes) {
+  node.MapOf({"bounds", "ground", "obstacles", "meshes", "height_maps"});
   Environment environment;
   environment.bounds = ReadBounds(node.At("bounds"));
   std::set<std::string> names;
+  const auto take_name = [&names](const YamlNode& item, const std::string& name) {
+    if (!names.insert(name).second) item.At("name").Fail("this name is already taken");
+  };
   const auto add = [&](const YamlNode& item, Obstacle obstacle) {
-    if (!names.insert(obstacle.name).second) item.At("name").Fail("this name is already taken");
-    RequireNear(item, obstacle);
+    take_name(item, obstacle.name);
+    RequireNear(item, obstacle.shape.Bounds(obstacle.X_WO));
     environment.obstacles.push_back(std::move(obstacle));
   };
-  for (const YamlNode& item : node.At("ground").Items()) add(item, ReadGround(item));
-  if (environment.obstacles.empty()) node.At("ground").FailExpected("at least one ground box");
+  const auto ground = node.Find("ground");
+  if (ground) {
+    for (const YamlNode& item : ground->Items()) add(item, ReadGround(item));
+  }
+  const bool has_box = !environment.obstacles.empty();
   if (const auto obstacles = node.Find("obstacles")) {
     for (const YamlNode& item : obstacles->Items()) add(item, ReadObstacle(item));
+  }
+  std::size_t triangles = 0;
+  const auto add_terrain = [&](const YamlNode& item, const TerrainFile& file) {
+    take_name(item, file.terrain.name);
+    RequireNear(item, file.terrain.mesh.Bounds());
+    triangles += file.terrain.mesh.triangles.size();
+    if (triangles > kMostTriangles) {
+      item.Fail(fmt::format("with it there are {} triangles, expected at most {} together",
+                            triangles, kMostTriangles));
+    }
+    hashes->push_back(file.content_hash);
+    AddTerrain(file.terrain, &environment);
+  };
+  if (const auto meshes = node.Find("meshes")) {
+    for (const YamlNode& item : meshes->Items()) add_terrain(item, ReadMeshTerrain(item, folder));
+  }
+  if (const auto maps = node.Find("height_maps")) {
+    for (const YamlNode& item : maps->Items()) {
+      add_terrain(item, ReadHeightMapTerrain(item, folder));
+    }
+  }
+  if (!has_box && environment.faces.empty()) {
+    if (environment.surfaces.empty()) node.At("ground").FailExpected("at least one ground box");
+    node.Fail("expected ground: a box, or a mesh or height map with a part that is level enough");
   }
   return environment;
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -177,7 +179,8 @@ class Plane {
 std::vector<Face> FacesOf(const Environment& environment) {
   std::vector<Face> faces;
   for (const Obstacle& obstacle : environment.obstacles) {
-    if (obstacle.is_ground && obstacle.shape.type != ShapeType::kConvexMesh) {
+    if (obstacle.is_ground && obstacle.surface < 0 &&
+        obstacle.shape.type != ShapeType::kConvexMesh) {
       faces.push_back(TopOf(obstacle));
     }
   }
@@ -205,18 +208,38 @@ bool LiesIn(const Face& face, const Face& first) {
   });
 }
 
-/// Tilted faces by plane. Neighbours in the list are often coplanar, so the search begins there.
+/// Tilted faces by plane. Only planes with about the same normal are compared, because uneven
+/// terrain has as many planes as faces. Neighbours in the list are often coplanar, so the search
+/// begins with the last plane.
 std::vector<std::vector<Face>> SlopesOf(std::vector<Face> faces) {
+  constexpr double kCell = 1e-3;  // of the normal
   std::vector<std::vector<Face>> slopes;
-  for (Face& face : faces) {
-    auto plane = std::find_if(slopes.rbegin(), slopes.rend(), [&](const std::vector<Face>& other) {
-      return LiesIn(face, other.front()) && LiesIn(other.front(), face);
-    });
-    if (plane == slopes.rend()) {
-      slopes.emplace_back();
-      plane = slopes.rbegin();
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> by_normal;
+  const auto is_plane_of = [&slopes](std::size_t plane, const Face& face) {
+    return LiesIn(face, slopes[plane].front()) && LiesIn(slopes[plane].front(), face);
+  };
+  const auto find = [&](const Face& face, std::int64_t x, std::int64_t y) {
+    if (!slopes.empty() && is_plane_of(slopes.size() - 1, face)) return slopes.size() - 1;
+    for (const std::int64_t dx : {0, -1, 1}) {
+      for (const std::int64_t dy : {0, -1, 1}) {
+        const auto cell = by_normal.find({x + dx, y + dy});
+        if (cell == by_normal.end()) continue;
+        for (const std::size_t plane : cell->second) {
+          if (is_plane_of(plane, face)) return plane;
+        }
+      }
     }
-    plane->push_back(std::move(face));
+    return slopes.size();
+  };
+  for (Face& face : faces) {
+    const std::int64_t x = std::llround(face.normal.x() / kCell);
+    const std::int64_t y = std::llround(face.normal.y() / kCell);
+    const std::size_t plane = find(face, x, y);
+    if (plane == slopes.size()) {
+      slopes.emplace_back();
+      by_normal[{x, y}].push_back(plane);
+    }
+    slopes[plane].push_back(std::move(face));
   }
   return slopes;
 }

@@ -106,10 +106,12 @@ Scenario LoadScenario(const std::filesystem::path& yaml_file) {
   Scenario scenario;
   scenario.name = root.At("name").String();
   scenario.file = yaml_file;
-  scenario.content_hash = ContentHash(text);
   scenario.robot_file = (yaml_file.parent_path() / root.At("robot").String()).lexically_normal();
   scenario.robot_hash = HashOfRobot(scenario.robot_file);
-  scenario.environment = ReadEnvironment(root.At("environment"));
+  std::vector<std::string> hashes = {text};
+  scenario.environment = ReadEnvironment(root.At("environment"), yaml_file.parent_path(), &hashes);
+  scenario.content_hash =
+      hashes.size() == 1 ? ContentHash(text) : HashOfParts({hashes.begin(), hashes.end()});
   scenario.actions = ReadActions(root.At("actions"));
   scenario.start = ReadStance(root.At("start"), scenario);
   scenario.goals = ReadGoals(root, scenario);

@@ -34,7 +34,7 @@ struct PlannerSettings {
 struct Scenario {
   std::string name;
   std::filesystem::path file;
-  std::string content_hash;          ///< of the scenario YAML's bytes
+  std::string content_hash;          ///< of the YAML's bytes and the files of its terrain
   std::filesystem::path robot_file;  ///< resolved against the scenario's folder
   /// RobotModel::content_hash of that robot; empty if its files cannot be read.
   std::string robot_hash;

@@ -21,9 +21,10 @@ struct ReadingKind {
 
 void PrintTo(const ReadingKind& kind, std::ostream* out) { *out << kind.name; }
 
-const ReadingKind kReadingKinds[] = {{"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},
-                                     {"Urdf", &UrdfSubject},         {"Plan", &PlanSubject},
-                                     {"Solution", &SolutionSubject}, {"Library", &LibrarySubject}};
+const ReadingKind kReadingKinds[] = {
+    {"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},        {"Urdf", &UrdfSubject},
+    {"Plan", &PlanSubject},         {"Solution", &SolutionSubject},  {"Library", &LibrarySubject},
+    {"Mesh", &MeshSubject},         {"HeightMap", &HeightMapSubject}};
 
 class ReadingFuzz : public ::testing::TestWithParam<ReadingKind> {};
 

@@ -1,6 +1,9 @@
 #include "tests/fuzz/subjects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,12 +23,17 @@
 #include "experiments/viewer/jump_page.h"
 #include "experiments/viewer/viewer_page.h"
 #include "models/input/file_contents.h"
+#include "models/mesh/height_map.h"
+#include "models/mesh/mesh_reader.h"
 #include "models/robot/robot_yaml.h"
 #include "models/world/collision.h"
 #include "models/world/ground_map.h"
 #include "models/world/scenario.h"
+#include "models/world/terrain.h"
 #include "tests/actions/hop_plan.h"
 #include "tests/experiments/standing_plan.h"
+#include "tests/models/mesh/mesh_files.h"
+#include "tests/models/mesh/png_files.h"
 #include "tests/models/two_legged_robot.h"
 
 namespace possibility::fuzz {
@@ -54,13 +62,15 @@ std::string ReplacedOnce(std::string text, const std::string& from, const std::s
 std::vector<std::string> ScenarioTexts() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(kScenario.parent_path())) {
-    files.push_back(entry.path());
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> texts;
   for (const fs::path& file : files) {
-    texts.push_back(ReplacedOnce(models::ReadFileContents(file), "../../models/drchubo1",
-                                 kRobotFolder.string()));
+    const std::string text = ReplacedOnce(models::ReadFileContents(file), "../../models/drchubo1",
+                                          kRobotFolder.string());
+    texts.push_back(
+        ReplacedOnce(text, "file: ", fmt::format("file: {}/", kScenario.parent_path().string())));
   }
   return texts;
 }
@@ -168,6 +178,66 @@ Subject ScenarioSubject(const fs::path& folder) {
             const models::Scenario scenario =
                 models::LoadScenario(Write(folder / "scenario.yaml", text));
             if (seed % kDear == 0) PlanBriefly(*robot, scenario);
+          }};
+}
+
+namespace {
+
+/// As the world uses a surface.
+void UseSurface(const models::TriangleMesh& mesh, std::optional<double> base) {
+  models::Environment environment;
+  models::AddTerrain({"terrain", mesh, true, base}, &environment);
+  const models::CollisionChecker checker(environment);
+  const models::GroundMap ground(environment);
+  checker.IsFree(models::Shape::Sphere(0.1), Eigen::Isometry3d::Identity(), 0.01);
+  ground.HeightBelow({0.5, 0.5}, 1);
+}
+
+}  // namespace
+
+Subject MeshSubject(const fs::path& folder) {
+  models::TriangleMesh mesh = models::testing::BoxMesh({1, 2, 0.5});
+  models::testing::Append(models::testing::BoxMesh({0.4, 0.3, 1}), &mesh);
+  const std::array<std::pair<std::string, std::string>, 5> files = {{
+      {"mesh.stl", models::testing::TextStl(mesh)},
+      {"mesh.stl", models::testing::BinaryStl(mesh)},
+      {"mesh.obj", models::testing::Obj(mesh) + "f 1 2 4 3\nf -1/2/3 -2 -3//1 -4 -5\n"},
+      {"mesh.ply", models::testing::TextPly(mesh)},
+      {"mesh.ply", models::testing::BinaryPly(mesh)},
+  }};
+  return {"mesh", ".mesh", Syntax::kYaml,
+          [files](std::uint64_t seed) { return files[seed % files.size()].second; },
+          [folder, files](std::uint64_t seed, const std::string& text) {
+            const models::TriangleMesh read =
+                models::ReadMesh(Write(folder / files[seed % files.size()].first, text));
+            if (read.Bounds().sizes().maxCoeff() < 1000) UseSurface(read, std::nullopt);
+          }};
+}
+
+Subject HeightMapSubject(const fs::path& folder) {
+  Eigen::MatrixXd heights(12, 9);
+  std::string csv;
+  for (int row = 0; row < heights.rows(); ++row) {
+    for (int column = 0; column < heights.cols(); ++column) {
+      heights(row, column) = 10 * (row / 4) + 7 * (column % 3);
+      csv += fmt::format("{}{}", column == 0 ? "" : ", ", heights(row, column) / 100);
+    }
+    csv += "\n";
+  }
+  const std::array<std::pair<std::string, std::string>, 3> files = {{
+      {"map.csv", csv},
+      {"map.png", models::testing::PngOf(heights, 8, 0)},
+      {"map.png", models::testing::PngOf(heights, 16, 0)},
+  }};
+  return {"height_map", ".map", Syntax::kYaml,
+          [files](std::uint64_t seed) { return files[seed % files.size()].second; },
+          [folder, files](std::uint64_t seed, const std::string& text) {
+            const Eigen::MatrixXd read =
+                models::ReadHeights(Write(folder / files[seed % files.size()].first, text));
+            const models::TriangleMesh mesh = models::MeshOfHeights(read / 100, 0.1);
+            if (mesh.Bounds().sizes().maxCoeff() < 1000) {
+              UseSurface(mesh, mesh.Bounds().min().z() - 0.5);
+            }
           }};
 }
 

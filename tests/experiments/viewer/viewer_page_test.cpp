@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -10,6 +11,8 @@
 
 #include "dynamics/tree/tree_kinematics.h"
 #include "experiments/report/action_colors.h"
+#include "experiments/viewer/viewer_packing.h"
+#include "models/world/terrain.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/hop_plan.h"
 #include "tests/experiments/sample_plan.h"
@@ -58,6 +61,25 @@ TEST_F(ViewerPageTest, HoldsTheColourOfEveryActionThatItShows) {
   for (const std::string action : {"walk", "walk->crawl", "crawl", "vault", "jump", ""}) {
     EXPECT_EQ(data["action_colors"][action], ActionColor(action)) << action;
   }
+}
+
+TEST_F(ViewerPageTest, HoldsASurfaceOnceAndNotItsPieces) {
+  const std::size_t others = EmbeddedData(Page())["obstacles"].size();
+  models::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  models::AddTerrain({"hill", mesh, true, std::nullopt}, &scenario_.environment);
+  ASSERT_EQ(scenario_.environment.obstacles.size(), others + 2);
+  const nlohmann::json data = EmbeddedData(Page());
+  EXPECT_EQ(data["obstacles"].size(), others);
+  ASSERT_EQ(data["surfaces"].size(), 1u);
+  const nlohmann::json& surface = data["surfaces"][0];
+  EXPECT_EQ(surface["name"], "hill");
+  EXPECT_EQ(surface["ground"], true);
+  const std::vector<float> vertices = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.5};
+  const std::vector<std::int32_t> triangles = {0, 1, 2, 0, 2, 3};
+  EXPECT_EQ(surface["vertices"], Packed(vertices));
+  EXPECT_EQ(surface["triangles"], Packed(triangles));
 }
 
 TEST_F(ViewerPageTest, HoldsThePointsOfAPatchThatBear) {

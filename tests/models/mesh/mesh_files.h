@@ -1,0 +1,106 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "models/mesh/triangle_mesh.h"
+
+namespace possibility::models::testing {
+
+/// Bytes of a number as little-endian machines store it.
+template <typename Number>
+std::string BytesOf(Number number) {
+  std::string bytes(sizeof(number), '\0');
+  std::memcpy(bytes.data(), &number, sizeof(number));
+  return bytes;
+}
+
+inline std::string TextStl(const TriangleMesh& mesh) {
+  std::string text = "solid test\n";
+  for (const auto& triangle : mesh.triangles) {
+    text += "facet normal 0 0 0\n outer loop\n";
+    for (const int i : triangle) {
+      const Eigen::Vector3d& p = mesh.vertices[i];
+      text += fmt::format("  vertex {:.9g} {:.9g} {:.9g}\n", p.x(), p.y(), p.z());
+    }
+    text += " endloop\nendfacet\n";
+  }
+  return text + "endsolid test\n";
+}
+
+inline std::string BinaryStl(const TriangleMesh& mesh) {
+  std::string bytes(80, ' ');
+  bytes += BytesOf(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) bytes += BytesOf(0.0f);
+    for (const int i : triangle) {
+      for (const double c : mesh.vertices[i]) bytes += BytesOf(static_cast<float>(c));
+    }
+    bytes += BytesOf(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+inline std::string Obj(const TriangleMesh& mesh) {
+  std::string text = "# test\nmtllib none.mtl\n";
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x(), p.y(), p.z());
+  }
+  for (const auto& t : mesh.triangles)
+    text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  return text;
+}
+
+inline std::string PlyHead(const TriangleMesh& mesh, const std::string& format) {
+  return fmt::format(
+      "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      format, mesh.vertices.size(), mesh.triangles.size());
+}
+
+inline std::string TextPly(const TriangleMesh& mesh) {
+  std::string text = PlyHead(mesh, "ascii");
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    text += fmt::format("{:.9g} {:.9g} {:.9g}\n", p.x(), p.y(), p.z());
+  }
+  for (const auto& t : mesh.triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+  return text;
+}
+
+inline std::string BinaryPly(const TriangleMesh& mesh) {
+  std::string bytes = PlyHead(mesh, "binary_little_endian");
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    for (const double c : p) bytes += BytesOf(static_cast<float>(c));
+  }
+  for (const auto& t : mesh.triangles) {
+    bytes += '\3';
+    for (const int i : t) bytes += BytesOf(static_cast<std::int32_t>(i));
+  }
+  return bytes;
+}
+
+/// A box with its lowest corner at the origin, normals outwards.
+inline TriangleMesh BoxMesh(const Eigen::Vector3d& size) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back((i & 1) * size.x(), (i >> 1 & 1) * size.y(), (i >> 2) * size.z());
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+/// Puts the triangles of `other` beside those of `mesh`, without joining corners.
+inline void Append(const TriangleMesh& other, TriangleMesh* mesh) {
+  const auto first = static_cast<int>(mesh->vertices.size());
+  mesh->vertices.insert(mesh->vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& t : other.triangles) {
+    mesh->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+}
+
+}  // namespace possibility::models::testing
