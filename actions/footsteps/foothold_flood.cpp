@@ -41,7 +41,8 @@ double FootholdFlood::ReachOf(const NominalStance& stance, const FootstepLimits&
 
 FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
                              std::vector<int> planes, const FootstepLimits& limits,
-                             const GroundedStance& start, const CancellationToken& cancellation)
+                             const std::vector<GroundedStance>& starts,
+                             const CancellationToken& cancellation)
     : stance_(stance),
       world_(world),
       planes_(std::move(planes)),
@@ -59,7 +60,8 @@ FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
     soles_.push_back(std::move(sole));
   }
   SizeGrid();
-  Flood(start, cancellation);
+  for (const GroundedStance& start : starts) ReachFrom(start);
+  Flood(cancellation);
 }
 
 /// The trunk stays within the world's bounds, so feet come no farther out than by a step.
@@ -197,13 +199,16 @@ void FootholdFlood::Expand(const Place& place) {
   }
 }
 
-void FootholdFlood::Flood(const GroundedStance& start, const CancellationToken& cancellation) {
+void FootholdFlood::ReachFrom(const GroundedStance& start) {
   for (const int limb : {0, 1}) {
     const Vector2d centre = start.pose * Vector2d(stance_.patch_centres[limb].head<2>());
     for (const int plane : PlanesAbout(centre, start.z, 0)) {
       ReachAround(PlaceAt(0, centre), start.z, 0, plane);
     }
   }
+}
+
+void FootholdFlood::Flood(const CancellationToken& cancellation) {
   for (std::size_t i = 0; i < queue_.size(); ++i) {
     if (i % kCellsPerQuestion == 0) cancellation.ThrowIfCancelled();
     Expand(Place(queue_[i]));  // a copy: reaching moves the queue

@@ -20,10 +20,10 @@ namespace possibility::actions {
 /// between levels only cells at an edge have to be asked how far a step leads from there.
 class FootholdFlood {
  public:
-  /// `planes`: of the ground, those that a foot may bear on. `start`: both limbs bear there.
+  /// `planes`: of the ground, those that a foot may bear on. `starts`: both limbs bear there.
   /// `limits`: the family. @throws Cancelled.
   FootholdFlood(const NominalStance& stance, const World& world, std::vector<int> planes,
-                const FootstepLimits& limits, const GroundedStance& start,
+                const FootstepLimits& limits, const std::vector<GroundedStance>& starts,
                 const CancellationToken& cancellation = {});
 
   /// False only if no steps of the family lead to a place where the limb bears so.
@@ -47,7 +47,8 @@ class FootholdFlood {
   };
 
   void SizeGrid();
-  void Flood(const GroundedStance& start, const CancellationToken& cancellation);
+  void ReachFrom(const GroundedStance& start);
+  void Flood(const CancellationToken& cancellation);
   bool IsInGrid(int column, int row) const {
     return column >= 0 && row >= 0 && column < columns_ && row < rows_;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <queue>
 #include <unordered_set>
+#include <utility>
 
 #include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/pose_field.h"
@@ -181,14 +182,14 @@ struct FootstepSearch::Search {
     }
   };
 
-  Search(const LocomotionModel& model, int gait, const World& world, const GroundedStance& start,
-         const std::vector<GroundedStance>& goals, const FootstepLimits& limits,
-         const CancellationToken& cancellation)
+  Search(const LocomotionModel& model, int gait, const World& world, FootstepEnds ends,
+         const FootstepLimits& limits, const CancellationToken& cancellation)
       : stance(model.gaits[gait]->stance),
         limits(limits),
         world(world),
-        start(start),
-        goals(goals),
+        starts(std::move(ends.starts)),
+        goals(std::move(ends.goals)),
+        goal_times(std::move(ends.goal_times)),
         ground(*model.robot, stance, world, limits.margin),
         checker(*world.environment),
         trunk(Above(model.gaits[gait]->volumes.standing,
@@ -204,8 +205,10 @@ struct FootstepSearch::Search {
           stance.centre_of_mass;
       root_over[limb] = Vector2d(stance.X_SR.translation().head<2>()) + shift;
     }
-    field.At(start.pose, cancellation);  // most of the field
-    Begin({start.pose, start.z});
+    for (const GroundedStance& start : starts) {
+      field.At(start.pose, cancellation);  // most of the field
+      Begin({start.pose, start.z});
+    }
   }
 
   void Begin(const Foothold& start) {
@@ -247,8 +250,13 @@ struct FootstepSearch::Search {
     return PoseField(
         world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
         [this](const PlanarPose& pose) { return TrunkMayBeAt(pose); },
-        [this](const Vector2d& p) { return HeightAt(p); });
+        [this](const Vector2d& p) { return HeightAt(p); }, goal_times);
   }
+
+  double TimeFrom(int goal) const { return goal_times.empty() ? 0 : goal_times[goal]; }
+
+  /// Whether no other goal seems quicker by way of this one.
+  bool IsBest(int goal) { return TimeFrom(goal) <= field.At(goals[goal].pose) + 1e-9; }
 
   /// Over ground that is near.
   bool TrunkMayBeAt(const PlanarPose& pose) const {
@@ -491,11 +499,16 @@ struct FootstepSearch::Search {
   /// Leaves nothing to search if no goal can be reached.
   void AskFlood(const CancellationToken& cancellation) {
     is_flooded = true;
-    const FootholdFlood flood(stance, world, ground.planes(), limits, start, cancellation);
+    const FootholdFlood flood(stance, world, ground.planes(), limits, starts, cancellation);
     const bool may_be_reached =
         std::any_of(goals.begin(), goals.end(),
                     [&](const GroundedStance& goal) { return flood.Reaches(goal); });
     if (!may_be_reached) open = {};
+  }
+
+  void Remember(int node, int goal) {
+    if (second_best && TimeFrom(second_best->second) <= TimeFrom(goal)) return;
+    second_best.emplace(node, goal);
   }
 
   std::vector<Footstep> StepsTo(int index) const {
@@ -512,8 +525,10 @@ struct FootstepSearch::Search {
   const NominalStance& stance;
   FootstepLimits limits;
   const World& world;
-  GroundedStance start;
+  std::vector<GroundedStance> starts;
   std::vector<GroundedStance> goals;
+  std::vector<double> goal_times;
+  std::optional<std::pair<int, int>> second_best;  ///< node and its goal
   FootholdGround ground;
   models::CollisionChecker checker;
   models::UprightBoxes trunk;
@@ -533,17 +548,39 @@ FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const Wor
                                const GroundedStance& start,
                                const std::vector<GroundedStance>& goals,
                                const FootstepLimits& limits, const CancellationToken& cancellation)
-    : search_(std::make_unique<Search>(model, gait, world, start, goals, limits, cancellation)) {}
+    : FootstepSearch(model, gait, world, FootstepEnds{{start}, goals, {}}, limits, cancellation) {}
+
+FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
+                               FootstepEnds ends, const FootstepLimits& limits,
+                               const CancellationToken& cancellation)
+    : search_(std::make_unique<Search>(model, gait, world, std::move(ends), limits, cancellation)) {
+}
 
 FootstepSearch::~FootstepSearch() = default;
 
 std::int64_t FootstepSearch::states() const { return search_->expanded; }
 
+FootstepSearch::Status FootstepSearch::Answer(int node, int goal) {
+  goal_ = goal;
+  steps_ = search_->StepsTo(node);
+  while (search_->nodes[node].parent >= 0) node = search_->nodes[node].parent;
+  const Foothold& first = search_->nodes[node].feet.front();
+  start_ = search_->goals[goal];  // for its gait
+  start_.pose = first.stance;
+  start_.z = first.z;
+  return Status::kFound;
+}
+
+FootstepSearch::Status FootstepSearch::Exhausted() {
+  if (!search_->second_best) return Status::kExhausted;
+  return Answer(search_->second_best->first, search_->second_best->second);
+}
+
 FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
                                                const CancellationToken& cancellation) {
   Search& search = *search_;
   for (std::int64_t work = 0; work < states * kPlacesPerState; ++work) {
-    if (search.open.empty() || search.expanded >= most_states) return Status::kExhausted;
+    if (search.open.empty() || search.expanded >= most_states) return Exhausted();
     if (search.expanded >= kStatesBeforeFlood && !search.is_flooded) {
       search.AskFlood(cancellation);
       continue;
@@ -561,9 +598,8 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
     ++search.expanded;
     work += kPlacesPerState - 1;
     if (const int goal = search.GoalAt(search.nodes[index]); goal >= 0) {
-      goal_ = goal;
-      steps_ = search.StepsTo(index);
-      return Status::kFound;
+      if (search.IsBest(goal)) return Answer(index, goal);
+      search.Remember(index, goal);
     }
     search.Expand(index);
   }

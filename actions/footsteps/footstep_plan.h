@@ -42,6 +42,15 @@ struct FootstepLimits {
   static FootstepLimits Of(const models::RobotModel& robot, const NominalStance& stance);
 };
 
+/// Where a search for steps begins and may end: stances of its gait.
+struct FootstepEnds {
+  std::vector<GroundedStance> starts;
+  std::vector<GroundedStance> goals;
+  /// By goal, s: how long it takes from there on. A goal from which steps to another one would be
+  /// quicker is only an answer if that one is not reached. Empty: all 0.
+  std::vector<double> goal_times;
+};
+
 /// Expected duration of a step, s.
 double ExpectedDuration(const Footstep& step);
 
@@ -54,7 +63,10 @@ class FootstepSearch {
   /// Whether steps of the gait can be searched.
   static bool Knows(const models::Gait& gait);
 
-  /// Arguments must outlive the search. `goals`: stances of the gait.
+  /// References must outlive the search.
+  FootstepSearch(const LocomotionModel& model, int gait, const World& world, FootstepEnds ends,
+                 const FootstepLimits& limits, const CancellationToken& cancellation = {});
+  /// From one start.
   FootstepSearch(const LocomotionModel& model, int gait, const World& world,
                  const GroundedStance& start, const std::vector<GroundedStance>& goals,
                  const FootstepLimits& limits, const CancellationToken& cancellation = {});
@@ -67,6 +79,7 @@ class FootstepSearch {
 
   const std::vector<Footstep>& steps() const { return steps_; }  ///< once found
   int goal() const { return goal_; }                             ///< index; once found
+  const GroundedStance& start() const { return start_; }         ///< of the steps; once found
   std::int64_t states() const;                                   ///< expanded so far
 
   std::int64_t most_states = 8000;
@@ -76,8 +89,13 @@ class FootstepSearch {
  private:
   struct Search;
 
+  Status Answer(int node, int goal);
+  /// Of all goals that were reached the best one, if there is any.
+  Status Exhausted();
+
   std::unique_ptr<Search> search_;
   std::vector<Footstep> steps_;
+  GroundedStance start_;
   int goal_ = -1;
 };
 

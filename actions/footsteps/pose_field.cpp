@@ -48,7 +48,8 @@ int Cell(double at, int count) {
 PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
                      const std::vector<PlanarPose>& goals, const Paces& paces,
                      std::function<bool(const PlanarPose&)> is_open,
-                     std::function<double(const Eigen::Vector2d&)> height)
+                     std::function<double(const Eigen::Vector2d&)> height,
+                     const std::vector<double>& goal_times)
     : bounds_(bounds),
       cell_(cell),
       first_heading_(first_heading),
@@ -62,11 +63,13 @@ PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double firs
   times_.assign(poses, std::numeric_limits<double>::infinity());
   states_.assign(poses, State::kUnknown);
   if (height_) heights_.assign(poses / kHeadings, std::numeric_limits<double>::quiet_NaN());
-  for (const PlanarPose& goal : goals) {
-    const std::size_t index = IndexOf(goal);
-    times_[index] = 0;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const std::size_t index = IndexOf(goals[i]);
+    const double time = goal_times.empty() ? 0 : goal_times[i];
     states_[index] = State::kOpen;
-    queue_.push({0, index});
+    if (time >= times_[index]) continue;
+    times_[index] = time;
+    queue_.push({time, index});
   }
 }
 

@@ -30,10 +30,12 @@ class PoseField {
   /// `bounds`, `cell`: m. `first_heading`: rad, one of the lattice's headings. `is_open`: of a pose
   /// of the lattice; asked once per pose, and only where a way or a question leads. The poses
   /// nearest to goals are open. `height`: of the ground at a cell's centre, m; none if it is level.
+  /// `goal_times`: what each goal's times begin with, s; empty: 0.
   PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
             const std::vector<PlanarPose>& goals, const Paces& paces,
             std::function<bool(const PlanarPose&)> is_open,
-            std::function<double(const Eigen::Vector2d&)> height = {});
+            std::function<double(const Eigen::Vector2d&)> height = {},
+            const std::vector<double>& goal_times = {});
 
   /// From the nearest pose of the lattice, s. Infinite if that is not open or no way leads from
   /// there. @throws Cancelled.

@@ -23,6 +23,7 @@
 #include "actions/planner/request_checks.h"
 #include "actions/planner/route_refusals.h"
 #include "actions/route/footstep_explorer.h"
+#include "actions/route/island_explorer.h"
 #include "actions/route/lattice_explorer.h"
 #include "actions/route/route.h"
 #include "actions/route/route_motion.h"
@@ -202,12 +203,18 @@ class TraversalPlanner {
     return all;
   }
 
-  /// Steps of the start's gait, if they can be planned and lead to a goal.
+  /// Steps of the start's gait, or of the first gait whose steps can be planned.
   void PrepareSteps(const PlanningContext& context, const std::string& where) {
     all_manoeuvres_ = searched_;
     if (!switches_.footsteps || !switches_.floods) return;
-    const int gait = model_.GaitIndex(scenario_.start.action);
-    if (gait < 0 || !FootstepSearch::Knows(model_.gaits[gait]->gait)) return;
+    const auto knows = [this](int gait) {
+      return gait >= 0 && FootstepSearch::Knows(model_.gaits[gait]->gait);
+    };
+    int gait = model_.GaitIndex(scenario_.start.action);
+    for (int other = 0; !knows(gait) && other < static_cast<int>(model_.gaits.size()); ++other) {
+      gait = other;
+    }
+    if (!knows(gait)) return;
     steps_ = std::make_shared<PlannedSteps>(context, gait);
     all_manoeuvres_.push_back(std::make_shared<SearchedManoeuvre>(steps_, where));
   }
@@ -215,16 +222,22 @@ class TraversalPlanner {
   std::vector<GroundedStance> GoalsOfSteps() const {
     std::vector<GroundedStance> goals;
     for (const GroundedStance& goal : goals_) {
-      if (goal.gait == start_.gait) goals.push_back(goal);
+      if (goal.gait == steps_->from()) goals.push_back(goal);
     }
     return goals;
   }
 
-  /// First through C_S and manoeuvres. Where the floods find no route there, or cannot tell and
-  /// there are no manoeuvres, contacts are planned. If that leads nowhere either, the search goes
-  /// on as long as the floods leave it open.
+  /// Whether steps alone may lead from the start to a goal.
+  bool StepsMayDo() const { return start_.gait == steps_->from() && !GoalsOfSteps().empty(); }
+  /// Whether there is anything else that steps can be joined with.
+  bool IsMixed() const { return gaits_.size() > 1 || !searched_.empty(); }
+
+  /// First through C_S and manoeuvres. Where the floods find no route there, or cannot tell,
+  /// contacts are planned as well: beside manoeuvres in the same search, otherwise in a search of
+  /// their own. If that leads nowhere either, the search goes on as long as the floods leave it
+  /// open.
   graph::PathResult FindRoute(std::uint64_t attempt) {
-    const bool steps_may_help = steps_ && !GoalsOfSteps().empty();
+    const bool steps_may_help = steps_ && (StepsMayDo() || IsMixed());
     const bool nobody_else_explores =
         !switches_.straight && !switches_.lattice && !switches_.random;
     if (steps_may_help && nobody_else_explores) {
@@ -250,6 +263,7 @@ class TraversalPlanner {
     // A manoeuvre may still be found where the floods cannot tell.
     const bool is_open =
         *oracle_answer_ == graph::RouteOracleAnswer::kUnknown && !manoeuvres_.empty();
+    steps_are_called_ = is_open;
     if (!ends_at_oracle_ || is_open ||
         *oracle_answer_ == graph::RouteOracleAnswer::kProvenInfeasible) {
       return *oracle_answer_;
@@ -260,12 +274,23 @@ class TraversalPlanner {
 
   graph::PathResult ExploreSteps(std::uint64_t attempt) {
     graph::FindPathSettings settings = SearchSettings(attempt);
-    const RouteSpace space{&model_, &gaits_, &all_manoeuvres_};
-    const int action = static_cast<int>(gaits_.size() + all_manoeuvres_.size()) - 1;
-    if (switches_.shortcuts) settings.explorers = {ShortcutExploration(space, goals_)};
-    settings.explorers.push_back(
-        FootstepExploration(space, *steps_, action, start_, GoalsOfSteps()));
+    if (switches_.shortcuts) settings.explorers = {ShortcutExploration(AllSpace(), goals_)};
+    AddStepExplorers(&settings);
+    steps_are_called_ = true;
     return graph::FindPath(PointOf(start_), GoalPoints(), AllActions(), *space_, settings);
+  }
+
+  RouteSpace AllSpace() const { return {&model_, &gaits_, &all_manoeuvres_}; }
+
+  void AddStepExplorers(graph::FindPathSettings* settings) const {
+    const int action = static_cast<int>(gaits_.size() + all_manoeuvres_.size()) - 1;
+    if (StepsMayDo()) {
+      settings->explorers.push_back(FootstepExploration(AllSpace(), *steps_, action, start_,
+                                                        GoalsOfSteps(), &steps_are_called_));
+    }
+    if (!IsMixed()) return;
+    settings->explorers.push_back(IslandExploration({&model_, &gaits_, &searched_}, *steps_, action,
+                                                    start_, goals_, &steps_are_called_));
   }
 
   /// Empty: none.
@@ -287,6 +312,11 @@ class TraversalPlanner {
     }
     std::vector<std::shared_ptr<const graph::Action>> actions(gaits_.begin(), gaits_.end());
     actions.insert(actions.end(), searched_.begin(), searched_.end());
+    if (ends_at_oracle_ && !manoeuvres_.empty()) {
+      AddStepExplorers(&settings);
+      actions = AllActions();
+      settings.skip_growth[actions.back()->name()] = 1;  // random exploration knows no steps
+    }
     return graph::FindPath(PointOf(start_), GoalPoints(), actions, *space_, settings);
   }
 
@@ -524,8 +554,9 @@ class TraversalPlanner {
   std::vector<std::shared_ptr<SearchedManoeuvre>> searched_;        ///< the same, with verdicts
   std::shared_ptr<PlannedSteps> steps_;                             ///< null: none can be planned
   std::vector<std::shared_ptr<SearchedManoeuvre>> all_manoeuvres_;  ///< searched, then steps
-  bool ends_at_oracle_ = false;  ///< the search under way ends where the floods find no route
-  bool needs_steps_ = false;     ///< the floods found no route
+  bool ends_at_oracle_ = false;    ///< the search under way ends where the floods find no route
+  bool needs_steps_ = false;       ///< the floods found no route
+  bool steps_are_called_ = false;  ///< explorers of steps take part
   std::optional<graph::RouteOracleAnswer> oracle_answer_;
   FloodOracle floods_;
   FailedJobs failures_;

@@ -18,13 +18,14 @@ constexpr double kStop = 2.5;
 
 FootstepExplorer::FootstepExplorer(const RouteSpace& space, const PlannedSteps& steps, int action,
                                    const GroundedStance& start,
-                                   const std::vector<GroundedStance>& goals,
+                                   const std::vector<GroundedStance>& goals, const bool* is_called,
                                    const graph::ExplorerContext& context)
     : space_(space),
       steps_(steps),
       action_(action),
       start_(start),
       goals_(goals),
+      is_called_(is_called),
       deadline_(context.deadline),
       states_(&(*context.counters)["footsteps: states"]) {}
 
@@ -115,9 +116,11 @@ graph::PathEdge FootstepExplorer::EdgeBetween(int action, const GroundedStance& 
 
 graph::ExplorerFactory FootstepExploration(const RouteSpace& space, const PlannedSteps& steps,
                                            int action, const GroundedStance& start,
-                                           const std::vector<GroundedStance>& goals) {
+                                           const std::vector<GroundedStance>& goals,
+                                           const bool* is_called) {
   return [=, &steps](const graph::ExplorerContext& context) {
-    return std::make_unique<FootstepExplorer>(space, steps, action, start, goals, context);
+    return std::make_unique<FootstepExplorer>(space, steps, action, start, goals, is_called,
+                                              context);
   };
 }
 

@@ -18,15 +18,16 @@ namespace possibility::actions {
 /// plan the steps of the whole way.
 class FootstepExplorer : public graph::Explorer {
  public:
-  /// `steps`: the manoeuvre of that gait; `action`: its number among the search's actions. Both it
-  /// and what `space` points to must outlive the search. `goals`: stances of the gait.
+  /// `steps`: the manoeuvre of that gait; `action`: its number among the search's actions. Takes
+  /// part once `*is_called`. References, and what `space` points to, must outlive the search.
+  /// `goals`: stances of the gait.
   FootstepExplorer(const RouteSpace& space, const PlannedSteps& steps, int action,
                    const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                   const graph::ExplorerContext& context);
+                   const bool* is_called, const graph::ExplorerContext& context);
 
   std::string name() const override { return "footsteps"; }
   bool TakesPart(graph::SearchStage stage) const override {
-    return stage == graph::SearchStage::kFirstRoute;
+    return *is_called_ && stage == graph::SearchStage::kFirstRoute;
   }
   graph::Findings Explore() override;
   double work_of_turn() const override { return kWorkOfTurn; }
@@ -53,6 +54,7 @@ class FootstepExplorer : public graph::Explorer {
   int action_;
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
+  const bool* is_called_;
   const Deadline* deadline_;
   std::int64_t* states_;  ///< counter
   std::optional<FootstepSearch> search_;
@@ -62,6 +64,7 @@ class FootstepExplorer : public graph::Explorer {
 /// Makes a FootstepExplorer.
 graph::ExplorerFactory FootstepExploration(const RouteSpace& space, const PlannedSteps& steps,
                                            int action, const GroundedStance& start,
-                                           const std::vector<GroundedStance>& goals);
+                                           const std::vector<GroundedStance>& goals,
+                                           const bool* is_called);
 
 }  // namespace possibility::actions

@@ -60,6 +60,7 @@ LatticeSearch::Status LatticeSearch::Advance(std::int64_t stances,
       const Node& node = nodes_[next.node];
       closest_approach_ = std::min(closest_approach_, DistanceLeft(node.stance.pose));
       closed_.insert(CellOf(node));
+      reached_.push_back(next.node);
       Expand(next.node);
     }
   }
@@ -307,9 +308,15 @@ std::vector<graph::Point> LatticeSearch::Landings(int node,
   return landings;
 }
 
-std::vector<graph::PathEdge> LatticeSearch::Route() const {
+std::vector<GroundedStance> LatticeSearch::Reached() const {
+  std::vector<GroundedStance> stances;
+  for (const int node : reached_) stances.push_back(nodes_[node].stance);
+  return stances;
+}
+
+std::vector<graph::PathEdge> LatticeSearch::RouteToNode(int node) const {
   std::vector<int> way;
-  for (int node = found_; node >= 0; node = nodes_[node].parent) way.push_back(node);
+  for (; node >= 0; node = nodes_[node].parent) way.push_back(node);
   std::reverse(way.begin(), way.end());
   std::vector<graph::PathEdge> edges;
   for (std::size_t i = 1; i < way.size(); ++i) {

@@ -37,7 +37,13 @@ class LatticeSearch {
   Status Advance(std::int64_t stances, const CancellationToken& cancellation);
 
   /// The route, if found.
-  std::vector<graph::PathEdge> Route() const;
+  std::vector<graph::PathEdge> Route() const { return RouteToNode(found_); }
+
+  /// Stances reached so far, in the order of the search. Manoeuvres that lead there may still be
+  /// refuted.
+  std::vector<GroundedStance> Reached() const;
+  /// The route to one of them: an index into Reached().
+  std::vector<graph::PathEdge> RouteTo(int reached) const { return RouteToNode(reached_[reached]); }
 
   /// Ignores routes that take this long or longer, s.
   void SetBound(double duration) { bound_ = duration; }
@@ -105,6 +111,7 @@ class LatticeSearch {
   std::vector<graph::Point> Landings(int node, const SearchedManoeuvre& manoeuvre) const;
   std::size_t EndOfStraight(const std::vector<int>& way, std::size_t first) const;
   graph::PathEdge EdgeBetween(int from, int to) const;
+  std::vector<graph::PathEdge> RouteToNode(int node) const;
 
   RouteSpace space_;
   std::vector<GroundedStance> goals_;
@@ -116,6 +123,7 @@ class LatticeSearch {
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> open_;
   std::unordered_set<std::int64_t> closed_;
+  std::vector<int> reached_;  ///< nodes
   std::int64_t examined_ = 0;
   int found_ = -1;  ///< node
 };

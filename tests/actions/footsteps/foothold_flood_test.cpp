@@ -75,7 +75,8 @@ class FootholdFloodTest : public ::testing::Test {
 
   FootholdFlood FloodOf(const World& world, const GroundedStance& start,
                         const CancellationToken& cancellation = {}) const {
-    return {stance_, world, GentlePlanes(DrcHubo1(), *world.ground), limits_, start, cancellation};
+    return {stance_, world,   GentlePlanes(DrcHubo1(), *world.ground),
+            limits_, {start}, cancellation};
   }
 
   bool IsReached(UnevenWorld* world, const GroundedStance& goal) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -99,6 +100,22 @@ TEST(Slope, SolesAreFlatOnTheSlopeThroughoutTheMotion) {
               ridge.world().ground->PlanesAt(p.head<2>(), p.z() - 1e-8, p.z() + 1e-8).empty());
         }
       }
+    }
+  }
+}
+
+// C_N must not say no where the robot can be.
+TEST(Slope, TheWholeMotionMeetsTheNecessaryConditions) {
+  OverARidge ridge(20);
+  ASSERT_TRUE(ridge.is_found());
+  const auto space = std::make_shared<PelvisPoseSpace>(ridge.world().environment.bounds,
+                                                       ridge.world().ground->levels(), 0.137);
+  const QuasiStaticAction walk(WalkingHubo(), 0, ridge.world().world, space, 0.25);
+  for (const Phase& phase : ridge.Motion()) {
+    for (const Knot& knot : phase.knots) {
+      const Eigen::Quaterniond turn(knot.q[0], knot.q[1], knot.q[2], knot.q[3]);
+      EXPECT_TRUE(walk.CN(ToPoint(Eigen::Translation3d(knot.q.segment<3>(4)) * turn)))
+          << "at " << knot.t << " s";
     }
   }
 }

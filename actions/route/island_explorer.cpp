@@ -1,0 +1,182 @@
+#include "actions/route/island_explorer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "actions/conditions/exploration_pose.h"
+
+namespace possibility::actions {
+namespace {
+
+constexpr std::int64_t kStancesPerTurn = 250;
+constexpr std::int64_t kStatesPerTurn = 50;
+
+/// Of one island.
+constexpr LatticeSettings kLattice = {
+    .step = 0.4, .headings = 8, .greed = 2, .most_stances = 10000};
+constexpr int kMostIslands = 40;
+
+/// Stances beyond the island: so far from each other, in so many headings.
+constexpr double kSpacing = 0.2;  // m
+constexpr int kHeadings = 4;
+/// A stance is beyond the island if it is this far from all that was reached, m; or at another
+/// height.
+constexpr double kBeyond = 0.5;
+constexpr double kSameHeight = 1e-3;  // m
+
+/// More than steps take, so that steps lead on as far as they can.
+constexpr double kSecondsPerMetreLeft = 3;
+
+}  // namespace
+
+IslandExplorer::IslandExplorer(const RouteSpace& lattice, const PlannedSteps& steps, int action,
+                               const GroundedStance& start,
+                               const std::vector<GroundedStance>& goals, const bool* is_called,
+                               const graph::ExplorerContext& context)
+    : lattice_(lattice),
+      steps_(steps),
+      action_(action),
+      goals_(goals),
+      is_called_(is_called),
+      deadline_(context.deadline),
+      islands_(&(*context.counters)["footsteps: islands"]),
+      states_(&(*context.counters)["footsteps: states"]),
+      entry_(start) {}
+
+graph::Findings IslandExplorer::Explore() {
+  if (is_over_) return {graph::Outlook::kOver, {}};
+  const CancellationToken cancellation(*deadline_);
+  try {
+    return crossing_ ? LeaveIsland(cancellation) : ExploreIsland(cancellation);
+  } catch (const Cancelled&) {
+    return {graph::Outlook::kOver, {}};
+  }
+}
+
+graph::Findings IslandExplorer::ExploreIsland(const CancellationToken& cancellation) {
+  if (!island_) {
+    ++*islands_;
+    island_.emplace(lattice_, entry_, goals_, kLattice);
+  }
+  switch (island_->Advance(kStancesPerTurn, cancellation)) {
+    case LatticeSearch::Status::kSearching:
+      return {graph::Outlook::kLeadsOn, {}};
+    case LatticeSearch::Status::kGivenUp:
+      if (BeginToLeave(cancellation)) return {graph::Outlook::kLeadsOn, {}};
+      is_over_ = true;
+      return {graph::Outlook::kOver, {}};
+    case LatticeSearch::Status::kFound:
+      break;
+  }
+  is_over_ = true;
+  std::vector<graph::PathEdge> route = route_;
+  for (graph::PathEdge& edge : island_->Route()) route.push_back(std::move(edge));
+  return {graph::Outlook::kOver, std::move(route)};
+}
+
+/// @returns false if there is nowhere to go.
+bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
+  FootstepEnds ends;
+  for (const GroundedStance& stance : island_->Reached()) {
+    reached_.push_back(stance);
+    if (stance.gait == steps_.from()) ends.starts.push_back(stance);
+  }
+  if (ends.starts.empty() || *islands_ >= kMostIslands) return false;
+  beyond_ = StancesBeyond();
+  if (beyond_.empty()) return false;
+  ends.goals = beyond_;
+  for (const GroundedStance& stance : beyond_) ends.goal_times.push_back(TimeLeft(stance));
+  crossing_.emplace(*lattice_.model, steps_.from(), gait().world(), std::move(ends),
+                    steps_.limits(), cancellation);
+  return true;
+}
+
+graph::Findings IslandExplorer::LeaveIsland(const CancellationToken& cancellation) {
+  const std::int64_t before = crossing_->states();
+  const FootstepSearch::Status status = crossing_->Advance(kStatesPerTurn, cancellation);
+  *states_ += crossing_->states() - before;
+  if (status == FootstepSearch::Status::kSearching) return {graph::Outlook::kLeadsOn, {}};
+  if (status == FootstepSearch::Status::kExhausted) {
+    is_over_ = true;
+    return {graph::Outlook::kOver, {}};
+  }
+  return CrossTo(crossing_->start(), beyond_[crossing_->goal()]);
+}
+
+/// The next island begins there.
+graph::Findings IslandExplorer::CrossTo(const GroundedStance& from, const GroundedStance& to) {
+  const std::vector<GroundedStance> reached = island_->Reached();
+  const auto exit = std::find_if(reached.begin(), reached.end(), [&](const GroundedStance& other) {
+    return other.gait == from.gait && other.z == from.z &&
+           other.pose.position() == from.pose.position() && other.pose.yaw == from.pose.yaw;
+  });
+  for (graph::PathEdge& edge : island_->RouteTo(static_cast<int>(exit - reached.begin()))) {
+    route_.push_back(std::move(edge));
+  }
+  const NominalStance& stance = lattice_.model->gaits[steps_.from()]->stance;
+  route_.push_back(
+      {action_,
+       {ToPoint(stance.RootPose(from.pose, from.z)), ToPoint(stance.RootPose(to.pose, to.z))}});
+  entry_ = to;
+  island_.reset();
+  crossing_.reset();
+  return {graph::Outlook::kLeadsOn, {}};
+}
+
+std::vector<GroundedStance> IslandExplorer::StancesBeyond() const {
+  std::vector<GroundedStance> beyond;
+  const Eigen::AlignedBox2d& bounds = gait().world().environment->bounds;
+  GroundedStance stance;
+  stance.gait = steps_.from();
+  const auto offer = [&] {
+    if (!IsKnown(stance) && gait().Examine(stance) == StanceFault::kNone) beyond.push_back(stance);
+  };
+  for (const double z : gait().world().ground->levels()) {
+    stance.z = z;
+    for (double x = bounds.min().x(); x <= bounds.max().x(); x += kSpacing) {
+      for (double y = bounds.min().y(); y <= bounds.max().y(); y += kSpacing) {
+        for (int heading = 0; heading < kHeadings; ++heading) {
+          stance.pose = {x, y, 2 * std::numbers::pi / kHeadings * heading};
+          offer();
+        }
+      }
+    }
+  }
+  for (const GroundedStance& goal : goals_) {
+    if (goal.gait != steps_.from()) continue;
+    stance = goal;
+    offer();
+  }
+  return beyond;
+}
+
+bool IslandExplorer::IsKnown(const GroundedStance& stance) const {
+  return std::any_of(reached_.begin(), reached_.end(), [&](const GroundedStance& other) {
+    return std::abs(other.z - stance.z) < kSameHeight &&
+           (other.pose.position() - stance.pose.position()).norm() < kBeyond;
+  });
+}
+
+double IslandExplorer::TimeLeft(const GroundedStance& stance) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const GroundedStance& goal : goals_) {
+    const double distance = (goal.pose.position() - stance.pose.position()).norm();
+    least = std::min(least, distance + std::abs(goal.z - stance.z));
+  }
+  return kSecondsPerMetreLeft * least;
+}
+
+graph::ExplorerFactory IslandExploration(const RouteSpace& lattice, const PlannedSteps& steps,
+                                         int action, const GroundedStance& start,
+                                         const std::vector<GroundedStance>& goals,
+                                         const bool* is_called) {
+  return [=, &steps](const graph::ExplorerContext& context) {
+    return std::make_unique<IslandExplorer>(lattice, steps, action, start, goals, is_called,
+                                            context);
+  };
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/planned_steps.h"
+#include "actions/route/lattice_search.h"
+#include "actions/route/route_space.h"
+#include "graph/search/explorer.h"
+
+namespace possibility::actions {
+
+/// Proposes routes that need both: actions whose conditions a lattice knows, and planned steps.
+/// What a lattice reaches from one stance is an island. Where it holds no goal, footsteps are
+/// searched from anywhere on it to stances that meet C_S beyond it, close to a goal if possible.
+/// From there a lattice explores the next island. Failure proves nothing.
+class IslandExplorer : public graph::Explorer {
+ public:
+  /// `lattice`: gaits, transitions and manoeuvres. `steps`: of some gait; `action`: its number
+  /// among the search's actions. Takes part once `*is_called`. All but `start` and `goals` must
+  /// outlive the search.
+  IslandExplorer(const RouteSpace& lattice, const PlannedSteps& steps, int action,
+                 const GroundedStance& start, const std::vector<GroundedStance>& goals,
+                 const bool* is_called, const graph::ExplorerContext& context);
+
+  std::string name() const override { return "footsteps"; }
+  bool TakesPart(graph::SearchStage stage) const override {
+    return *is_called_ && stage == graph::SearchStage::kFirstRoute;
+  }
+  graph::Findings Explore() override;
+  double work_of_turn() const override { return kWorkOfTurn; }
+
+ private:
+  static constexpr double kWorkOfTurn = 10e-3;  ///< s
+
+  const QuasiStaticAction& gait() const { return *(*lattice_.gaits)[steps_.from()]; }
+  graph::Findings ExploreIsland(const CancellationToken& cancellation);
+  graph::Findings LeaveIsland(const CancellationToken& cancellation);
+  graph::Findings CrossTo(const GroundedStance& from, const GroundedStance& to);
+  bool BeginToLeave(const CancellationToken& cancellation);
+  std::vector<GroundedStance> StancesBeyond() const;
+  bool IsKnown(const GroundedStance& stance) const;
+  double TimeLeft(const GroundedStance& stance) const;
+
+  RouteSpace lattice_;
+  const PlannedSteps& steps_;
+  int action_;
+  std::vector<GroundedStance> goals_;
+  const bool* is_called_;
+  const Deadline* deadline_;
+  std::int64_t* islands_;               ///< counter
+  std::int64_t* states_;                ///< counter
+  GroundedStance entry_;                ///< of the island
+  std::vector<graph::PathEdge> route_;  ///< from the start to the entry
+  std::optional<LatticeSearch> island_;
+  std::vector<GroundedStance> reached_;  ///< of this island and those before it
+  std::optional<FootstepSearch> crossing_;
+  std::vector<GroundedStance> beyond_;  ///< goals of the crossing
+  bool is_over_ = false;
+};
+
+/// Makes an IslandExplorer.
+graph::ExplorerFactory IslandExploration(const RouteSpace& lattice, const PlannedSteps& steps,
+                                         int action, const GroundedStance& start,
+                                         const std::vector<GroundedStance>& goals,
+                                         const bool* is_called);
+
+}  // namespace possibility::actions

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "actions/planner/planner.h"
+#include "tests/actions/drchubo1.h"
+
+namespace possibility::actions {
+namespace {
+
+PlanResult PlanWith(const std::string& scene, const std::vector<std::string>& actions) {
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  request.actions = actions;
+  return PlanTraversal(DrcHubo1(), ShippedScenario(scene), request);
+}
+
+/// Whether a segment of the plan uses the action.
+bool Uses(const PlanResult& result, const std::string& action) {
+  const std::vector<Segment>& segments = result.plan.segments;
+  return std::any_of(segments.begin(), segments.end(),
+                     [&](const Segment& segment) { return segment.action == action; });
+}
+
+// With manoeuvres among the actions the floods cannot tell whether a route exists.
+TEST(MixedRoute, StepsAreAlsoPlannedBesideManoeuvres) {
+  for (const std::string scene : {"crack", "stairs"}) {
+    const PlanResult result = PlanWith(scene, {"walk", "crawl", "jump"});
+    ASSERT_EQ(result.status, PlanStatus::kFound) << scene << ": " << result.explanation;
+    EXPECT_TRUE(result.verification.accepted());
+    const auto& explorers = result.plan.search->explorers;
+    EXPECT_NE(std::find(explorers.begin(), explorers.end(), "footsteps"), explorers.end()) << scene;
+  }
+}
+
+/// A sill before a bar so low that only crawling leads under it, and another sill behind.
+models::Scenario SillsAndABar() {
+  models::Scenario scenario = ShippedScenario("sill");
+  scenario.actions = {"walk", "crawl"};
+  models::Environment& environment = scenario.environment;
+  const auto add = [&](const std::string& name, const Eigen::Vector3d& size,
+                       const Eigen::Vector3d& position, bool is_ground) {
+    models::Obstacle obstacle;
+    obstacle.name = name;
+    obstacle.shape = models::Shape::Box(size);
+    obstacle.X_WO.translation() = position;
+    obstacle.is_ground = is_ground;
+    environment.obstacles.push_back(obstacle);
+  };
+  environment.obstacles.clear();
+  environment.bounds = {Eigen::Vector2d(-2.5, -1), Eigen::Vector2d(7.5, 1)};
+  add("floor", {11, 3, 0.5}, {2.5, 0, -0.25}, true);
+  add("first sill", {0.06, 3, 0.08}, {-0.5, 0, 0.04}, false);
+  add("bar", {0.1, 3, 1}, {2.4, 0, 1.6}, false);
+  add("second sill", {0.06, 3, 0.08}, {5.4, 0, 0.04}, false);
+  scenario.start.x = -1.5;
+  scenario.start.y = 0;
+  scenario.goals[0].x = 6.5;
+  scenario.goals[0].y = 0;
+  return scenario;
+}
+
+TEST(MixedRoute, StepsAndGaitsAreJoined) {
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  const PlanResult result = PlanTraversal(DrcHubo1(), SillsAndABar(), request);
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_TRUE(result.verification.accepted());
+  EXPECT_TRUE(Uses(result, "crawl"));
+  EXPECT_TRUE(Uses(result, "walk"));
+}
+
+TEST(MixedRoute, WithoutAWayUnderTheBarThereIsNone) {
+  models::Scenario scenario = SillsAndABar();
+  scenario.environment.obstacles[2].shape = models::Shape::Box({0.1, 3, 1.8});
+  scenario.environment.obstacles[2].X_WO.translation().z() = 1.2;
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
+  EXPECT_TRUE(result.status == PlanStatus::kExhausted ||
+              result.status == PlanStatus::kProvenInfeasible)
+      << result.explanation;
+}
+
+}  // namespace
+}  // namespace possibility::actions
