@@ -309,15 +309,23 @@ struct FootstepSearch::Search {
   /// How much lower than easy the root has to be for a limb to reach a place while the other one
   /// bears, m; at least 0. None if that is too low.
   std::optional<double> Squat(int limb, const Foothold& place, const Foothold& other) const {
-    if (!reaches[limb]) return 0;
+    const std::optional<double> highest = HighestRoot(limb, place, other);
+    if (!highest || *highest < limits.lowest_root) return std::nullopt;
+    return std::max(0.0, stance.gait->posture.root_height - kEasySquat - *highest);
+  }
+
+  /// Above the other limb's ground, while that one bears and this limb reaches a place, m. None if
+  /// it does not reach it.
+  std::optional<double> HighestRoot(int limb, const Foothold& place, const Foothold& other) const {
+    if (!reaches[limb]) return std::numeric_limits<double>::infinity();
     const Vector2d root = other.stance * root_over[1 - limb];
     const double yaw = other.stance.yaw + WrapAngle(place.stance.yaw - other.stance.yaw) / 2;
     const Vector2d centre = place.stance * Vector2d(stance.patch_centres[limb].head<2>());
     const auto highest =
         reaches[limb]->HighestRoot({root.x(), root.y(), yaw}, {centre.x(), centre.y(), place.z},
                                    FrameOf(stance, limb, place).linear());
-    if (!highest || *highest < other.z + limits.lowest_root) return std::nullopt;
-    return std::max(0.0, other.z + stance.gait->posture.root_height - kEasySquat - *highest);
+    if (!highest) return std::nullopt;
+    return *highest - other.z;
   }
 
   /// At the node, and on the way to it.
@@ -511,6 +519,13 @@ struct FootstepSearch::Search {
     second_best.emplace(node, goal);
   }
 
+  double HighestRootOf(const Footstep& step, const Foothold& other) const {
+    const auto root = [&](const Foothold& place) {
+      return HighestRoot(step.limb, place, other).value_or(limits.lowest_root);
+    };
+    return std::min(root(step.from), root(step.to));
+  }
+
   std::vector<Footstep> StepsTo(int index) const {
     std::vector<Footstep> steps;
     for (; nodes[index].parent >= 0; index = nodes[index].parent) {
@@ -557,6 +572,10 @@ FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const Wor
 }
 
 FootstepSearch::~FootstepSearch() = default;
+
+double FootstepSearch::HighestRoot(const Footstep& step, const Foothold& other) const {
+  return search_->HighestRootOf(step, other);
+}
 
 std::int64_t FootstepSearch::states() const { return search_->expanded; }
 

@@ -82,6 +82,10 @@ class FootstepSearch {
   const GroundedStance& start() const { return start_; }         ///< of the steps; once found
   std::int64_t states() const;                                   ///< expanded so far
 
+  /// How high the root can be, at most, all through a step while the other limb bears at `other`, m
+  /// above its ground.
+  double HighestRoot(const Footstep& step, const Foothold& other) const;
+
   std::int64_t most_states = 8000;
   /// Steps that must not be taken. `other`: where the other limb bears meanwhile.
   std::function<bool(const Footstep& step, const Foothold& other)> is_refused;

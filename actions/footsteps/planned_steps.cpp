@@ -22,6 +22,11 @@ constexpr int kMostRaises = 2;
 constexpr double kAway = 0.02;
 constexpr double kFarthestAway = 0.08;
 
+/// A low root loads the bearing leg. Where a step fails with one, the root must be higher by this
+/// than it was, m, and that so many times at most.
+constexpr double kTaller = 0.01;
+constexpr int kMostTaller = 2;
+
 /// Farthest ends of an edge, m.
 constexpr double kFarthest = 30;
 
@@ -90,6 +95,8 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
   FootstepLimits limits = limits_;
   Outcome outcome;
   outcome.fault = "no footholds";
+  const double upright = stance().gait->posture.root_height;
+  int taller = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     FootstepSearch search(model(), this->from(), world(), from, {to}, limits, cancellation);
     search.most_states = kStates;
@@ -100,7 +107,12 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
     while (status == FootstepSearch::Status::kSearching) {
       status = search.Advance(kStatesPerTurn, cancellation);
     }
-    if (status == FootstepSearch::Status::kExhausted) return outcome;
+    if (status == FootstepSearch::Status::kExhausted) {
+      if (limits.lowest_root == limits_.lowest_root) return outcome;
+      limits.lowest_root = limits_.lowest_root;
+      taller = kMostTaller;
+      continue;
+    }
     try {
       outcome.motion = FreeMotion(from, search.steps(), cancellation);
       outcome.fault.clear();
@@ -112,7 +124,14 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
         limits.trunk_margin += kAway;
         continue;
       }
-      refusals.Add(search.steps()[error.step()], OtherAt(from, search.steps(), error.step()));
+      const Footstep& step = search.steps()[error.step()];
+      const Foothold other = OtherAt(from, search.steps(), error.step());
+      refusals.Add(step, other);
+      const double root = search.HighestRoot(step, other);
+      if (root < upright && taller < kMostTaller) {
+        ++taller;
+        limits.lowest_root = std::max(limits.lowest_root, std::min(root + kTaller, upright));
+      }
     }
   }
   return outcome;

@@ -90,7 +90,7 @@ class FootholdFloodTest : public ::testing::Test {
 
 TEST_F(FootholdFloodTest, WhatStepsReachIsNeverDenied) {
   int steps = 0, away = 0;
-  for (int terrain = 0; terrain < 40; ++terrain) {
+  for (int terrain = 0; terrain < 16; ++terrain) {
     UnevenWorld uneven = terrain % 2 == 0 ? RandomTerrain() : RandomBoards();
     const World& world = uneven.Built();
     const GroundedStance start = UnevenWorld::StanceAt(-0.4);
@@ -98,7 +98,7 @@ TEST_F(FootholdFloodTest, WhatStepsReachIsNeverDenied) {
     std::array<Foothold, 2> feet;
     feet.fill({start.pose, start.z});
     int limb = 0;
-    for (int attempt = 0; attempt < 20000; ++attempt) {
+    for (int attempt = 0; attempt < 12000; ++attempt) {
       Foothold place;
       if (!Step(world, limb, feet[1 - limb], &place)) continue;
       ASSERT_TRUE(flood.Reaches(limb, place))
@@ -110,8 +110,8 @@ TEST_F(FootholdFloodTest, WhatStepsReachIsNeverDenied) {
       away += place.z > 0;
     }
   }
-  EXPECT_GT(steps, 10000);
-  EXPECT_GT(away, 1000);
+  EXPECT_GT(steps, 3000);
+  EXPECT_GT(away, 300);
 }
 
 TEST_F(FootholdFloodTest, AWideGapAHighStepAndSmallStonesAreDenied) {
@@ -129,9 +129,7 @@ TEST_F(FootholdFloodTest, AWideGapAHighStepAndSmallStonesAreDenied) {
   for (const double size : {0.1, 0.4}) {
     UnevenWorld stones;
     stones.Ground(-3, 0, 0).Ground(2, 5, 0);
-    for (double x = 0.25; x < 1.9; x += 0.45) {
-      for (const double y : {-0.3, 0.0, 0.3}) stones.Add({size, 0.1, 0.5}, {x, y, -0.25}, true);
-    }
+    for (double x = 0.25; x < 1.9; x += 0.45) stones.Add({size, 0.1, 0.5}, {x, 0, -0.25}, true);
     EXPECT_FALSE(IsReached(&stones, UnevenWorld::StanceAt(3)));
     UnevenWorld wider;
     wider.Ground(-3, 0, 0).Ground(2, 5, 0);

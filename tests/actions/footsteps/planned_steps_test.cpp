@@ -46,6 +46,18 @@ TEST_F(PlannedStepsTest, MotionLeadsFromRestToRestBetweenTheStances) {
   EXPECT_EQ(steps.plan_action(), "walk");
 }
 
+/// The first footholds are too far from each other: with one foot 0.30 m behind and 0.15 m below
+/// the other, the knee needs more than 100 N m.
+TEST_F(PlannedStepsTest, AFlightOfHighStepsIsClimbedWithBothFeetOnEachTread) {
+  UnevenWorld world;
+  world.Ground(-3, 0.3, 0).Ground(0.3, 0.6, 0.15, 1).Ground(0.6, 0.9, 0.3, 1).Ground(0.9, 4, 0.45);
+  const PlannedSteps& steps = StepsIn(&world);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.4), UnevenWorld::StanceAt(1.6, 0.45));
+  ASSERT_TRUE(steps.CN(edge));
+  const Knot& last = steps.Motion(edge, {}).back().knots.back();
+  EXPECT_NEAR(last.q[6], edge.to[2], 1e-6);
+}
+
 TEST_F(PlannedStepsTest, TheSameEdgeHasTheSameMotion) {
   UnevenWorld world;
   world.Ground(-3, 0, 0).Ground(0.05, 4, 0);

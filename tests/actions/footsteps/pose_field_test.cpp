@@ -65,6 +65,17 @@ TEST(PoseFieldTest, CancellationEndsIt) {
   EXPECT_THROW(field.At({0.1, 0.1, 0}, CancellationToken([] { return false; })), Cancelled);
 }
 
+TEST(PoseFieldTest, ClimbingTakesItsTimeUnlessItIsTooHigh) {
+  PoseField::Paces paces{2, 5, 1, 10, 0.2};
+  const auto height = [](const Eigen::Vector2d& p) {
+    return p.x() < 1 ? 0 : p.x() < 1.5 ? 0.15 : p.x() < 2 ? 0.05 : 3;
+  };
+  PoseField field(kRoom, kFieldCell, 0, {{0.55, 1.55, 0}}, paces, Everywhere, height);
+  EXPECT_NEAR(field.At({1.25, 1.55, 0}), 1.4 + 1.5, 1e-9);
+  EXPECT_NEAR(field.At({1.75, 1.55, 0}), 2.4 + 2.5, 1e-9);
+  EXPECT_NEAR(field.At({3.55, 1.55, 0}), 6 + 2.5, 1e-9);
+}
+
 /// Questions near the goal first, or the farthest one first: the answers are the same.
 TEST(PoseFieldTest, AnswersDoNotDependOnTheOrderOfQuestions) {
   std::mt19937 random(7);
