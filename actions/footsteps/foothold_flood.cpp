@@ -138,7 +138,9 @@ bool FootholdFlood::ReachNeighbours(const Place& place) {
 
 void FootholdFlood::ReachAround(const Place& place, const std::vector<int>& levels) {
   const int most = static_cast<int>(half_widths_.size()) - 1;
+  const double around = (most + 2) * cell_ + std::max(soles_[0].radius, soles_[1].radius);
   for (const int level : levels) {
+    if (!world_.ground->IsNear(level, CentreOf(place), around)) continue;
     const int last = std::min(rows_ - 1, place.row + most);
     for (int row = std::max(0, place.row - most); row <= last; ++row) {
       const int half_width = half_widths_[std::abs(row - place.row)];

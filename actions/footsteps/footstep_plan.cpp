@@ -7,6 +7,7 @@
 #include <numbers>
 #include <queue>
 #include <unordered_set>
+#include <utility>
 
 #include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/pose_field.h"
@@ -487,6 +488,7 @@ struct FootstepSearch::Search {
   /// Leaves nothing to search if no goal can be reached.
   void AskFlood(const CancellationToken& cancellation) {
     is_flooded = true;
+    if (world.environment->bounds.isEmpty()) return;
     const FootholdFlood flood(stance, world, limits, start, cancellation);
     const bool may_be_reached =
         std::any_of(goals.begin(), goals.end(),
