@@ -106,7 +106,8 @@ double FootholdFlood::SlackOf(int plane) const {
 }
 
 std::vector<int> FootholdFlood::PlanesAbout(const Vector2d& p, double z, double slack) const {
-  const double away = reach_ + 2 * cell_;
+  // A sole may straddle what its centre is over.
+  const double away = reach_ + 2 * cell_ + std::max(soles_[0].radius, soles_[1].radius);
   std::vector<int> about;
   for (int plane = 0; plane < static_cast<int>(planes_.size()); ++plane) {
     const models::GroundPlane& ground = world_.ground->planes()[planes_[plane]];

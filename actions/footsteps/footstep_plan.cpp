@@ -507,6 +507,7 @@ struct FootstepSearch::Search {
   /// Leaves nothing to search if no goal can be reached.
   void AskFlood(const CancellationToken& cancellation) {
     is_flooded = true;
+    if (world.environment->bounds.isEmpty()) return;
     const FootholdFlood flood(stance, world, ground.planes(), limits, starts, cancellation);
     const bool may_be_reached =
         std::any_of(goals.begin(), goals.end(),

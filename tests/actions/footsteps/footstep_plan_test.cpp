@@ -139,7 +139,7 @@ class StripsTest : public FootstepPlanTest {
   };
 
   std::vector<Strip> RandomStrips() {
-    std::uniform_real_distribution<double> length(0.32, 0.8), gap(0, 0.1), height(0, 0.05),
+    std::uniform_real_distribution<double> length(0.32, 0.8), gap(0, 0.08), height(0, 0.05),
         share(0, 1);
     std::vector<Strip> strips = {{-3, 0, 0}};
     while (strips.back().to < 1.5) {
@@ -186,7 +186,7 @@ class StripsTest : public FootstepPlanTest {
 
 TEST_F(StripsTest, WhatIsCrossedOnALineIsFound) {
   int crossed = 0, found = 0;
-  constexpr int kWorlds = 40;
+  constexpr int kWorlds = 100;
   for (int i = 0; i < kWorlds; ++i) {
     const std::vector<Strip> strips = RandomStrips();
     UnevenWorld world;
