@@ -94,9 +94,12 @@ class OneFormat {
   Assimp::Importer importer_;
 };
 
-/// No element of a PLY takes less than a byte: larger numbers would only keep the reader busy.
-void CheckPlyCounts(const std::string& bytes, const std::filesystem::path& file) {
-  std::istringstream header(bytes.substr(0, bytes.find("end_header")));
+/// The reader does not end without the header's end. No element takes less than a byte: larger
+/// numbers would only keep the reader busy.
+void CheckPlyHeader(const std::string& bytes, const std::filesystem::path& file) {
+  const std::size_t end = bytes.find("\nend_header");
+  if (end == std::string::npos) FailAt(file, "expected a line 'end_header'");
+  std::istringstream header(bytes.substr(0, end));
   for (std::string line; std::getline(header, line);) {
     std::istringstream words(line);
     std::string keyword, name;
@@ -271,7 +274,7 @@ TriangleMesh ReadMesh(const std::filesystem::path& file) {
 TriangleMesh ParseMesh(const std::string& bytes, const std::filesystem::path& file) {
   const std::string ending = EndingOf(file);
   if (bytes.empty()) FailAt(file, "is empty, expected a mesh");
-  if (ending == "ply") CheckPlyCounts(bytes, file);
+  if (ending == "ply") CheckPlyHeader(bytes, file);
   const std::optional<std::string> parcel = InSeparateProcess(
       [&] {
         try {

@@ -98,6 +98,8 @@ TEST(MeshReader, BrokenFilesGiveOneLine) {
   EXPECT_EQ(
       ErrorOfMesh(Replaced(ply, "vertex 8", "vertex 4000000000"), "a.ply"),
       fmt::format("a.ply: cannot hold 4000000000 elements 'vertex' in {} bytes", ply.size() + 9));
+  EXPECT_EQ(ErrorOfMesh(Replaced(ply, "end_header", "end"), "a.ply"),
+            "a.ply: expected a line 'end_header'");
   const std::vector<std::pair<std::string, std::string>> others = {
       {"a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n"},
       {"a.obj", "v 0 0 0\nv 1 0 1e999\nv 0 1 0\nf 1 2 3\n"},
