@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <stdexcept>
 
@@ -28,7 +29,7 @@ TEST(SeparateProcess, SurvivesCrashesEndlessLoopsAndExceptions) {
   EXPECT_FALSE(InSeparateProcess([]() -> std::string { throw std::runtime_error("no"); }, 5));
   EXPECT_FALSE(InSeparateProcess(
       []() -> std::string {
-        for (volatile int i = 0;; i = i + 1) {
+        for (std::atomic<int> i = 0;; ++i) {
         }
       },
       1));
