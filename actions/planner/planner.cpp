@@ -203,6 +203,13 @@ class TraversalPlanner {
     return all;
   }
 
+  /// The name under which a plan has the motion of an action.
+  std::string PlanActionOf(int action) const {
+    const std::size_t index = static_cast<std::size_t>(action);
+    return index < gaits_.size() ? gaits_[index]->name()
+                                 : all_manoeuvres_[index - gaits_.size()]->plan_action();
+  }
+
   /// Steps of the start's gait, or of the first gait whose steps can be planned.
   void PrepareSteps(const PlanningContext& context, const std::string& where) {
     all_manoeuvres_ = searched_;
@@ -367,9 +374,8 @@ class TraversalPlanner {
     for (const graph::Point& point : path.graph.vertices) {
       explored.vertices.push_back(ExploredVertex(point));
     }
-    const std::vector<std::shared_ptr<const graph::Action>> all = AllActions();
     for (const graph::GraphSnapshot::Edge& edge : path.graph.edges) {
-      explored.edges.push_back({edge.from, edge.to, all[edge.action]->name()});
+      explored.edges.push_back({edge.from, edge.to, PlanActionOf(edge.action)});
     }
     result->status = StatusOf(path.status);
     if (path.status == graph::PathStatus::kFound) {

@@ -83,10 +83,10 @@ std::string PostLines(const std::string& indent, const std::string& map, std::ui
   return lines;
 }
 
-std::string RobotLine(const std::string& path, const fs::path& file, const fs::path& folder) {
-  const fs::path robot = fs::absolute(file.parent_path() / path).lexically_normal();
-  const fs::path seen = robot.lexically_proximate(fs::absolute(folder).lexically_normal());
-  return "robot: " + seen.generic_string() + '\n';
+/// A path relative to the template, as seen from the scenario's folder.
+std::string SeenFrom(const fs::path& folder, const std::string& path, const fs::path& file) {
+  const fs::path there = fs::absolute(file.parent_path() / path).lexically_normal();
+  return there.lexically_proximate(fs::absolute(folder).lexically_normal()).generic_string();
 }
 
 }  // namespace
@@ -114,6 +114,7 @@ std::string ScenarioTemplate::Instantiate(const Names& names, std::uint64_t seed
                                           const fs::path& folder) const {
   static const std::regex posts("^(\\s*)- posts:\\s*(\\{.*\\})\\s*$");
   static const std::regex robot("^robot:\\s*(\\S+)\\s*$");
+  static const std::regex terrain("^(.*\\bfile:\\s*)([^\\s,}]+)(.*)$");  // mesh or height map
   std::string text;
   std::istringstream stream(text_);
   int number = 0;
@@ -123,7 +124,9 @@ std::string ScenarioTemplate::Instantiate(const Names& names, std::uint64_t seed
       line = Replaced(WithoutComment(line), names);
       std::smatch match;
       if (std::regex_match(line, match, robot)) {
-        text += RobotLine(match[1], file_, folder);
+        text += "robot: " + SeenFrom(folder, match[1], file_) + '\n';
+      } else if (std::regex_match(line, match, terrain)) {
+        text += match[1].str() + SeenFrom(folder, match[2], file_) + match[3].str() + '\n';
       } else if (std::regex_match(line, match, posts)) {
         text += PostLines(match[1], match[2], seed, file_, number);
       } else {

@@ -22,7 +22,8 @@ class ScenarioTemplate {
   bool Mentions(const std::string& name) const;
 
   /// The text of a scenario to be saved in `folder`: placeholders replaced, obstacle fields
-  /// generated from `seed`, and the path of the robot relative to that folder.
+  /// generated from `seed`, and the paths of the robot, of meshes and of height maps
+  /// relative to that folder.
   /// @throws InputError naming file and line.
   std::string Instantiate(const std::map<std::string, double>& names, std::uint64_t seed,
                           const std::filesystem::path& folder) const;

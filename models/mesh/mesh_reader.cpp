@@ -1,7 +1,6 @@
 #include "models/mesh/mesh_reader.h"
 
 #include <assimp/BaseImporter.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -10,13 +9,20 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
+#include <optional>
+#include <sstream>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
+#include "models/mesh/separate_process.h"
+#include "models/mesh/triangulation.h"
 
 namespace possibility::models {
 namespace {
@@ -25,6 +31,12 @@ using Eigen::Vector3d;
 
 /// Nested deeper than this no scene of the three formats is.
 constexpr int kDeepest = 64;
+
+/// Processor time; a mesh of kMostTriangles takes less than a second.
+constexpr unsigned kMostSeconds = 5;
+
+/// Corners of a polygon: the time to cut it grows with their square or faster.
+constexpr unsigned kMostCorners = 1000;
 
 [[noreturn]] void FailAt(const std::filesystem::path& file, const std::string& what) {
   throw InputError(fmt::format("{}: {}", file.string(), what));
@@ -78,12 +90,28 @@ class OneFormat {
   const aiScene* Read(const std::string& bytes, const std::string& ending) {
     return importer_.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending.c_str());
   }
-  const aiScene* Triangulate() { return importer_.ApplyPostProcessing(aiProcess_Triangulate); }
   std::string Error() const { return importer_.GetErrorString(); }
 
  private:
   Assimp::Importer importer_;
 };
+
+/// The reader does not end without the header's end. No element takes less than a byte: larger
+/// numbers would only keep the reader busy.
+void CheckPlyHeader(const std::string& bytes, const std::filesystem::path& file) {
+  const std::size_t end = bytes.find("\nend_header");
+  if (end == std::string::npos) FailAt(file, "expected a line 'end_header'");
+  std::istringstream header(bytes.substr(0, end));
+  for (std::string line; std::getline(header, line);) {
+    std::istringstream words(line);
+    std::string keyword, name;
+    double count = 0;
+    if (!(words >> keyword >> name >> count) || keyword != "element") continue;
+    if (count <= static_cast<double>(bytes.size())) continue;
+    FailAt(file, fmt::format("cannot hold {:.0f} elements '{}' in {} bytes", count, OneLine(name),
+                             bytes.size()));
+  }
+}
 
 /// What later steps rely on: indices in range and finite numbers.
 void CheckScene(const aiScene& scene, const std::filesystem::path& file) {
@@ -99,6 +127,10 @@ void CheckScene(const aiScene& scene, const std::filesystem::path& file) {
     }
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices > kMostCorners) {
+        FailAt(file, fmt::format("face {} has {} corners, expected at most {}", f, face.mNumIndices,
+                                 kMostCorners));
+      }
       for (unsigned i = 0; i < face.mNumIndices; ++i) {
         if (face.mIndices[i] < mesh.mNumVertices) continue;
         FailAt(file, fmt::format("face {} names corner {}, but there are {}", f, face.mIndices[i],
@@ -167,18 +199,71 @@ void AddNode(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& X_
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;
-      std::array<Vector3d, 3> corners;
-      for (int i = 0; i < 3; ++i) {
+      std::vector<Vector3d> corners;
+      for (unsigned i = 0; i < face.mNumIndices; ++i) {
         const aiVector3D& p = mesh.mVertices[face.mIndices[i]];
-        corners[is_mirrored ? 2 - i : i] = X_MN * Vector3d(p.x, p.y, p.z);
+        corners.push_back(X_MN * Vector3d(p.x, p.y, p.z));
       }
-      joiner->Add(corners);
+      for (const auto& [a, b, c] : Triangulated(corners)) {
+        joiner->Add({corners[a], corners[is_mirrored ? c : b], corners[is_mirrored ? b : c]});
+      }
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
     AddNode(scene, *node.mChildren[i], X_MN, depth + 1, file, joiner);
   }
+}
+
+TriangleMesh ReadInProcess(const std::string& bytes, const std::filesystem::path& file) {
+  const std::string ending = EndingOf(file);
+  OneFormat importer(ending);
+  const aiScene* scene = importer.Read(bytes, ending);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    FailAt(file, fmt::format("not a valid mesh: {}", OneLine(importer.Error())));
+  }
+  CheckScene(*scene, file);
+  TriangleMesh mesh;
+  Joiner joiner(&mesh);
+  AddNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), 0, file, &joiner);
+  if (mesh.triangles.empty()) FailAt(file, "no triangle has an area");
+  return mesh;
+}
+
+/// What one process sends to the other: a letter, the number of vertices, the vertices and the
+/// triangles; or another letter and a message.
+constexpr char kMesh = 'M';
+constexpr char kError = 'E';
+
+std::string Packed(const TriangleMesh& mesh) {
+  const std::uint64_t count = mesh.vertices.size();
+  std::string parcel(1, kMesh);
+  parcel.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  for (const Vector3d& vertex : mesh.vertices) {
+    parcel.append(reinterpret_cast<const char*>(vertex.data()), sizeof(vertex));
+  }
+  for (const auto& triangle : mesh.triangles) {
+    parcel.append(reinterpret_cast<const char*>(triangle.data()), sizeof(triangle));
+  }
+  return parcel;
+}
+
+TriangleMesh Unpacked(const std::string& parcel) {
+  TriangleMesh mesh;
+  std::uint64_t count = 0;
+  const char* at = parcel.data() + 1;
+  std::memcpy(&count, at, sizeof(count));
+  at += sizeof(count);
+  mesh.vertices.resize(count);
+  for (Vector3d& vertex : mesh.vertices) {
+    std::memcpy(vertex.data(), at, sizeof(vertex));
+    at += sizeof(vertex);
+  }
+  mesh.triangles.resize((parcel.data() + parcel.size() - at) / sizeof(std::array<int, 3>));
+  for (auto& triangle : mesh.triangles) {
+    std::memcpy(triangle.data(), at, sizeof(triangle));
+    at += sizeof(triangle);
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -191,27 +276,22 @@ TriangleMesh ReadMesh(const std::filesystem::path& file) {
 TriangleMesh ParseMesh(const std::string& bytes, const std::filesystem::path& file) {
   const std::string ending = EndingOf(file);
   if (bytes.empty()) FailAt(file, "is empty, expected a mesh");
-  OneFormat importer(ending);
-  const aiScene* scene = nullptr;
-  try {
-    scene = importer.Read(bytes, ending);
-    if (scene != nullptr && scene->mRootNode != nullptr) {
-      CheckScene(*scene, file);
-      scene = importer.Triangulate();
-    }
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    FailAt(file, fmt::format("not a valid mesh: {}", OneLine(error.what())));
-  }
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    FailAt(file, fmt::format("not a valid mesh: {}", OneLine(importer.Error())));
-  }
-  TriangleMesh mesh;
-  Joiner joiner(&mesh);
-  AddNode(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), 0, file, &joiner);
-  if (mesh.triangles.empty()) FailAt(file, "no triangle has an area");
-  return mesh;
+  if (ending == "ply") CheckPlyHeader(bytes, file);
+  const std::optional<std::string> parcel = InSeparateProcess(
+      [&] {
+        try {
+          return Packed(ReadInProcess(bytes, file));
+        } catch (const InputError& error) {
+          return kError + std::string(error.what());
+        } catch (const std::exception& error) {
+          return kError +
+                 fmt::format("{}: not a valid mesh: {}", file.string(), OneLine(error.what()));
+        }
+      },
+      kMostSeconds);
+  if (!parcel) FailAt(file, "not a valid mesh: the reader breaks down over it");
+  if (parcel->starts_with(kError)) throw InputError(parcel->substr(1));
+  return Unpacked(*parcel);
 }
 
 }  // namespace possibility::models

@@ -11,7 +11,8 @@ namespace possibility::models {
 /// the file become one mesh, in the file's unit; polygons become triangles. Corners at the same
 /// place become one vertex; triangles without area and vertices without a triangle are left out.
 /// Coordinates are read in single precision. Nothing but the file itself is opened: material files
-/// do not matter.
+/// do not matter. The library that reads it runs in a process of its own, because it crashes over
+/// some spoilt files.
 /// @throws InputError, one line with the file, if it is missing or malformed, has an endless number
 /// or no triangle with an area, or more than kMostTriangles triangles.
 TriangleMesh ReadMesh(const std::filesystem::path& file);

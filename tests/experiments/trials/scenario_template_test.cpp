@@ -119,6 +119,16 @@ TEST_F(Template, PostsKeepLanesAndCirclesClear) {
   EXPECT_EQ(obstacles, 3000);
 }
 
+TEST_F(Template, PathsOfMeshesAreSeenFromTheScenario) {
+  std::ofstream(folder_ / "map.yaml") << "environment:\n  meshes:\n"
+                                         "    - {name: a, file: parts/a.stl, scale: ${s}}\n"
+                                         "    - name: b\n      file: b.obj\n";
+  EXPECT_EQ(ScenarioTemplate(folder_ / "map.yaml").Instantiate({{"s", 2}}, 1, folder_ / "out/x"),
+            "environment:\n  meshes:\n"
+            "    - {name: a, file: ../../parts/a.stl, scale: 2}\n"
+            "    - name: b\n      file: ../../b.obj\n");
+}
+
 TEST_F(Template, EveryShippedTemplateGivesValidScenarios) {
   const fs::path sweeps = fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/sweeps";
   const std::map<std::string, std::pair<std::string, std::vector<double>>> cases = {
