@@ -17,14 +17,16 @@ constexpr std::int64_t kStatesPerTurn = 50;
 /// Of one island.
 constexpr LatticeSettings kLattice = {
     .step = 0.4, .headings = 8, .greed = 2, .most_stances = 10000};
-constexpr int kMostIslands = 40;
+constexpr int kMostIslands = 100;  // in all
+constexpr int kMostProposals = 8;
 
 /// Stances beyond the island: so far from each other, in so many headings.
 constexpr double kSpacing = 0.2;  // m
 constexpr int kHeadings = 4;
-/// A stance is beyond the island if it is this far from all that was reached, m; or at another
-/// height.
-constexpr double kBeyond = 0.5;
+/// A stance is beyond the island if nothing reached is so near, m, and straight ways from what is
+/// reached up to kBeside away do not meet C_S.
+constexpr double kBeyond = 0.3;
+constexpr double kBeside = 0.9;
 constexpr double kSameHeight = 1e-3;  // m
 
 /// More than steps take, so that steps lead on as far as they can.
@@ -44,6 +46,7 @@ IslandExplorer::IslandExplorer(const RouteSpace& lattice, const PlannedSteps& st
       deadline_(context.deadline),
       islands_(&(*context.counters)["footsteps: islands"]),
       states_(&(*context.counters)["footsteps: states"]),
+      start_(start),
       entry_(start) {}
 
 graph::Findings IslandExplorer::Explore() {
@@ -72,9 +75,22 @@ graph::Findings IslandExplorer::ExploreIsland(const CancellationToken& cancellat
       break;
   }
   is_over_ = true;
+  ++proposals_;
   std::vector<graph::PathEdge> route = route_;
   for (graph::PathEdge& edge : island_->Route()) route.push_back(std::move(edge));
   return {graph::Outlook::kOver, std::move(route)};
+}
+
+/// What was refuted is known to the actions.
+bool IslandExplorer::OnRefuted() {
+  if (!is_over_ || proposals_ == 0 || proposals_ >= kMostProposals) return false;
+  is_over_ = false;
+  entry_ = start_;
+  route_.clear();
+  reached_.clear();
+  island_.reset();
+  crossing_.reset();
+  return true;
 }
 
 /// @returns false if there is nowhere to go.
@@ -155,8 +171,10 @@ std::vector<GroundedStance> IslandExplorer::StancesBeyond() const {
 
 bool IslandExplorer::IsKnown(const GroundedStance& stance) const {
   return std::any_of(reached_.begin(), reached_.end(), [&](const GroundedStance& other) {
-    return std::abs(other.z - stance.z) < kSameHeight &&
-           (other.pose.position() - stance.pose.position()).norm() < kBeyond;
+    if (std::abs(other.z - stance.z) > kSameHeight) return false;
+    const double distance = (other.pose.position() - stance.pose.position()).norm();
+    if (distance < kBeyond) return true;
+    return distance < kBeside && other.gait == stance.gait && gait().CS(other, stance);
   });
 }
 

@@ -17,7 +17,8 @@ namespace possibility::actions {
 /// Proposes routes that need both: actions whose conditions a lattice knows, and planned steps.
 /// What a lattice reaches from one stance is an island. Where it holds no goal, footsteps are
 /// searched from anywhere on it to stances that meet C_S beyond it, close to a goal if possible.
-/// From there a lattice explores the next island. Failure proves nothing.
+/// From there a lattice explores the next island. If jobs refute edges of a route, the search
+/// begins anew without them. Failure proves nothing.
 class IslandExplorer : public graph::Explorer {
  public:
   /// `lattice`: gaits, transitions and manoeuvres. `steps`: of some gait; `action`: its number
@@ -33,6 +34,7 @@ class IslandExplorer : public graph::Explorer {
   }
   graph::Findings Explore() override;
   double work_of_turn() const override { return kWorkOfTurn; }
+  bool OnRefuted() override;
 
  private:
   static constexpr double kWorkOfTurn = 10e-3;  ///< s
@@ -52,8 +54,9 @@ class IslandExplorer : public graph::Explorer {
   std::vector<GroundedStance> goals_;
   const bool* is_called_;
   const Deadline* deadline_;
-  std::int64_t* islands_;               ///< counter
-  std::int64_t* states_;                ///< counter
+  std::int64_t* islands_;  ///< counter
+  std::int64_t* states_;   ///< counter
+  GroundedStance start_;
   GroundedStance entry_;                ///< of the island
   std::vector<graph::PathEdge> route_;  ///< from the start to the entry
   std::optional<LatticeSearch> island_;
@@ -61,6 +64,7 @@ class IslandExplorer : public graph::Explorer {
   std::optional<FootstepSearch> crossing_;
   std::vector<GroundedStance> beyond_;  ///< goals of the crossing
   bool is_over_ = false;
+  int proposals_ = 0;
 };
 
 /// Makes an IslandExplorer.
