@@ -104,7 +104,7 @@ function obstacleMesh(obstacle, closes) {
 }
 
 /* A mesh or height map, with its own colour where it is level enough to bear, and lines along its
-   edges unless there are too many. */
+   edges unless there are too many. Of ground that closes the way only the rest is red. */
 const kBearingSlope = Math.cos(Math.PI / 4);
 const kMostOutlined = 20000;  // triangles
 
@@ -119,15 +119,15 @@ function surfaceMesh(surface, closes) {
   geometry.computeVertexNormals();
   const normals = geometry.attributes.normal;
   const bears = new THREE.Color('#d0d3d8'), steep = new THREE.Color('#b7aa9b');
-  const obstacle = new THREE.Color(closes ? kBarrierColour : '#d9a066');
+  const other = closes ? new THREE.Color(kBarrierColour)
+      : surface.ground ? steep : new THREE.Color('#d9a066');
   const colours = new Float32Array(3 * normals.count);
   for (let i = 0; i < normals.count; ++i) {
-    const colour = closes || !surface.ground ? obstacle
-        : normals.getZ(i) >= kBearingSlope - 1e-6 ? bears : steep;
+    const colour = surface.ground && normals.getZ(i) >= kBearingSlope - 1e-6 ? bears : other;
     colour.toArray(colours, 3 * i);
   }
   geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
-  const isSolid = surface.ground && !closes;
+  const isSolid = surface.ground;
   const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial(
       {vertexColors: THREE.VertexColors, side: THREE.DoubleSide, transparent: !isSolid,
        opacity: isSolid ? 1 : 0.6, depthWrite: isSolid}));

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 
 namespace possibility::models {
 namespace {
@@ -19,7 +20,14 @@ constexpr bool kLimitsMemory = false;
 #else
 constexpr bool kLimitsMemory = true;
 #endif
-constexpr rlim_t kMemory = rlim_t{4} << 30;  // bytes
+/// Bytes beside what the program has already.
+constexpr rlim_t kMemory = rlim_t{4} << 30;
+
+rlim_t AddressSpace() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
 
 void Limit(int resource, rlim_t most) {
   rlimit limit;
@@ -48,7 +56,7 @@ bool WriteAll(int descriptor, const std::string& bytes) {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
   Limit(RLIMIT_CPU, seconds);
   Limit(RLIMIT_CORE, 0);
-  if (kLimitsMemory) Limit(RLIMIT_AS, kMemory);
+  if (kLimitsMemory) Limit(RLIMIT_AS, AddressSpace() + kMemory);
   try {
     ::_exit(WriteAll(output, work()) ? 0 : 1);
   } catch (...) {
