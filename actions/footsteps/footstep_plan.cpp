@@ -50,6 +50,7 @@ constexpr std::int64_t kStatesBeforeFlood = 400;
 
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
+constexpr double kMostCells = 100e3;  // seen from above; in larger places cells are larger
 /// The part of the body that is tested while limbs step: above this share of the root's height.
 constexpr double kTrunkFrom = 0.5;
 
@@ -205,18 +206,19 @@ struct FootstepSearch::Search {
           stance.centre_of_mass;
       root_over[limb] = Vector2d(stance.X_SR.translation().head<2>()) + shift;
     }
-    for (const GroundedStance& start : starts) {
-      field.At(start.pose, cancellation);  // most of the field
-      Begin({start.pose, start.z});
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      field.At(starts[i].pose, cancellation);  // most of the field
+      Begin({starts[i].pose, starts[i].z}, ends.start_times.empty() ? 0 : ends.start_times[i]);
     }
   }
 
-  void Begin(const Foothold& start) {
+  void Begin(const Foothold& start, double time) {
     for (const int next : {0, 1}) {
       Node node;
       node.feet.fill(start);
       node.next = next;
       node.is_tested = true;
+      node.cost = time;
       Push(std::move(node));
     }
   }
@@ -248,8 +250,8 @@ struct FootstepSearch::Search {
                                  2 * kLevelStep / limits.turn, kSecondsPerMetreClimbed,
                                  limits.rise + kSameHeight};
     return PoseField(
-        world.environment->bounds, kCell, headings.empty() ? 0 : headings.front(), places, paces,
-        [this](const PlanarPose& pose) { return TrunkMayBeAt(pose); },
+        world.environment->bounds, CellSize(), headings.empty() ? 0 : headings.front(), places,
+        paces, [this](const PlanarPose& pose) { return TrunkMayBeAt(pose); },
         [this](const Vector2d& p) { return HeightAt(p); }, goal_times);
   }
 
@@ -257,6 +259,11 @@ struct FootstepSearch::Search {
 
   /// Whether no other goal seems quicker by way of this one.
   bool IsBest(int goal) { return TimeFrom(goal) <= field.At(goals[goal].pose) + 1e-9; }
+
+  double CellSize() const {
+    if (world.environment->bounds.isEmpty()) return kCell;
+    return std::max(kCell, std::sqrt(world.environment->bounds.sizes().prod() / kMostCells));
+  }
 
   /// Over ground that is near.
   bool TrunkMayBeAt(const PlanarPose& pose) const {
@@ -564,7 +571,8 @@ FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const Wor
                                const GroundedStance& start,
                                const std::vector<GroundedStance>& goals,
                                const FootstepLimits& limits, const CancellationToken& cancellation)
-    : FootstepSearch(model, gait, world, FootstepEnds{{start}, goals, {}}, limits, cancellation) {}
+    : FootstepSearch(model, gait, world, FootstepEnds{{start}, goals, {}, {}}, limits,
+                     cancellation) {}
 
 FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
                                FootstepEnds ends, const FootstepLimits& limits,

@@ -46,6 +46,8 @@ struct FootstepLimits {
 struct FootstepEnds {
   std::vector<GroundedStance> starts;
   std::vector<GroundedStance> goals;
+  /// By start, s: how long it takes to get there. Empty: all 0.
+  std::vector<double> start_times;
   /// By goal, s: how long it takes from there on. A goal from which steps to another one would be
   /// quicker is only an answer if that one is not reached. Empty: all 0.
   std::vector<double> goal_times;

@@ -289,15 +289,18 @@ class TraversalPlanner {
 
   RouteSpace AllSpace() const { return {&model_, &gaits_, &all_manoeuvres_}; }
 
-  void AddStepExplorers(graph::FindPathSettings* settings) const {
+  void AddStepExplorers(graph::FindPathSettings* settings) {
+    steps_gave_up_ = !StepsMayDo();
     const int action = static_cast<int>(gaits_.size() + all_manoeuvres_.size()) - 1;
     if (StepsMayDo()) {
       settings->explorers.push_back(FootstepExploration(AllSpace(), *steps_, action, start_,
-                                                        GoalsOfSteps(), &steps_are_called_));
+                                                        GoalsOfSteps(), &steps_are_called_,
+                                                        &steps_gave_up_));
     }
     if (!IsMixed()) return;
     settings->explorers.push_back(IslandExploration({&model_, &gaits_, &searched_}, *steps_, action,
-                                                    start_, goals_, &steps_are_called_));
+                                                    start_, goals_, &steps_are_called_,
+                                                    &steps_gave_up_));
   }
 
   /// Empty: none.
@@ -562,6 +565,7 @@ class TraversalPlanner {
   std::vector<std::shared_ptr<SearchedManoeuvre>> all_manoeuvres_;  ///< searched, then steps
   bool ends_at_oracle_ = false;    ///< the search under way ends where the floods find no route
   bool needs_steps_ = false;       ///< the floods found no route
+  bool steps_gave_up_ = false;     ///< steps alone lead nowhere
   bool steps_are_called_ = false;  ///< explorers of steps take part
   std::optional<graph::RouteOracleAnswer> oracle_answer_;
   FloodOracle floods_;

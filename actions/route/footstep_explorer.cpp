@@ -19,13 +19,14 @@ constexpr double kStop = 2.5;
 FootstepExplorer::FootstepExplorer(const RouteSpace& space, const PlannedSteps& steps, int action,
                                    const GroundedStance& start,
                                    const std::vector<GroundedStance>& goals, const bool* is_called,
-                                   const graph::ExplorerContext& context)
+                                   bool* gave_up, const graph::ExplorerContext& context)
     : space_(space),
       steps_(steps),
       action_(action),
       start_(start),
       goals_(goals),
       is_called_(is_called),
+      gave_up_(gave_up),
       deadline_(context.deadline),
       states_(&(*context.counters)["footsteps: states"]) {}
 
@@ -46,6 +47,7 @@ graph::Findings FootstepExplorer::Explore() {
     if (status == FootstepSearch::Status::kSearching) return {graph::Outlook::kLeadsOn, {}};
     if (status == FootstepSearch::Status::kExhausted) {
       proposals_ = 2;
+      *gave_up_ = true;
       return {graph::Outlook::kOver, {}};
     }
   } catch (const Cancelled&) {
@@ -55,7 +57,10 @@ graph::Findings FootstepExplorer::Explore() {
   return {graph::Outlook::kOver, Route()};
 }
 
-bool FootstepExplorer::OnRefuted() { return proposals_ == 1; }
+bool FootstepExplorer::OnRefuted() {
+  if (proposals_ > 1) *gave_up_ = true;
+  return proposals_ == 1;
+}
 
 /// The start, the stances on the way that meet C_S, and the goal.
 std::vector<FootstepExplorer::Halt> FootstepExplorer::Halts() const {
@@ -117,10 +122,10 @@ graph::PathEdge FootstepExplorer::EdgeBetween(int action, const GroundedStance& 
 graph::ExplorerFactory FootstepExploration(const RouteSpace& space, const PlannedSteps& steps,
                                            int action, const GroundedStance& start,
                                            const std::vector<GroundedStance>& goals,
-                                           const bool* is_called) {
+                                           const bool* is_called, bool* gave_up) {
   return [=, &steps](const graph::ExplorerContext& context) {
     return std::make_unique<FootstepExplorer>(space, steps, action, start, goals, is_called,
-                                              context);
+                                              gave_up, context);
   };
 }
 

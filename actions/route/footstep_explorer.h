@@ -19,11 +19,11 @@ namespace possibility::actions {
 class FootstepExplorer : public graph::Explorer {
  public:
   /// `steps`: the manoeuvre of that gait; `action`: its number among the search's actions. Takes
-  /// part once `*is_called`. References, and what `space` points to, must outlive the search.
-  /// `goals`: stances of the gait.
+  /// part once `*is_called`; sets `*gave_up` when it has nothing to propose any more. References,
+  /// and what `space` points to, must outlive the search. `goals`: stances of the gait.
   FootstepExplorer(const RouteSpace& space, const PlannedSteps& steps, int action,
                    const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                   const bool* is_called, const graph::ExplorerContext& context);
+                   const bool* is_called, bool* gave_up, const graph::ExplorerContext& context);
 
   std::string name() const override { return "footsteps"; }
   bool TakesPart(graph::SearchStage stage) const override {
@@ -55,6 +55,7 @@ class FootstepExplorer : public graph::Explorer {
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
   const bool* is_called_;
+  bool* gave_up_;
   const Deadline* deadline_;
   std::int64_t* states_;  ///< counter
   std::optional<FootstepSearch> search_;
@@ -65,6 +66,6 @@ class FootstepExplorer : public graph::Explorer {
 graph::ExplorerFactory FootstepExploration(const RouteSpace& space, const PlannedSteps& steps,
                                            int action, const GroundedStance& start,
                                            const std::vector<GroundedStance>& goals,
-                                           const bool* is_called);
+                                           const bool* is_called, bool* gave_up);
 
 }  // namespace possibility::actions

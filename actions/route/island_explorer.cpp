@@ -17,11 +17,12 @@ constexpr std::int64_t kStatesPerTurn = 50;
 /// Of one island.
 constexpr LatticeSettings kLattice = {
     .step = 0.4, .headings = 8, .greed = 2, .most_stances = 10000};
-constexpr int kMostIslands = 100;  // in all
-constexpr int kMostProposals = 8;
+constexpr int kMostIslands = 400;  // in all
+constexpr int kMostProposals = 40;
 
 /// Stances beyond the island: so far from each other, in so many headings.
-constexpr double kSpacing = 0.2;  // m
+constexpr double kSpacing = 0.2;      // m, more where there would be too many places
+constexpr double kMostPlaces = 2500;  // on each level
 constexpr int kHeadings = 4;
 /// A stance is beyond the island if nothing reached is so near, m, and straight ways from what is
 /// reached up to kBeside away do not meet C_S.
@@ -31,18 +32,20 @@ constexpr double kSameHeight = 1e-3;  // m
 
 /// More than steps take, so that steps lead on as far as they can.
 constexpr double kSecondsPerMetreLeft = 3;
+constexpr double kSecondsPerRadianLeft = 3;
 
 }  // namespace
 
 IslandExplorer::IslandExplorer(const RouteSpace& lattice, const PlannedSteps& steps, int action,
                                const GroundedStance& start,
                                const std::vector<GroundedStance>& goals, const bool* is_called,
-                               const graph::ExplorerContext& context)
+                               const bool* is_alone, const graph::ExplorerContext& context)
     : lattice_(lattice),
       steps_(steps),
       action_(action),
       goals_(goals),
       is_called_(is_called),
+      is_alone_(is_alone),
       deadline_(context.deadline),
       islands_(&(*context.counters)["footsteps: islands"]),
       states_(&(*context.counters)["footsteps: states"]),
@@ -96,12 +99,15 @@ bool IslandExplorer::OnRefuted() {
 /// @returns false if there is nowhere to go.
 bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   FootstepEnds ends;
-  for (const GroundedStance& stance : island_->Reached()) {
-    reached_.push_back(stance);
-    if (stance.gait == steps_.from()) ends.starts.push_back(stance);
+  const std::vector<GroundedStance> reached = island_->Reached();
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    reached_.push_back(reached[i]);
+    if (reached[i].gait != steps_.from()) continue;
+    ends.starts.push_back(reached[i]);
+    ends.start_times.push_back(island_->TimeTo(static_cast<int>(i)));
   }
   if (ends.starts.empty() || *islands_ >= kMostIslands) return false;
-  beyond_ = StancesBeyond();
+  beyond_ = StancesBeyond(cancellation);
   if (beyond_.empty()) return false;
   ends.goals = beyond_;
   for (const GroundedStance& stance : beyond_) ends.goal_times.push_back(TimeLeft(stance));
@@ -142,9 +148,11 @@ graph::Findings IslandExplorer::CrossTo(const GroundedStance& from, const Ground
   return {graph::Outlook::kLeadsOn, {}};
 }
 
-std::vector<GroundedStance> IslandExplorer::StancesBeyond() const {
+std::vector<GroundedStance> IslandExplorer::StancesBeyond(
+    const CancellationToken& cancellation) const {
   std::vector<GroundedStance> beyond;
   const Eigen::AlignedBox2d& bounds = gait().world().environment->bounds;
+  const double spacing = std::max(kSpacing, std::sqrt(bounds.sizes().prod() / kMostPlaces));
   GroundedStance stance;
   stance.gait = steps_.from();
   const auto offer = [&] {
@@ -152,8 +160,9 @@ std::vector<GroundedStance> IslandExplorer::StancesBeyond() const {
   };
   for (const double z : gait().world().ground->levels()) {
     stance.z = z;
-    for (double x = bounds.min().x(); x <= bounds.max().x(); x += kSpacing) {
-      for (double y = bounds.min().y(); y <= bounds.max().y(); y += kSpacing) {
+    for (double x = bounds.min().x(); x <= bounds.max().x(); x += spacing) {
+      cancellation.ThrowIfCancelled();
+      for (double y = bounds.min().y(); y <= bounds.max().y(); y += spacing) {
         for (int heading = 0; heading < kHeadings; ++heading) {
           stance.pose = {x, y, 2 * std::numbers::pi / kHeadings * heading};
           offer();
@@ -182,18 +191,20 @@ double IslandExplorer::TimeLeft(const GroundedStance& stance) const {
   double least = std::numeric_limits<double>::infinity();
   for (const GroundedStance& goal : goals_) {
     const double distance = (goal.pose.position() - stance.pose.position()).norm();
-    least = std::min(least, distance + std::abs(goal.z - stance.z));
+    const double turn = std::abs(WrapAngle(goal.pose.yaw - stance.pose.yaw));
+    least = std::min(least, kSecondsPerMetreLeft * (distance + std::abs(goal.z - stance.z)) +
+                                kSecondsPerRadianLeft * turn);
   }
-  return kSecondsPerMetreLeft * least;
+  return least;
 }
 
 graph::ExplorerFactory IslandExploration(const RouteSpace& lattice, const PlannedSteps& steps,
                                          int action, const GroundedStance& start,
                                          const std::vector<GroundedStance>& goals,
-                                         const bool* is_called) {
+                                         const bool* is_called, const bool* is_alone) {
   return [=, &steps](const graph::ExplorerContext& context) {
     return std::make_unique<IslandExplorer>(lattice, steps, action, start, goals, is_called,
-                                            context);
+                                            is_alone, context);
   };
 }
 

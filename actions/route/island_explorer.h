@@ -22,15 +22,16 @@ namespace possibility::actions {
 class IslandExplorer : public graph::Explorer {
  public:
   /// `lattice`: gaits, transitions and manoeuvres. `steps`: of some gait; `action`: its number
-  /// among the search's actions. Takes part once `*is_called`. All but `start` and `goals` must
-  /// outlive the search.
+  /// among the search's actions. Takes part once `*is_called` and `*is_alone`: steps alone do not
+  /// do. All but `start` and `goals` must outlive the search.
   IslandExplorer(const RouteSpace& lattice, const PlannedSteps& steps, int action,
                  const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                 const bool* is_called, const graph::ExplorerContext& context);
+                 const bool* is_called, const bool* is_alone,
+                 const graph::ExplorerContext& context);
 
   std::string name() const override { return "footsteps"; }
   bool TakesPart(graph::SearchStage stage) const override {
-    return *is_called_ && stage == graph::SearchStage::kFirstRoute;
+    return *is_called_ && *is_alone_ && stage == graph::SearchStage::kFirstRoute;
   }
   graph::Findings Explore() override;
   double work_of_turn() const override { return kWorkOfTurn; }
@@ -44,7 +45,7 @@ class IslandExplorer : public graph::Explorer {
   graph::Findings LeaveIsland(const CancellationToken& cancellation);
   graph::Findings CrossTo(const GroundedStance& from, const GroundedStance& to);
   bool BeginToLeave(const CancellationToken& cancellation);
-  std::vector<GroundedStance> StancesBeyond() const;
+  std::vector<GroundedStance> StancesBeyond(const CancellationToken& cancellation) const;
   bool IsKnown(const GroundedStance& stance) const;
   double TimeLeft(const GroundedStance& stance) const;
 
@@ -53,6 +54,7 @@ class IslandExplorer : public graph::Explorer {
   int action_;
   std::vector<GroundedStance> goals_;
   const bool* is_called_;
+  const bool* is_alone_;
   const Deadline* deadline_;
   std::int64_t* islands_;  ///< counter
   std::int64_t* states_;   ///< counter
@@ -71,6 +73,6 @@ class IslandExplorer : public graph::Explorer {
 graph::ExplorerFactory IslandExploration(const RouteSpace& lattice, const PlannedSteps& steps,
                                          int action, const GroundedStance& start,
                                          const std::vector<GroundedStance>& goals,
-                                         const bool* is_called);
+                                         const bool* is_called, const bool* is_alone);
 
 }  // namespace possibility::actions

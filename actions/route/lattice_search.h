@@ -42,7 +42,9 @@ class LatticeSearch {
   /// Stances reached so far, in the order of the search. Manoeuvres that lead there may still be
   /// refuted.
   std::vector<GroundedStance> Reached() const;
-  /// The route to one of them: an index into Reached().
+  /// Expected duration of the route to one of them: an index into Reached(); s.
+  double TimeTo(int reached) const { return nodes_[reached_[reached]].cost; }
+  /// That route.
   std::vector<graph::PathEdge> RouteTo(int reached) const { return RouteToNode(reached_[reached]); }
 
   /// Ignores routes that take this long or longer, s.

@@ -110,7 +110,7 @@ class SampleChecks:
         beyond = np.maximum(robot.lowest - state.joints, state.joints - robot.highest)
         note_largest("joint beyond its range", np.maximum(beyond, 0), phase, time, joints)
         if phase.points:
-            normals = self.normals_at(robot.places(phase.points))
+            normals = normals_at(self._plan.ground, robot.places(phase.points))
             note_largest("force outside its cone", outside_cone(forces, normals, self._friction),
                          phase, time, phase.points)
             load, sideways = split(forces, normals)
@@ -133,29 +133,30 @@ class SampleChecks:
         speeds = np.linalg.norm(self._robot.velocities(phase.points), axis=1)
         note_largest("speed of a bearing point", speeds, phase, time, phase.points)
 
-    def _distances(self, places):
-        """From each place (rows) to each side of ground (columns): along the vertical, and beyond
-        the nearest edge, along the side."""
-        ground = self._plan.ground
-        offset = places[:, None, :] - ground.middles
-        vertical = np.einsum("ijk,jk->ij", offset, ground.normals) / ground.normals[:, 2]
-        foot = offset - vertical[..., None] * np.array([0, 0, 1])  # on the side's plane
-        local = np.einsum("ijk,jkl->ijl", foot, ground.axes[:, :, :2])
-        outside = np.linalg.norm(np.maximum(abs(local) - ground.half_sizes, 0), axis=-1)
-        return abs(vertical), outside
-
     def _above_ground(self, places):
         """For each place: vertical distance from the nearest side of ground above or below it (from
         any, if none is), and how far beyond the nearest edge it is."""
-        vertical, outside = self._distances(places)
+        vertical, outside = distances(self._plan.ground, places)
         reaches = (outside <= EDGE) | (outside.min(axis=1) > EDGE)[:, None]
         return (np.where(reaches, vertical, np.inf).min(axis=1),
                 np.where(reaches, outside, np.inf).min(axis=1))
 
-    def normals_at(self, places):
-        """Of the ground nearest to each place."""
-        vertical, outside = self._distances(places)
-        return self._plan.ground.normals[np.hypot(vertical, outside).argmin(axis=1)]
+
+def distances(ground, places):
+    """From each place (rows) to each side of ground (columns): along the vertical, and beyond the
+    nearest edge, along the side."""
+    offset = places[:, None, :] - ground.middles
+    vertical = np.einsum("ijk,jk->ij", offset, ground.normals) / ground.normals[:, 2]
+    foot = offset - vertical[..., None] * np.array([0, 0, 1])  # on the side's plane
+    local = np.einsum("ijk,jkl->ijl", foot, ground.axes[:, :, :2])
+    outside = np.linalg.norm(np.maximum(abs(local) - ground.half_sizes, 0), axis=-1)
+    return abs(vertical), outside
+
+
+def normals_at(ground, places):
+    """Of the ground nearest to each place."""
+    vertical, outside = distances(ground, places)
+    return ground.normals[np.hypot(vertical, outside).argmin(axis=1)]
 
 
 def split(forces, normals):

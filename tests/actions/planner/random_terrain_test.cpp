@@ -115,7 +115,7 @@ struct Tally {
 
 TEST(RandomTerrain, IsWalkedOrRefusedWithoutATimeLimit) {
   Tally tally;
-  for (unsigned seed = 1; seed <= 6; ++seed) tally.Plan(seed, false);
+  for (unsigned seed = 1; seed <= 3; ++seed) tally.Plan(seed, false);
   EXPECT_GT(tally.found, 0);
 }
 

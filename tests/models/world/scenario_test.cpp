@@ -254,7 +254,7 @@ const BadScenario kBad[] = {
     {"BoundsShort", "x: [0, 4]", "x: [0]",
      "room.yaml:11: environment.bounds.x: expected [lowest, highest], got a list of 1"},
     {"GroundPitch", "yaw_deg: 90}\n  obstacles", "pitch_deg: 10}\n  obstacles",
-     "room.yaml:13: environment.ground[0]: unknown key 'pitch_deg' (did you mean 'rpy_deg'?)"},
+     "room.yaml:13: environment.ground[0]: unknown key 'pitch_deg'"},
     {"GroundTurnedTwice", "yaw_deg: 90}\n  obstacles",
      "yaw_deg: 90, rpy_deg: [0, 10, 0]}\n  obstacles",
      "room.yaml:13: environment.ground[0].rpy_deg: expected either rpy_deg or yaw_deg, got both"},
