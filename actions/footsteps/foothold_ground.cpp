@@ -153,10 +153,13 @@ bool FootholdGround::SwingIsFree(int limb, const Foothold& from, const Foothold&
 std::optional<double> FootholdGround::LiftBetween(int limb, const Foothold& from,
                                                   const Foothold& to, double clearance,
                                                   double most) const {
-  for (double lift = 0; lift <= most; lift += kLift) {
+  if (SwingIsFree(limb, from, to, clearance, 0)) return 0;
+  // Most swings that hit something cannot pass above it either.
+  if (!SwingIsFree(limb, from, to, clearance, most)) return std::nullopt;
+  for (double lift = kLift; lift < most; lift += kLift) {
     if (SwingIsFree(limb, from, to, clearance, lift)) return lift;
   }
-  return std::nullopt;
+  return most;
 }
 
 }  // namespace possibility::actions

@@ -53,7 +53,7 @@ class FootholdGround {
   Foothold On(int limb, const PlanarPose& stance, int plane) const;
 
   /// Least lift (SwingPath) with which the limb's link swings from one place to the other without a
-  /// hit. None if `most` (m) is not enough.
+  /// hit. None if both no lift and `most` (m) lead to one.
   std::optional<double> LiftBetween(int limb, const Foothold& from, const Foothold& to,
                                     double clearance, double most) const;
 

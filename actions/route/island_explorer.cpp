@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int64_t kStancesPerTurn = 250;
 constexpr std::int64_t kStatesPerTurn = 50;
+constexpr std::int64_t kStates = 4000;  // of one crossing
 
 /// Of one island.
 constexpr LatticeSettings kLattice = {
@@ -113,6 +114,7 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   for (const GroundedStance& stance : beyond_) ends.goal_times.push_back(TimeLeft(stance));
   crossing_.emplace(*lattice_.model, steps_.from(), gait().world(), std::move(ends),
                     steps_.limits(), cancellation);
+  crossing_->most_states = kStates;
   return true;
 }
 

@@ -23,6 +23,7 @@ inline const std::vector<CommandRule>& CommandRules() {
   static const std::vector<CommandRule> rules = {
       {"README.md", "./test", kExempt, "installs, builds and runs all tests"},
       {"README.md", "./run plan experiments/scenarios/hallway.yaml", kLong, "plans jumps"},
+      {"README.md", "./run plan experiments/scenarios/everything.yaml", kLong, "is a long course"},
       {"README.md", "./run bench", kLong, "measures for ten seconds"},
       {"README.md", "./run library", kLong, "solves every jump"},
       {"CONTRIBUTING.md", "./test", kExempt, "installs, builds and runs all tests"},

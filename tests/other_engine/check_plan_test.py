@@ -22,6 +22,10 @@ class Agrees(CheckCase):
         self.assertGreater(report["samples"], 1000)
         self.assertEqual(report["flights"], [])
 
+    def test_tilted_ground(self):
+        report = self.accepts(make_plan("debris"))
+        self.assertGreater(report["samples"], 1000)
+
     def test_jumping(self):
         report = self.accepts(make_plan("hallway"))
         self.assertGreaterEqual(len(report["flights"]), 1)
@@ -32,11 +36,12 @@ class Agrees(CheckCase):
 
 
 class AgreesLong(CheckCase):
-    """Every scenario that has a route, at the verifier's 5 ms."""
+    """Every scenario that has a route over boxes, at the verifier's 5 ms."""
 
     def test_all_scenarios(self):
         for scenario in ("three_routes_a", "three_routes_b", "three_routes_c", "hallway",
-                         "double_jump"):
+                         "double_jump", "crack", "sill", "stones", "stairs", "ramp", "debris", "beam",
+                         "everything"):
             with self.subTest(scenario):
                 report = self.accepts(make_plan(scenario), "--rate", "200")
                 with open(os.path.join(make_plan(scenario), "plan.json"), encoding="utf-8") as file:

@@ -111,7 +111,8 @@ TEST_P(UnevenScenes, AreWalkedByPlannedSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, UnevenScenes,
-                         ::testing::Values("crack", "sill", "stones", "stairs"));
+                         ::testing::Values("crack", "sill", "stones", "stairs", "ramp", "debris",
+                                           "height_map"));
 
 TEST(UnevenScenesAlone, FootstepsNeedNoOtherExplorer) {
   PlanRequest request;
@@ -131,6 +132,7 @@ TEST_P(UnevenTwins, AreExhausted) {
 INSTANTIATE_TEST_SUITE_P(Shipped, UnevenTwins,
                          ::testing::Values("crack_infeasible", "sill_infeasible",
                                            "stones_infeasible", "stairs_infeasible",
+                                           "ramp_infeasible", "debris_infeasible",
                                            "doorway_infeasible"));
 
 }  // namespace

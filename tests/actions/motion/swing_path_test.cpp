@@ -76,6 +76,7 @@ TEST(SwingPathTest, OnASlopeTheSwingFollowsTheLineBetweenItsEnds) {
 
 TEST(SwingPathTest, ReachesItsLift) {
   for (const SwingPath& swing : SomeSwings()) {
+    if (swing.on_slope && !swing.IsHigh()) continue;  // above the line between its ends
     const double top = swing.At(swing.duration / 2).value.z() - HigherEnd(swing);
     EXPECT_NEAR(top, std::max(swing.lift, swing.clearance), 1e-12);
   }
