@@ -309,8 +309,8 @@ struct FootstepSearch::Search {
   void Push(Node node) {
     const double heuristic = field.At(Middle(node));
     if (!std::isfinite(heuristic)) return;
+    open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size())});
     nodes.push_back(std::move(node));
-    open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size()) - 1});
   }
 
   /// How much lower than easy the root has to be for a limb to reach a place while the other one

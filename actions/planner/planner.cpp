@@ -95,8 +95,8 @@ class TraversalPlanner {
         floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
                 CancellationToken(deadline_)) {
     if (ground_.levels().empty()) {
-      throw InputError(
-          fmt::format("{}: environment: there is no ground to stand on", scenario_.file.string()));
+      throw InputError(fmt::format("{}: environment: there is no level ground to stand on",
+                                   scenario_.file.string()));
     }
     space_ = std::make_shared<PelvisPoseSpace>(scenario_.environment.bounds, ground_.levels(),
                                                scenario_.planner.rotation_weight);
