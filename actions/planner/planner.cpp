@@ -357,12 +357,13 @@ class TraversalPlanner {
   std::vector<graph::ExplorerFactory> Explorers() const {
     const RouteSpace space{&model_, &gaits_, &searched_};
     std::vector<graph::ExplorerFactory> explorers;
-    if (switches_.shortcuts) explorers.push_back(ShortcutExploration(space, goals_));
+    // Routes to shorten may hold planned steps.
+    if (switches_.shortcuts) explorers.push_back(ShortcutExploration(AllSpace(), goals_));
     if (switches_.lattice) explorers.push_back(LatticeExploration(space, start_, goals_));
     if (switches_.random) explorers.push_back(graph::RandomExploration());
     // An empty list would select the paper's explorer. Shortcuts take no part in the search for a
     // first route.
-    if (explorers.empty()) explorers.push_back(ShortcutExploration(space, goals_));
+    if (explorers.empty()) explorers.push_back(ShortcutExploration(AllSpace(), goals_));
     return explorers;
   }
 
