@@ -19,6 +19,7 @@ class MotionJob : public graph::ConfirmationJob {
             graph::Edge edge);
 
   graph::JobVerdict Run(graph::JobControl* control) override;
+  double work_of_checkpoint() const override { return 0.1e-3; }
   std::string reason() const override { return reason_; }
 
  private:

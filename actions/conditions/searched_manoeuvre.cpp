@@ -43,6 +43,7 @@ class RecordedJob : public graph::ConfirmationJob {
     }
     return verdict;
   }
+  double work_of_checkpoint() const override { return job_->work_of_checkpoint(); }
   std::string reason() const override { return job_->reason(); }
 
  private:

@@ -323,7 +323,12 @@ class TraversalPlanner {
     std::vector<std::shared_ptr<const graph::Action>> actions(gaits_.begin(), gaits_.end());
     actions.insert(actions.end(), searched_.begin(), searched_.end());
     if (ends_at_oracle_ && !manoeuvres_.empty()) {
+      // Before random exploration, whose turns may be slow.
+      std::vector<graph::ExplorerFactory> others = std::move(settings.explorers);
+      const auto first_random = others.end() - (switches_.random ? 1 : 0);
+      settings.explorers.assign(others.begin(), first_random);
       AddStepExplorers(&settings);
+      settings.explorers.insert(settings.explorers.end(), first_random, others.end());
       actions = AllActions();
       settings.skip_growth[actions.back()->name()] = 1;  // random exploration knows no steps
     }

@@ -27,6 +27,11 @@ class ConfirmationJob {
   /// so shared data must be immutable or guarded.
   virtual JobVerdict Run(JobControl* control) = 0;
 
+  /// Declared mean work between two checkpoints, s. A queue without workers measures turns by it,
+  /// so a job that asks often is not paused too early.
+  virtual double work_of_checkpoint() const { return kWorkOfCheckpoint; }
+  static constexpr double kWorkOfCheckpoint = 3e-3;  ///< s
+
   /// Why the job refuted the edge or could not tell, for reports. Called after Run, on the same
   /// thread.
   virtual std::string reason() const { return {}; }

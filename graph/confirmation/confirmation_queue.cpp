@@ -1,6 +1,7 @@
 #include "graph/confirmation/confirmation_queue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -84,7 +85,7 @@ bool ConfirmationQueue::RunTurn(const Deadline& deadline, int length) {
   wait_for(kForever, [this] { return NumWithState(State::kRunning, State::kPausing) == 0; });
   Reap();
   QueuedJob* job = PickNext(jobs_, settings_, 1, grants_);
-  if (job == nullptr || !Grant(job, length * settings_.checkpoints_per_turn)) {
+  if (job == nullptr || !Grant(job, CheckpointsOfTurn(*job, length))) {
     return true;
   }
   const auto has_stopped = [job] {
@@ -213,6 +214,12 @@ void ConfirmationQueue::Reap() {
   if (std::erase_if(jobs_, has_ended) > 0) {
     result_.notify_all();
   }
+}
+
+std::int64_t ConfirmationQueue::CheckpointsOfTurn(const QueuedJob& job, int length) const {
+  const double share = ConfirmationJob::kWorkOfCheckpoint / job.work_of_checkpoint;
+  const double checkpoints = std::round(length * settings_.checkpoints_per_turn * share);
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(checkpoints));
 }
 
 int ConfirmationQueue::NumWithState(State a, State b) const {

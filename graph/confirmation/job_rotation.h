@@ -12,7 +12,8 @@ namespace possibility::graph {
 struct RotationSettings {
   std::chrono::milliseconds slice{40};
   int slices_per_turn = 75;
-  std::int64_t checkpoints_per_turn = 1000;  ///< instead of slices, for queues without workers
+  /// Instead of slices, for queues without workers: checkpoints of ConfirmationJob's default work.
+  std::int64_t checkpoints_per_turn = 1000;
   int rotating_jobs_per_worker = 2;
   int slices_per_fair_slice = 8;
   int max_threads = 32;        ///< jobs begun and not ended; the slowest gives way to new ones

@@ -10,6 +10,7 @@ QueuedJob::QueuedJob(int tag_in, std::unique_ptr<ConfirmationJob> job_in, double
                      std::function<void(QueuedJob*)> on_held)
     : tag(tag_in),
       cost(cost_in),
+      work_of_checkpoint(job_in->work_of_checkpoint()),
       job(std::move(job_in)),
       control([this, on_held = std::move(on_held)] { on_held(this); }) {}
 

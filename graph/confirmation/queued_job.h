@@ -47,6 +47,7 @@ struct QueuedJob {
 
   int tag;
   double cost;
+  double work_of_checkpoint;  ///< the job's own, which ends before this, s
   std::unique_ptr<ConfirmationJob> job;
   JobControl control;
   State state = State::kWaiting;

@@ -37,6 +37,9 @@ class ActionExploration {
   /// Algorithm 3 or 4. Appends to Gamma_a; the caller appends to the master graph.
   virtual NewElements GrowTowards(const Point& p_target) = 0;
 
+  /// Declared work of all growth so far beyond the action's cycle_budget, s.
+  virtual double growth_work() const { return 0; }
+
   ActionGraph& action_graph() { return action_graph_; }
 
  protected:

@@ -73,7 +73,7 @@ class Explorer {
   /// One turn. Takes a few milliseconds; cut short at the deadline.
   virtual Findings Explore() = 0;
 
-  /// Declared work of one turn, s. Exploration and confirmation jobs divide their time by it.
+  /// Declared work of the last turn, s. Exploration and confirmation jobs divide their time by it.
   virtual double work_of_turn() const = 0;
 
   /// Called when an edge that another explorer found enters Gamma_PG.

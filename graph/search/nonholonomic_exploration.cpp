@@ -9,6 +9,10 @@ namespace {
 /// again; without a limit the work of one growth would rise with the number of subgraphs.
 constexpr int kMostPerGrowth = 3;
 
+/// Declared work of trying one vertex, s. A large graph is tried vertex by vertex, which takes far
+/// longer than an action's mean budget; jobs must not wait for it.
+constexpr double kWorkOfTry = 20e-6;
+
 /// Sets v and all vertices upstream or downstream from it to false.
 void SetToFalse(const DirectedGraph& topology, VertexId v, Reachability::Direction direction,
                 std::vector<bool>* useful) {
@@ -34,6 +38,7 @@ NonholonomicExploration::NonholonomicExploration(const NonholonomicAction& actio
                                                  const ExplorerContext& context)
     : ActionExploration(action, index, context),
       action_(action),
+      tried_(Counter("growth tried")),
       rejected_(Counter("growth rejected")),
       refused_(Counter("growth stopped at removed edge")),
       not_lined_up_(Counter("growth not lined up")),
@@ -72,7 +77,13 @@ NewElements NonholonomicExploration::GrowTowards(const Point& p_target) {
   return found;
 }
 
+void NonholonomicExploration::CountTry() {
+  ++*tried_;
+  work_ += kWorkOfTry;
+}
+
 bool NonholonomicExploration::LaunchFrom(VertexId v, const Point& p_target, NewElements* found) {
+  CountTry();
   const Point point = context().master->point(v);
   const std::optional<Point> launch = action_.FindLaunchPoint(point, p_target);
   if (!launch) {
@@ -86,6 +97,7 @@ bool NonholonomicExploration::LaunchFrom(VertexId v, const Point& p_target, NewE
 }
 
 bool NonholonomicExploration::LandAt(VertexId v, const Point& p_target, NewElements* found) {
+  CountTry();
   const Point point = context().master->point(v);
   const std::optional<Point> landing = action_.FindLandingPoint(point, p_target);
   if (!landing) {

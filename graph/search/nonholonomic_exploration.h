@@ -16,6 +16,7 @@ class NonholonomicExploration : public ActionExploration {
                           const ExplorerContext& context);
 
   NewElements GrowTowards(const Point& p_target) override;
+  double growth_work() const override { return work_; }
 
  private:
   /// Per vertex: still worth trying in this growth.
@@ -24,6 +25,8 @@ class NonholonomicExploration : public ActionExploration {
   /// Both return true if they found an edge, even one that existed before.
   bool LaunchFrom(VertexId v, const Point& p_target, NewElements* found);
   bool LandAt(VertexId v, const Point& p_target, NewElements* found);
+
+  void CountTry();
 
   /// Whether the edge and its ends are possibilities of this action.
   bool IsExplorable(const Edge& edge);
@@ -36,6 +39,8 @@ class NonholonomicExploration : public ActionExploration {
   void RecursivelySetDownstreamVerticesToFalse(VertexId v, Useful* useful) const;
 
   const NonholonomicAction& action_;
+  double work_ = 0;
+  std::int64_t* tried_;
   std::int64_t* rejected_;
   std::int64_t* refused_;
   std::int64_t* not_lined_up_;

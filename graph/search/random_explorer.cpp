@@ -10,7 +10,7 @@ RandomExplorer::RandomExplorer(const ExplorerContext& context) : context_(contex
     const Action& action = *(*context.actions)[i];
     const auto skip = settings.skip_growth.find(action.name());
     skip_growth_.push_back(skip == settings.skip_growth.end() ? 0 : skip->second);
-    work_of_turn_ += action.cycle_budget();
+    budget_ += action.cycle_budget();
     explorations_.push_back(MakeActionExploration(action, static_cast<int>(i), context));
     explorations_[i]->AddInitialVertex(context.master->start());
     for (const VertexId goal : context.master->goals()) {
@@ -24,12 +24,15 @@ Findings RandomExplorer::Explore() {
     (*context_.counters)[kGraphIsFull] = 1;
     return {Outlook::kOver, {}};
   }
+  growth_work_of_turn_ = 0;
   for (std::size_t a = 0; a < explorations_.size(); ++a) {
+    const double before = explorations_[a]->growth_work();
     NewElements found = explorations_[a]->PerformTransitions();
     if (!Skips(a)) {
       const Point p_target = context_.space->RandomSample(context_.generator);
       found.Append(explorations_[a]->GrowTowards(p_target));
     }
+    growth_work_of_turn_ += explorations_[a]->growth_work() - before;
     OfferToOthers(a, found);
     context_.master->Append(static_cast<int>(a), found.edges);
     for (const LineUpEdge& line_up : found.line_ups) {
@@ -59,7 +62,9 @@ bool RandomExplorer::GraphIsFull() const {
 }
 
 bool RandomExplorer::Skips(std::size_t action) {
-  return skip_growth_[action] > 0 && UniformReal(0, 1, context_.generator) < skip_growth_[action];
+  const double skip = skip_growth_[action];
+  if (skip <= 0 || skip >= 1) return skip > 0;  // leaves the generator alone
+  return UniformReal(0, 1, context_.generator) < skip;
 }
 
 ExplorerFactory RandomExploration() {

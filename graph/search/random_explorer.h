@@ -22,7 +22,7 @@ class RandomExplorer : public Explorer {
   std::string name() const override { return "random"; }
   bool TakesPart(SearchStage stage) const override { return stage == SearchStage::kFirstRoute; }
   Findings Explore() override;
-  double work_of_turn() const override { return work_of_turn_; }
+  double work_of_turn() const override { return budget_ + growth_work_of_turn_; }
   void TakeOver(const Discovery& discovery) override;
 
  private:
@@ -33,7 +33,8 @@ class RandomExplorer : public Explorer {
   ExplorerContext context_;
   std::vector<std::unique_ptr<ActionExploration>> explorations_;
   std::vector<double> skip_growth_;  ///< per action
-  double work_of_turn_ = 0;
+  double budget_ = 0;                ///< of the conditions in one turn, s
+  double growth_work_of_turn_ = 0;   ///< beyond it, in the last turn, s
 };
 
 ExplorerFactory RandomExploration();

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/planner/planner.h"
@@ -30,9 +32,12 @@ models::Scenario Plinth(double height) {
   return scenario;
 }
 
-PlanResult PlanWithSteps(const models::Scenario& scenario, std::uint64_t seed = 1) {
+/// `explorers` as in PlanRequest.
+PlanResult PlanWithSteps(const models::Scenario& scenario, std::uint64_t seed = 1,
+                         const std::vector<std::string>& explorers = {}) {
   PlanRequest request;
   request.seed = seed;
+  request.explorers = explorers;
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
   request.actions = {"walk", "step_up"};
   request.manoeuvres = {StepUpFactory()};
@@ -56,7 +61,8 @@ TEST(StepUpTest, StepsOntoThePlinth) {
 TEST(StepUpTest, StepsUpAndDownAgainBehindThePlinth) {
   models::Scenario scenario = Plinth(0.1);
   scenario.goals = {{"walk", 3.2, 0, 0, 0}};
-  const PlanResult result = PlanWithSteps(scenario);
+  // Planned steps would lead over the plinth as well.
+  const PlanResult result = PlanWithSteps(scenario, 1, {"lattice", "random", "shortcuts"});
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(result.verification.accepted()) << FormatText(result.verification);
   EXPECT_EQ(NumberOfSteps(result.plan), 2);

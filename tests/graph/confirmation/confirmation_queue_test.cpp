@@ -373,6 +373,20 @@ TEST(ConfirmationQueue, WithoutWorkersTurnsAreCountedInCheckpoints) {
   EXPECT_EQ(ended, (std::vector<std::vector<int>>{{}, {}, {}, {}, {}, {}, {0}, {1}}));
 }
 
+TEST(ConfirmationQueue, AJobThatAsksMoreOftenGetsMoreCheckpointsInATurn) {
+  class OftenAsking : public ScriptedJob {
+   public:
+    using ScriptedJob::ScriptedJob;
+    double work_of_checkpoint() const override { return kWorkOfCheckpoint / 4; }
+  };
+  ConfirmationQueue queue({.checkpoints_per_turn = 10});
+  queue.Insert(0, std::make_unique<OftenAsking>(Ending::kConfirm, 39), 0);
+  EXPECT_TRUE(queue.RunTurn(Deadline(10)));
+  queue.Insert(1, std::make_unique<OftenAsking>(Ending::kConfirm, 42), 0);
+  EXPECT_FALSE(queue.RunTurn(Deadline(10)));
+  EXPECT_TRUE(queue.RunTurn(Deadline(10)));
+}
+
 TEST(ConfirmationQueue, ATurnStopsAtTheDeadlineAndGoesOnLater) {
   ConfirmationQueue queue;
   queue.Insert(0, Job(Ending::kConfirm, 20, milliseconds(1)), 0);
