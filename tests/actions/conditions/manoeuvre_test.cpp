@@ -18,6 +18,7 @@ std::string MessageOf(const models::Scenario& scenario,
                       const std::vector<ManoeuvreFactory>& manoeuvres,
                       const std::vector<std::string>& actions = {}) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.time_limit = 1000;
   request.manoeuvres = manoeuvres;
   request.actions = actions;

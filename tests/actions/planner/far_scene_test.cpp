@@ -66,6 +66,7 @@ TEST(FarSceneTest, AGaitsMotionIsTheSameAnywhere) {
 TEST(FarSceneTest, AHallwayFarAwayIsPlannedAndItsFileVerifies) {
   const models::Scenario scenario = MovedScenario("hallway", {10000, -7000, 300});
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.time_limit = 1000;
   const PlanResult result = PlanTraversal(DrcHubo1(), scenario, request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;

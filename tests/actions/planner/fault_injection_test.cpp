@@ -25,6 +25,7 @@ constexpr double kForEver = 1e6;  // s
 PlanRequest LeapRequest(const Leap::RunJob& run_job, const Leap::MakeMotion& make_motion,
                         double time_limit = 1000) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.time_limit = time_limit;  // sanitizers are slow, and no test is about speed
   request.manoeuvres = {LeapFactory(run_job, make_motion)};
   return request;

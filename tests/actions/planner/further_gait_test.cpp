@@ -68,6 +68,7 @@ GaitFactory Plodding() {
 
 PlanResult PlanWith(const models::Scenario& scenario, const GaitFactory& gait) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.gaits = {gait};
   request.threads = 1;
   return PlanTraversal(DrcHubo1(), scenario, request);

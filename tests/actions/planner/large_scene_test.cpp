@@ -49,6 +49,7 @@ double PeakMegabytes() {
 
 TEST(LargeSceneTest, ANarrowDoorInAHallOfAHundredMetresIsExhausted) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
   const PlanResult result = PlanTraversal(DrcHubo1(), Hall(100, 0.5), request);
   EXPECT_EQ(result.status, PlanStatus::kExhausted) << result.explanation;
@@ -60,6 +61,7 @@ TEST(LargeSceneTest, ANarrowDoorInAHallOfAHundredMetresIsExhausted) {
 TEST(LargeSceneTest, TimeAndMemoryLimitsHoldInScenesOfKilometres) {
   for (const double side : {2000.0, 20000.0}) {
     PlanRequest request;
+    request.library = DrcHubo1Library();
     request.time_limit = 4;
     const auto start = std::chrono::steady_clock::now();
     const PlanResult result = PlanTraversal(DrcHubo1(), Hall(side, 0.5), request);

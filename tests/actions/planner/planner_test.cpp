@@ -19,6 +19,7 @@ namespace {
 
 PlanRequest Request(std::uint64_t seed, const std::vector<std::string>& actions) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.seed = seed;
   request.actions = actions;
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed

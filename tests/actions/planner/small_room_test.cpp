@@ -215,6 +215,7 @@ models::Scenario DoorScene(double width) {
 
 TEST(SmallRoom, WalksStraightThroughADoorOf95Centimetres) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.time_limit = 1000;  // sanitizers are slow
   const PlanResult result = PlanTraversal(DrcHubo1(), DoorScene(0.95), request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;

@@ -36,6 +36,7 @@ models::Scenario Plinth(double height) {
 PlanResult PlanWithSteps(const models::Scenario& scenario, std::uint64_t seed = 1,
                          const std::vector<std::string>& explorers = {}) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.seed = seed;
   request.explorers = explorers;
   request.time_limit = 1000;  // sanitizers are slow, and no test is about speed
@@ -70,6 +71,7 @@ TEST(StepUpTest, StepsUpAndDownAgainBehindThePlinth) {
 
 TEST(StepUpTest, WithoutTheActionContactsArePlanned) {
   PlanRequest request;
+  request.library = DrcHubo1Library();
   request.time_limit = 1000;
   request.actions = {"walk"};
   const PlanResult result = PlanTraversal(DrcHubo1(), Plinth(0.1), request);
