@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "actions/motion/limb_tilt.h"
 #include "dynamics/tree/tree_kinematics.h"
@@ -18,6 +19,11 @@ constexpr double kGap = 0.002;
 constexpr double kSide = 0.012;
 constexpr double kShift = 0.015;  // m, between places that are tried
 constexpr double kLift = 0.03;    // m, between lifts that are tried
+/// Of places that are moved to where ground is: how often, how much farther than needed, and what
+/// gradients are taken over, m.
+constexpr int kMostMoves = 8;
+constexpr double kBeyondMargin = 1e-5;
+constexpr double kProbe = 1e-4;
 constexpr int kSwingSamples = 12;
 
 /// Of the friction coefficient, for slopes: the rest is for motion.
@@ -113,15 +119,58 @@ bool FootholdGround::IsFree(int limb, const Eigen::Isometry3d& X_WS) const {
   return true;
 }
 
+/// Moves a place until all bearing points hold: towards where the worst of them has more ground
+/// about it.
+std::optional<PlanarPose> FootholdGround::Settled(int limb, const PlanarPose& stance,
+                                                  int plane) const {
+  PlanarPose at = stance;
+  for (int move = 0; move <= kMostMoves; ++move) {
+    const Eigen::Isometry3d X_WS = FrameOf(stance_, limb, On(limb, at, plane));
+    double least = std::numeric_limits<double>::infinity();
+    Vector2d worst = Vector2d::Zero();
+    for (const Vector2d& p : stance_.bearing_points[limb]) {
+      const Vector2d there = (X_WS * Vector3d(p.x(), p.y(), 0)).head<2>();
+      const double clearance = world_.ground->Clearance(plane, there);
+      if (clearance >= least) continue;
+      least = clearance;
+      worst = there;
+    }
+    if (least >= margin_) return at;
+    if (margin_ - least > kMostShift) return std::nullopt;
+    const Vector2d uphill = ClearanceGradient(plane, worst);
+    at.x += (margin_ - least + kBeyondMargin) * uphill.x();
+    at.y += (margin_ - least + kBeyondMargin) * uphill.y();
+    if ((at.position() - stance.position()).norm() > kMostShift) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Of the distance to the ground's edge, seen from above.
+Vector2d FootholdGround::ClearanceGradient(int plane, const Vector2d& p) const {
+  const auto along = [&](const Vector2d& axis) {
+    return (world_.ground->Clearance(plane, p + kProbe * axis) -
+            world_.ground->Clearance(plane, p - kProbe * axis)) /
+           (2 * kProbe);
+  };
+  return {along(Vector2d::UnitX()), along(Vector2d::UnitY())};
+}
+
 std::optional<Foothold> FootholdGround::Place(int limb, const PlanarPose& stance, int plane) const {
   if (!world_.ground->IsNear(plane, stance * Vector2d(stance_.patch_centres[limb].head<2>()),
                              kMostShift)) {
     return std::nullopt;
   }
+  const std::optional<PlanarPose> settled = Settled(limb, stance, plane);
+  if (!settled) return std::nullopt;
   for (double shift = 0; shift <= kMostShift; shift += kShift) {
     for (const double ahead : {shift, -shift}) {
-      const Foothold there = On(limb, stance * PlanarPose{ahead, 0, 0}, plane);
-      if (Holds(limb, plane, there) && IsFree(limb, FrameOf(stance_, limb, there))) return there;
+      const Foothold there = On(limb, *settled * PlanarPose{ahead, 0, 0}, plane);
+      if ((there.stance.position() - stance.position()).norm() > kMostShift + kBeyondMargin)
+        continue;
+      if ((shift == 0 || Holds(limb, plane, there)) &&
+          IsFree(limb, FrameOf(stance_, limb, there))) {
+        return there;
+      }
       if (shift == 0) break;
     }
   }

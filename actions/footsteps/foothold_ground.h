@@ -44,8 +44,8 @@ class FootholdGround {
                  double margin);
 
   /// The limb on ground of a plane, which is one of planes(). Where the ground ends under the limb,
-  /// or its link would hit something, it is moved ahead or back, by kMostShift at most. None if
-  /// that does not help.
+  /// it is moved to where it does not, and where its link would hit something, ahead or back; by
+  /// kMostShift at most. None if that does not help.
   std::optional<Foothold> Place(int limb, const PlanarPose& stance, int plane) const;
 
   const std::vector<int>& planes() const { return planes_; }  ///< GentlePlanes
@@ -61,6 +61,8 @@ class FootholdGround {
 
  private:
   bool Holds(int limb, int plane, const Foothold& place) const;
+  std::optional<PlanarPose> Settled(int limb, const PlanarPose& stance, int plane) const;
+  Eigen::Vector2d ClearanceGradient(int plane, const Eigen::Vector2d& p) const;
   /// Whether the box about the limb's link is free, in a stance frame.
   bool IsFree(int limb, const Eigen::Isometry3d& X_WS) const;
   bool SwingIsFree(int limb, const Foothold& from, const Foothold& to, double clearance,

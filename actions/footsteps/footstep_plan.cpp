@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "actions/footsteps/foothold_field.h"
 #include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/pose_field.h"
 #include "actions/motion/limb_bend.h"
@@ -21,10 +22,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Of the search: weight of the heuristic, and sizes within which two places are the same.
-constexpr double kGreed = 4;
+constexpr double kGreed = 2.5;
 constexpr double kSamePlace = 0.04;  // m
 constexpr double kSameTurn = 0.15;   // rad
 constexpr double kSameHeight = 0.005;
+/// A place is compared more coarsely by that where the foot leaves it next: what follows depends on
+/// the other one.
+constexpr double kCoarser = 3;
+
+constexpr double kRounding = 1e-6;  // m and rad
 
 /// Patches keep this far from each other, m.
 constexpr double kPatchGap = 0.015;
@@ -38,6 +44,12 @@ constexpr double kSecondsPerMetreUp = 2;
 /// count as slower, s/m.
 constexpr double kEasySquat = 0.02;
 constexpr double kSecondsPerSquat = 60;
+/// On ground that is not level, longer strides than this share of the family's cost torque and
+/// joint speed, s/m.
+constexpr double kEasyStride = 0.6;
+constexpr double kSecondsPerStride = 4;
+/// A step that is moved to where ground is may become longer than the family's; that is dear, s/m.
+constexpr double kSecondsPerMetreBeyond = 30;
 /// Expected by the field of poses, s/m: with high steps, low roots, and a second foot that follows.
 constexpr double kSecondsPerMetreClimbed = 12;
 
@@ -46,7 +58,7 @@ constexpr std::int64_t kPlacesPerState = 16;
 constexpr std::int64_t kWorkPerQuestion = 256;
 
 /// A search that goes on for so many states asks whether the ground can be reached at all.
-constexpr std::int64_t kStatesBeforeFlood = 400;
+constexpr std::int64_t kStatesBeforeFlood = 1500;
 
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
@@ -141,32 +153,38 @@ struct FootstepSearch::Search {
   struct Candidate {
     double value = 0;
     int place = 0;  ///< number of PlaceOf
-    int plane = 0;
     bool operator>(const Candidate& other) const {
-      if (value != other.value) return value > other.value;
-      return place != other.place ? place > other.place : plane > other.plane;
+      return value != other.value ? value > other.value : place > other.place;
     }
+  };
+  /// A node's candidates on one plane: a heap, the least value on top.
+  struct Branch {
+    int node = 0;
+    int layer = 0;
+    std::vector<Candidate> candidates;
   };
 
   /// Both limbs' places, and the limb that moves next.
   struct Node {
     std::array<Foothold, 2> feet;
+    std::array<int, 2> layers = {-1, -1};  ///< the feet's planes: indices into ground.planes()
+    std::array<int, 2> goals = {-1, -1};   ///< in which the feet stand; -1: in none
     int next = 0;
     int parent = -1;
     double cost = 0;
-    double lift = 0;                    ///< of the step that led here
-    bool is_tested = false;             ///< against obstacles
-    double squat = 0;                   ///< before the next step; once expanded
-    std::vector<Candidate> candidates;  ///< a heap, the least value on top; once expanded
+    double lift = 0;         ///< of the step that led here
+    bool is_tested = false;  ///< against obstacles
+    double squat = 0;        ///< before the next step; once expanded
   };
-  /// A node, or the best candidate of a node that has been expanded.
+
+  /// A node, or the best candidate of a branch.
   struct Open {
     double value = 0;
-    int node = 0;
-    bool is_candidate = false;
+    int number = 0;
+    bool is_branch = false;
     bool operator>(const Open& other) const {
       if (value != other.value) return value > other.value;
-      return node != other.node ? node < other.node : is_candidate > other.is_candidate;
+      return number != other.number ? number < other.number : is_branch > other.is_branch;
     }
   };
 
@@ -197,30 +215,37 @@ struct FootstepSearch::Search {
                     kTrunkFrom * stance.gait->posture.root_height, limits.trunk_margin)),
         reaches(ReachesOf(*model.robot, stance, 0.97)),
         headings(SquareHeadingsOf(*world.environment)),
+        root_over({RootOver(0), RootOver(1)}),
+        displacements({DisplacementsOf(0), DisplacementsOf(1)}),
+        footholds(stance, world, ground.planes(), limits, goals, goal_times, TimesOfSteps()),
         field(FieldOf()) {
-    for (int limb = 0; limb < 2; ++limb) {
-      displacements[limb] = DisplacementsOf(limb);
-      const SupportPolygon patch(stance.bearing_points[limb]);
-      const Vector2d shift =
-          patch.Nearest(stance.centre_of_mass, stance.gait->parameters.com_margin) -
-          stance.centre_of_mass;
-      root_over[limb] = Vector2d(stance.X_SR.translation().head<2>()) + shift;
-    }
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      field.At(starts[i].pose, cancellation);  // most of the field
-      Begin({starts[i].pose, starts[i].z}, ends.start_times.empty() ? 0 : ends.start_times[i]);
+      const int layer = LayerUnder(0, {starts[i].pose, starts[i].z});
+      if (layer < 0) continue;
+      field.At(layer, starts[i].pose, cancellation);  // most of the field
+      Begin(layer, {starts[i].pose, starts[i].z},
+            ends.start_times.empty() ? 0 : ends.start_times[i]);
     }
   }
 
-  void Begin(const Foothold& start, double time) {
+  void Begin(int layer, const Foothold& start, double time) {
     for (const int next : {0, 1}) {
       Node node;
       node.feet.fill(start);
+      node.layers.fill(layer);
       node.next = next;
       node.is_tested = true;
       node.cost = time;
       Push(std::move(node));
     }
+  }
+
+  Vector2d RootOver(int limb) const {
+    const SupportPolygon patch(stance.bearing_points[limb]);
+    const Vector2d shift =
+        patch.Nearest(stance.centre_of_mass, stance.gait->parameters.com_margin) -
+        stance.centre_of_mass;
+    return Vector2d(stance.X_SR.translation().head<2>()) + shift;
   }
 
   /// Displacements of a limb's stance in the other's that leave a gap between the patches.
@@ -243,46 +268,97 @@ struct FootstepSearch::Search {
     return result;
   }
 
-  PoseField FieldOf() const {
-    std::vector<PlanarPose> places;
-    for (const GroundedStance& goal : goals) places.push_back(goal.pose);
+  PoseField FieldOf() {
+    std::vector<PoseField::Goal> places;
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      const int layer = LayerUnder(0, {goals[i].pose, goals[i].z});
+      if (layer >= 0) places.push_back({goals[i].pose, layer, TimeFrom(static_cast<int>(i))});
+    }
     const PoseField::Paces paces{kLevelStep / limits.forward, 2 * kLevelStep / limits.lateral,
-                                 2 * kLevelStep / limits.turn, kSecondsPerMetreClimbed,
-                                 limits.rise + kSameHeight};
+                                 2 * kLevelStep / limits.turn};
+    PoseField::Ground known;
+    known.layers = static_cast<int>(ground.planes().size());
+    known.time = [this](int layer, const Vector2d& p) { return footholds.Near(layer, p); };
+    known.most = footholds.LongestStep();
     return PoseField(
         world.environment->bounds, CellSize(), headings.empty() ? 0 : headings.front(), places,
-        paces, [this](const PlanarPose& pose) { return TrunkMayBeAt(pose); },
-        [this](const Vector2d& p) { return HeightAt(p); }, goal_times);
+        paces, [this](int layer, const PlanarPose& pose) { return TrunkMayBeAt(layer, pose); },
+        known);
+  }
+
+  /// Of the plane that a limb is on; -1 if there is none.
+  int LayerUnder(int limb, const Foothold& place) const {
+    const Vector2d centre = place.stance * Vector2d(stance.patch_centres[limb].head<2>());
+    for (std::size_t layer = 0; layer < ground.planes().size(); ++layer) {
+      const models::GroundPlane& plane = world.ground->planes()[ground.planes()[layer]];
+      if (plane.normal == place.normal && std::abs(plane.HeightAt(centre) - place.z) < 1e-6) {
+        return static_cast<int>(layer);
+      }
+    }
+    return -1;
+  }
+
+  /// What the legs' reach leaves of the family.
+  FootholdField::StepTimes TimesOfSteps() const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    FootholdField::StepTimes steps;
+    steps.pace = kLevelStep / limits.forward;
+    const auto distances = static_cast<std::size_t>(
+        std::ceil(FootholdFlood::ReachOf(stance, limits) / steps.spacing) + 1);
+    for (int row = 0; row * steps.spacing <= limits.rise + steps.spacing / 2; ++row) {
+      const double rise = std::min(row * steps.spacing, limits.rise);
+      std::vector<double> times(distances, kInfinity);
+      for (const int limb : {0, 1}) {
+        for (const PlanarPose& displacement : displacements[limb]) {
+          for (const double z : {rise, -rise}) AddStep(limb, displacement, z, steps, &times);
+        }
+      }
+      // Where a long step leads, shorter ones do.
+      for (std::size_t i = distances - 1; i > 0; --i) {
+        times[i - 1] = std::min(times[i - 1], times[i]);
+      }
+      steps.times.push_back(std::move(times));
+    }
+    if (getenv("TT"))
+      for (auto& t : steps.times) {
+        for (double v : t) fprintf(stderr, "%.1f ", v);
+        fprintf(stderr, "\n");
+      }
+    return steps;
+  }
+
+  void AddStep(int limb, const PlanarPose& displacement, double rise,
+               const FootholdField::StepTimes& steps, std::vector<double>* times) const {
+    const Foothold other;
+    const Foothold place{displacement, rise};
+    const std::optional<double> before = Squat(limb, place, other);
+    const std::optional<double> after = Squat(1 - limb, other, place);
+    if (!before || !after) return;
+    const Vector2d centre = displacement * Vector2d(stance.patch_centres[limb].head<2>());
+    const double distance = (centre - stance.patch_centres[1 - limb].head<2>()).norm();
+    double& time = (*times)[std::lround(distance / steps.spacing)];
+    time = std::min(time, std::max(kLevelStep, steps.pace * distance) +
+                              StrideTime(displacement.x, rise == 0) +
+                              std::max(kSecondsPerMetreClimbed * std::abs(rise),
+                                       kSecondsPerSquat * std::max(*before, *after)));
   }
 
   double TimeFrom(int goal) const { return goal_times.empty() ? 0 : goal_times[goal]; }
 
   /// Whether no other goal seems quicker by way of this one.
-  bool IsBest(int goal) { return TimeFrom(goal) <= field.At(goals[goal].pose) + 1e-9; }
+  bool IsBest(int goal) {
+    return TimeFrom(goal) <=
+           field.At(LayerUnder(0, {goals[goal].pose, goals[goal].z}), goals[goal].pose) + 1e-9;
+  }
 
   double CellSize() const {
     if (world.environment->bounds.isEmpty()) return kCell;
     return std::max(kCell, std::sqrt(world.environment->bounds.sizes().prod() / kMostCells));
   }
 
-  /// Over ground that is near.
-  bool TrunkMayBeAt(const PlanarPose& pose) const {
-    const std::vector<int> near = PlanesNear(pose.position(), limits.forward / 2);
-    return std::any_of(near.begin(), near.end(), [&](int plane) {
-      return TrunkIsFree(pose, world.ground->planes()[plane].HeightAt(pose.position()));
-    });
-  }
-
-  /// Of the highest ground at p or near it.
-  double HeightAt(const Vector2d& p) const {
-    for (const double distance : {0.0, limits.forward / 2}) {
-      double highest = -std::numeric_limits<double>::infinity();
-      for (const int plane : PlanesNear(p, distance)) {
-        highest = std::max(highest, world.ground->planes()[plane].HeightAt(p));
-      }
-      if (std::isfinite(highest)) return highest;
-    }
-    return 0;
+  bool TrunkMayBeAt(int layer, const PlanarPose& pose) const {
+    const models::GroundPlane& plane = world.ground->planes()[ground.planes()[layer]];
+    return TrunkIsFree(pose, plane.HeightAt(pose.position()));
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -292,13 +368,16 @@ struct FootstepSearch::Search {
   static Key KeyOf(const Node& node) {
     Key key;
     std::size_t i = 0;
-    for (const Foothold& foot : node.feet) {
-      key[i++] = Quantised(foot.stance.x, kSamePlace);
-      key[i++] = Quantised(foot.stance.y, kSamePlace);
-      key[i++] = Quantised(WrapAngle(foot.stance.yaw), kSameTurn);
+    for (const int limb : {0, 1}) {
+      const Foothold& foot = node.feet[limb];
+      const double coarseness = limb == node.next ? kCoarser : 1;
+      key[i++] = Quantised(foot.stance.x, coarseness * kSamePlace);
+      key[i++] = Quantised(foot.stance.y, coarseness * kSamePlace);
+      key[i++] = Quantised(WrapAngle(foot.stance.yaw), coarseness * kSameTurn);
       key[i++] = Quantised(foot.z, kSameHeight);
     }
-    key[i] = node.next;
+    // No other state stands for a goal.
+    key[i] = 2 * (1 + GoalAt(node)) + node.next;
     return key;
   }
 
@@ -307,9 +386,11 @@ struct FootstepSearch::Search {
   }
 
   void Push(Node node) {
-    const double heuristic = field.At(Middle(node));
+    const int moved = 1 - node.next;
+    const double heuristic =
+        field.At(node.layers[moved], Middle(node)) + kLevelStep * StepsLeft(node);
     if (!std::isfinite(heuristic)) return;
-    open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size())});
+    open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size()), false});
     nodes.push_back(std::move(node));
   }
 
@@ -393,25 +474,21 @@ struct FootstepSearch::Search {
     return static_cast<int>(goals.size() + (headings.size() + 1) * displacements[limb].size());
   }
 
-  /// Planes that a foot can stand on and that have ground near p.
-  std::vector<int> PlanesNear(const Vector2d& p, double distance) const {
-    std::vector<int> near;
-    for (const int plane : ground.planes()) {
-      if (world.ground->IsNear(plane, p, distance)) near.push_back(plane);
-    }
-    return near;
-  }
-
-  /// Planes that the limb which moves next may reach.
-  std::vector<int> PlanesNear(const Node& node) const {
+  /// Layers that the limb which moves next may reach.
+  std::vector<int> LayersNear(const Node& node) const {
     const Foothold& other = node.feet[1 - node.next];
     const double reach = limits.forward + limits.lateral + FootholdGround::kMostShift +
                          2 * stance.patch_centres[node.next].head<2>().norm();
-    std::vector<int> near = PlanesNear(other.stance.position(), reach);
-    std::erase_if(near, [&](int plane) {
-      return plane < static_cast<int>(world.ground->levels().size()) &&
-             std::abs(world.ground->levels()[plane] - other.z) > limits.rise + 1e-6;
-    });
+    std::vector<int> near;
+    for (std::size_t layer = 0; layer < ground.planes().size(); ++layer) {
+      const int plane = ground.planes()[layer];
+      const bool is_level = plane < static_cast<int>(world.ground->levels().size());
+      if (is_level && std::abs(world.ground->levels()[plane] - other.z) > limits.rise + 1e-6) {
+        continue;
+      }
+      if (!world.ground->IsNear(plane, other.stance.position(), reach)) continue;
+      near.push_back(static_cast<int>(layer));
+    }
     return near;
   }
 
@@ -424,56 +501,84 @@ struct FootstepSearch::Search {
     const std::optional<double> squat = Squat(limb, node.feet[limb], other);
     if (!squat) return;
     node.squat = *squat;
-    const std::vector<int> near = PlanesNear(node);
+    for (const int layer : LayersNear(node)) {
+      Branch branch{index, layer, CandidatesOf(node, layer)};
+      if (branch.candidates.empty()) continue;
+      branches.push_back(std::move(branch));
+      PushCandidate(static_cast<int>(branches.size()) - 1);
+    }
+  }
+
+  std::vector<Candidate> CandidatesOf(const Node& node, int layer) {
+    const int limb = node.next;
+    const Foothold& other = node.feet[1 - limb];
+    std::vector<Candidate> candidates;
     const int places = PlacesOf(limb);
     for (int place = 0; place < places; ++place) {
       const std::optional<PlanarPose> there = PlaceOf(node, place);
       if (!there) continue;
-      const double time = field.At(Interpolate(other.stance, *there, 0.5));
+      const Foothold foothold = ground.On(limb, *there, ground.planes()[layer]);
+      if (std::abs(foothold.z - other.z) > limits.rise + 1e-6) continue;
+      const bool is_goal = place < static_cast<int>(goals.size());
+      const int steps_left = !is_goal ? 2 : node.goals[1 - limb] == place ? 0 : 1;
+      const double time =
+          field.At(layer, Interpolate(other.stance, *there, 0.5)) + kLevelStep * steps_left;
       if (!std::isfinite(time)) continue;
-      for (const int plane : near) {
-        const Foothold foothold = ground.On(limb, *there, plane);
-        if (std::abs(foothold.z - other.z) > limits.rise + 1e-6) continue;
-        node.candidates.push_back({CostOf(node, foothold, *squat) + kGreed * time, place, plane});
-      }
+      candidates.push_back({CostOf(node, foothold, node.squat) + kGreed * time, place});
     }
-    std::make_heap(node.candidates.begin(), node.candidates.end(), std::greater<>());
-    PushCandidate(index);
+    std::make_heap(candidates.begin(), candidates.end(), std::greater<>());
+    return candidates;
   }
 
   double CostOf(const Node& node, const Foothold& place, double squat) const {
     return node.cost + actions::ExpectedDuration({node.next, node.feet[node.next], place, 0}) +
-           kSecondsPerSquat * squat;
+           kSecondsPerSquat * squat + StrideTime(node, place);
+  }
+
+  double StrideTime(const Node& node, const Foothold& place) const {
+    const Foothold& other = node.feet[1 - node.next];
+    const bool is_level = place.IsLevel() && other.IsLevel() && place.z == other.z;
+    return StrideTime((other.stance.Inverse() * place.stance).x, is_level);
+  }
+
+  /// What a long stride takes beyond a short one.
+  double StrideTime(double ahead, bool is_level) const {
+    const double easy = (is_level ? 1 : kEasyStride) * limits.forward;
+    return kSecondsPerStride * std::max(0.0, std::abs(ahead) - easy) +
+           kSecondsPerMetreBeyond * std::max(0.0, std::abs(ahead) - limits.forward);
   }
 
   void PushCandidate(int index) {
-    const std::vector<Candidate>& candidates = nodes[index].candidates;
+    const std::vector<Candidate>& candidates = branches[index].candidates;
     if (!candidates.empty()) open.push({candidates.front().value, index, true});
   }
 
-  /// The node's best candidate.
-  Candidate Take(int index) {
-    std::vector<Candidate>& candidates = nodes[index].candidates;
+  /// The best place of a branch.
+  void TryBest(int index) {
+    Branch& branch = branches[index];
+    std::vector<Candidate>& candidates = branch.candidates;
     std::pop_heap(candidates.begin(), candidates.end(), std::greater<>());
-    const Candidate best = candidates.back();
+    const int place = candidates.back().place;
     candidates.pop_back();
     PushCandidate(index);
-    return best;
+    const Node& from = nodes[branch.node];
+    const auto foothold =
+        ground.Place(from.next, *PlaceOf(from, place), ground.planes()[branch.layer]);
+    if (foothold) TryStep(branch.node, place, *foothold, branch.layer);
   }
 
-  void TryPlace(int parent, int place, int plane) {
-    const Node& from = nodes[parent];
-    const auto foothold = ground.Place(from.next, *PlaceOf(from, place), plane);
-    if (foothold) TryStep(parent, *foothold);
-  }
-
-  void TryStep(int parent, const Foothold& place) {
+  void TryStep(int parent, int number, const Foothold& place, int layer) {
     const Node& from = nodes[parent];
     const int limb = from.next;
     const Foothold& other = from.feet[1 - limb];
     Node node;
     node.feet = from.feet;
     node.feet[limb] = place;
+    node.layers = from.layers;
+    node.layers[limb] = layer;
+    node.goals = from.goals;
+    const bool is_goal = number < static_cast<int>(goals.size()) && IsIn(place, number);
+    node.goals[limb] = is_goal ? number : -1;
     node.next = 1 - limb;
     node.parent = parent;
     if (closed.contains(KeyOf(node))) return;
@@ -491,24 +596,27 @@ struct FootstepSearch::Search {
   bool IsWithin(int limb, const PlanarPose& displacement) const {
     const double side =
         stance.patch_centres[limb].y() > stance.patch_centres[1 - limb].y() ? 1 : -1;
-    return std::abs(displacement.x) <= limits.forward &&
+    return std::abs(displacement.x) <= limits.forward + kRounding &&
            side * displacement.y >= -0.1 * limits.lateral &&
-           side * displacement.y <= limits.lateral &&
-           std::abs(WrapAngle(displacement.yaw)) <= limits.turn;
+           side * displacement.y <= limits.lateral + kRounding &&
+           std::abs(WrapAngle(displacement.yaw)) <= limits.turn + kRounding;
   }
 
   /// Index of the goal in which both limbs stand; -1 if there is none.
-  int GoalAt(const Node& node) const {
-    for (std::size_t i = 0; i < goals.size(); ++i) {
-      const bool is_there =
-          std::all_of(node.feet.begin(), node.feet.end(), [&](const Foothold& foot) {
-            const PlanarPose off = goals[i].pose.Inverse() * foot.stance;
-            return off.position().norm() < 1e-9 && std::abs(WrapAngle(off.yaw)) < 1e-9 &&
-                   std::abs(foot.z - goals[i].z) < 1e-9;
-          });
-      if (is_there) return static_cast<int>(i);
-    }
-    return -1;
+  static int GoalAt(const Node& node) {
+    return node.goals[0] == node.goals[1] ? node.goals[0] : -1;
+  }
+
+  /// At least, until both limbs stand in a goal.
+  static int StepsLeft(const Node& node) {
+    if (GoalAt(node) >= 0) return 0;
+    return node.goals[1 - node.next] >= 0 ? 1 : 2;
+  }
+
+  bool IsIn(const Foothold& place, int goal) const {
+    const PlanarPose off = goals[goal].pose.Inverse() * place.stance;
+    return off.position().norm() < 1e-9 && std::abs(WrapAngle(off.yaw)) < 1e-9 &&
+           std::abs(place.z - goals[goal].z) < 1e-9;
   }
 
   /// Leaves nothing to search if no goal can be reached.
@@ -543,6 +651,7 @@ struct FootstepSearch::Search {
     }
     std::reverse(steps.begin(), steps.end());
     return steps;
+    return steps;
   }
 
   const NominalStance& stance;
@@ -557,10 +666,12 @@ struct FootstepSearch::Search {
   models::UprightBoxes trunk;
   std::vector<std::optional<LimbReach>> reaches;
   std::vector<double> headings;
-  PoseField field;
-  std::array<std::vector<PlanarPose>, 2> displacements;
   std::array<Vector2d, 2> root_over;  ///< of the stance: the root over a limb that bears alone
+  std::array<std::vector<PlanarPose>, 2> displacements;
+  FootholdField footholds;
+  PoseField field;
   std::vector<Node> nodes;
+  std::vector<Branch> branches;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   std::unordered_set<Key, HashOfKey> closed;
   std::int64_t expanded = 0;
@@ -614,18 +725,17 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
       continue;
     }
     if (work % kWorkPerQuestion == 0) cancellation.ThrowIfCancelled();
-    const auto [value, index, is_candidate] = search.open.top();
+    const auto [value, index, is_branch] = search.open.top();
     search.open.pop();
-    if (is_candidate) {
-      const Search::Candidate candidate = search.Take(index);
-      search.TryPlace(index, candidate.place, candidate.plane);
+    if (is_branch) {
+      search.TryBest(index);
       continue;
     }
     if (!search.closed.insert(Search::KeyOf(search.nodes[index])).second) continue;
     if (!search.Test(&search.nodes[index], is_refused)) continue;
     ++search.expanded;
     work += kPlacesPerState - 1;
-    if (const int goal = search.GoalAt(search.nodes[index]); goal >= 0) {
+    if (const int goal = Search::GoalAt(search.nodes[index]); goal >= 0) {
       if (search.IsBest(goal)) return Answer(index, goal);
       search.Remember(index, goal);
     }

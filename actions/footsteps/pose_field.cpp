@@ -14,6 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kPosesPerQuestion = 1000;
+constexpr int kUnknownSpot = -2;
 constexpr double kTurn = 2 * std::numbers::pi / PoseField::kHeadings;
 
 struct Move {
@@ -46,95 +47,107 @@ int Cell(double at, int count) {
 }  // namespace
 
 PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
-                     const std::vector<PlanarPose>& goals, const Paces& paces,
-                     std::function<bool(const PlanarPose&)> is_open,
-                     std::function<double(const Eigen::Vector2d&)> height,
-                     const std::vector<double>& goal_times)
+                     const std::vector<Goal>& goals, const Paces& paces,
+                     std::function<bool(int, const PlanarPose&)> is_open, Ground ground)
     : bounds_(bounds),
       cell_(cell),
       first_heading_(first_heading),
       paces_(paces),
       is_open_(std::move(is_open)),
-      height_(std::move(height)),
+      ground_(std::move(ground)),
       times_of_moves_(TimesOfMoves(cell, first_heading, paces)) {
   columns_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().x() / cell)));
   rows_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().y() / cell)));
-  const std::size_t poses = Index(0, rows_, 0);
-  times_.assign(poses, std::numeric_limits<double>::infinity());
-  states_.assign(poses, State::kUnknown);
-  if (height_) heights_.assign(poses / kHeadings, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < goals.size(); ++i) {
-    const std::size_t index = IndexOf(goals[i]);
-    const double time = goal_times.empty() ? 0 : goal_times[i];
-    states_[index] = State::kOpen;
-    if (time >= times_[index]) continue;
-    times_[index] = time;
-    queue_.push({time, index});
+  numbers_.assign(static_cast<std::size_t>(columns_) * rows_ * ground_.layers, kUnknownSpot);
+  for (const Goal& goal : goals) {
+    const int spot = SpotAt(goal.layer, goal.pose);
+    if (spot < 0) continue;
+    const int heading = HeadingOf(goal.pose);
+    spots_[spot].states[heading] = State::kOpen;
+    if (goal.time >= spots_[spot].times[heading]) continue;
+    spots_[spot].times[heading] = goal.time;
+    queue_.push({goal.time, spot, heading});
   }
 }
 
-bool PoseField::IsOpen(std::size_t index) {
-  if (states_[index] == State::kUnknown) {
-    const Vector2d p = CentreOf(index / kHeadings);
-    const double yaw = first_heading_ + static_cast<double>(index % kHeadings) * kTurn;
-    states_[index] = is_open_({p.x(), p.y(), yaw}) ? State::kOpen : State::kClosed;
+bool PoseField::IsOpen(int spot, int heading) {
+  Spot& at = spots_[spot];
+  if (at.states[heading] == State::kUnknown) {
+    const Vector2d p = CentreOf(at.column, at.row);
+    const bool is_open = is_open_(at.layer, {p.x(), p.y(), first_heading_ + heading * kTurn});
+    at.states[heading] = is_open ? State::kOpen : State::kClosed;
   }
-  return states_[index] == State::kOpen;
+  return at.states[heading] == State::kOpen;
 }
 
-Vector2d PoseField::CentreOf(std::size_t place) const {
-  return bounds_.min() + cell_ * Vector2d(static_cast<double>(place % columns_) + 0.5,
-                                          static_cast<double>(place / columns_) + 0.5);
+Vector2d PoseField::CentreOf(int column, int row) const {
+  return bounds_.min() + cell_ * Vector2d(column + 0.5, row + 0.5);
 }
 
-double PoseField::HeightOf(std::size_t place) {
-  double& height = heights_[place];
-  if (std::isnan(height)) height = height_(CentreOf(place));
-  return height;
+int PoseField::SpotAt(int layer, int column, int row) {
+  int& number = numbers_[(static_cast<std::size_t>(layer) * rows_ + row) * columns_ + column];
+  if (number != kUnknownSpot) return number;
+  const double time = ground_.time ? ground_.time(layer, CentreOf(column, row)) : 0;
+  if (!std::isfinite(time)) return number = -1;
+  number = static_cast<int>(spots_.size());
+  Spot spot{layer, column, row, time, {}, {}};
+  spot.times.fill(std::numeric_limits<double>::infinity());
+  spot.states.fill(State::kUnknown);
+  spots_.push_back(spot);
+  return number;
 }
 
-double PoseField::ClimbTime(std::size_t from, std::size_t to) {
-  if (heights_.empty() || from == to) return 0;
-  const double climb = std::abs(HeightOf(to) - HeightOf(from));
-  return climb <= paces_.most_climb ? paces_.climb * climb : 0;
+int PoseField::SpotAt(int layer, const PlanarPose& pose) {
+  const Vector2d at = (pose.position() - bounds_.min()) / cell_;
+  return SpotAt(layer, Cell(at.x(), columns_), Cell(at.y(), rows_));
 }
 
-double PoseField::At(const PlanarPose& pose, const CancellationToken& cancellation) {
-  const std::size_t index = IndexOf(pose);
-  if (!IsOpen(index)) return std::numeric_limits<double>::infinity();
-  while (!queue_.empty() && queue_.top().time < times_[index]) {
+int PoseField::HeadingOf(const PlanarPose& pose) const {
+  const double turns = WrapAngle(pose.yaw - first_heading_) / kTurn;
+  return (static_cast<int>(std::lround(turns)) + kHeadings) % kHeadings;
+}
+
+double PoseField::At(int layer, const PlanarPose& pose, const CancellationToken& cancellation) {
+  const int spot = SpotAt(layer, pose);
+  const int heading = HeadingOf(pose);
+  if (spot < 0 || !IsOpen(spot, heading)) return std::numeric_limits<double>::infinity();
+  while (!queue_.empty() && queue_.top().time < spots_[spot].times[heading]) {
     const Entry at = queue_.top();
     queue_.pop();
-    if (at.time > times_[at.index]) continue;
+    if (at.time > spots_[at.spot].times[at.heading]) continue;
     if (++visited_ % kPosesPerQuestion == 0) cancellation.ThrowIfCancelled();
     Visit(at);
   }
-  return times_[index];
+  return spots_[spot].times[heading];
 }
 
 void PoseField::Visit(const Entry& at) {
-  const auto place = static_cast<int>(at.index / kHeadings);
-  const auto at_heading = static_cast<int>(at.index % kHeadings);
+  const int layer = spots_[at.spot].layer;
+  const int from_column = spots_[at.spot].column, from_row = spots_[at.spot].row;
   for (std::size_t i = 0; i < std::size(kMoves); ++i) {
     const Move& move = kMoves[i];
-    const int column = place % columns_ + move.column;
-    const int row = place / columns_ + move.row;
+    const int column = from_column + move.column;
+    const int row = from_row + move.row;
     if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
-    const int heading = (at_heading + move.heading + kHeadings) % kHeadings;
-    const std::size_t index = Index(column, row, heading);
-    const double time = at.time + times_of_moves_[at_heading][i] +
-                        ClimbTime(at.index / kHeadings, index / kHeadings);
-    if (time >= times_[index] || !IsOpen(index)) continue;
-    times_[index] = time;
-    queue_.push({time, index});
+    const int heading = (at.heading + move.heading + kHeadings) % kHeadings;
+    Offer(at.spot, SpotAt(layer, column, row), heading, at.time, times_of_moves_[at.heading][i]);
+  }
+  for (int other = 0; other < ground_.layers; ++other) {
+    if (other == layer) continue;
+    Offer(at.spot, SpotAt(other, from_column, from_row), at.heading, at.time, 0);
   }
 }
 
-std::size_t PoseField::IndexOf(const PlanarPose& pose) const {
-  const Vector2d at = (pose.position() - bounds_.min()) / cell_;
-  const double turns = WrapAngle(pose.yaw - first_heading_) / kTurn;
-  const int heading = (static_cast<int>(std::lround(turns)) + kHeadings) % kHeadings;
-  return Index(Cell(at.x(), columns_), Cell(at.y(), rows_), heading);
+void PoseField::Offer(int from, int spot, int heading, double begin, double move) {
+  if (spot < 0) return;
+  double& known = spots_[spot].times[heading];
+  if (begin + move >= known) return;
+  const double change = std::abs(spots_[spot].ground_time - spots_[from].ground_time);
+  if (change > ground_.most) return;
+  const double time = begin + std::max(move, change);
+  if (time >= known || !IsOpen(spot, heading)) return;
+  known = time;
+  queue_.push({time, spot, heading});
 }
 
 }  // namespace possibility::actions

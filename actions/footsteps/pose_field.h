@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <vector>
 
@@ -14,68 +13,86 @@
 namespace possibility::actions {
 
 /// Times of the quickest ways to some goals among poses of a lattice in SE(2), by Dijkstra's
-/// algorithm, which runs as far as the questions need. A pose has ten neighbours: eight cells
-/// around it, and a turn to either side. One thread at a time.
+/// algorithm, which runs as far as the questions need. There is a lattice for each layer of the
+/// ground. A pose has ten neighbours in its layer: eight cells around it, and a turn to either
+/// side; and itself in the other layers. One thread at a time.
 class PoseField {
  public:
   struct Paces {
     double ahead = 1;  ///< s/m, forwards or backwards
     double aside = 1;  ///< s/m
     double turn = 1;   ///< s/rad
-    double climb = 0;  ///< s/m, up or down, between cells that differ by most_climb at most
-    double most_climb = std::numeric_limits<double>::infinity();  ///< m
+  };
+  /// What the ground alone knows.
+  struct Ground {
+    int layers = 1;
+    /// How long it takes from a layer's ground near a place, s; infinite: it has none there.
+    /// Between two poses at least the difference passes. Not asked if empty: there is ground
+    /// everywhere.
+    std::function<double(int layer, const Eigen::Vector2d&)> time;
+    /// Where the difference is greater no way leads from the one to the other, s.
+    double most = 0;
+  };
+  struct Goal {
+    PlanarPose pose;
+    int layer = 0;
+    double time = 0;  ///< what its times begin with, s
   };
   static constexpr int kHeadings = 16;
 
   /// `bounds`, `cell`: m. `first_heading`: rad, one of the lattice's headings. `is_open`: of a pose
   /// of the lattice; asked once per pose, and only where a way or a question leads. The poses
-  /// nearest to goals are open. `height`: of the ground at a cell's centre, m; none if it is level.
-  /// `goal_times`: what each goal's times begin with, s; empty: 0.
+  /// nearest to goals are open.
   PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
-            const std::vector<PlanarPose>& goals, const Paces& paces,
-            std::function<bool(const PlanarPose&)> is_open,
-            std::function<double(const Eigen::Vector2d&)> height = {},
-            const std::vector<double>& goal_times = {});
+            const std::vector<Goal>& goals, const Paces& paces,
+            std::function<bool(int layer, const PlanarPose&)> is_open, Ground ground);
 
   /// From the nearest pose of the lattice, s. Infinite if that is not open or no way leads from
   /// there. @throws Cancelled.
-  double At(const PlanarPose& pose, const CancellationToken& cancellation = {});
+  double At(int layer, const PlanarPose& pose, const CancellationToken& cancellation = {});
 
  private:
   static constexpr int kMovesOfAPose = 10;
   enum class State : signed char { kUnknown, kOpen, kClosed };
 
+  /// A place in a layer that was asked for: a cell with ground, in any heading.
+  struct Spot {
+    int layer = 0;
+    int column = 0, row = 0;
+    double ground_time = 0;               ///< s
+    std::array<double, kHeadings> times;  ///< final up to the time of the queue's first entry
+    std::array<State, kHeadings> states;
+  };
   /// A pose that a way leads to, with its time.
   struct Entry {
     double time = 0;
-    std::size_t index = 0;
+    int spot = 0;
+    int heading = 0;
     bool operator>(const Entry& other) const {
-      return time != other.time ? time > other.time : index > other.index;
+      if (time != other.time) return time > other.time;
+      return spot != other.spot ? spot > other.spot : heading > other.heading;
     }
   };
 
-  bool IsOpen(std::size_t index);
-  // A place is a cell, in any heading.
-  Eigen::Vector2d CentreOf(std::size_t place) const;
-  double HeightOf(std::size_t place);
-  double ClimbTime(std::size_t from, std::size_t to);
+  bool IsOpen(int spot, int heading);
+  Eigen::Vector2d CentreOf(int column, int row) const;
+  /// Number of a spot; -1 if the layer has no ground there.
+  int SpotAt(int layer, int column, int row);
+  int SpotAt(int layer, const PlanarPose& pose);
+  int HeadingOf(const PlanarPose& pose) const;
   void Visit(const Entry& at);
-  std::size_t IndexOf(const PlanarPose& pose) const;
-  std::size_t Index(int column, int row, int heading) const {
-    return (static_cast<std::size_t>(row) * columns_ + column) * kHeadings + heading;
-  }
+  void Offer(int from, int spot, int heading, double begin, double move);
 
   Eigen::AlignedBox2d bounds_;
   double cell_;
   double first_heading_;
   int columns_ = 1, rows_ = 1;
   Paces paces_;
-  std::function<bool(const PlanarPose&)> is_open_;
-  std::function<double(const Eigen::Vector2d&)> height_;
+  std::function<bool(int, const PlanarPose&)> is_open_;
+  Ground ground_;
   std::array<std::array<double, kMovesOfAPose>, kHeadings> times_of_moves_;  ///< by heading, s
-  std::vector<double> times_;  ///< final up to the time of the queue's first entry
-  std::vector<State> states_;
-  std::vector<double> heights_;  ///< by place; NaN: not asked yet
+  std::vector<int> numbers_;  ///< of spots, by layer and cell; kUnknownSpot: not asked yet
+  std::vector<Spot> spots_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   std::size_t visited_ = 0;
 };

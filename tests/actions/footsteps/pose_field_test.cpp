@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -14,28 +15,30 @@ constexpr double kFieldCell = 0.1;
 
 PoseField FieldTo(const PlanarPose& goal, const PoseField::Paces& paces,
                   const std::function<bool(const PlanarPose&)>& is_open) {
-  return PoseField(kRoom, kFieldCell, 0, {goal}, paces, is_open);
+  return PoseField(kRoom, kFieldCell, 0, {{goal}}, paces,
+                   [is_open](int, const PlanarPose& pose) { return is_open(pose); }, {});
 }
 
 bool Everywhere(const PlanarPose&) { return true; }
+bool EverywhereInAllLayers(int, const PlanarPose&) { return true; }
 
 TEST(PoseFieldTest, TimeAlongAnAxisIsDistanceTimesPace) {
   PoseField field = FieldTo({0.55, 1.55, 0}, {2, 5, 1}, Everywhere);
-  EXPECT_NEAR(field.At({2.55, 1.55, 0}), 4, 1e-9);
-  EXPECT_NEAR(field.At({0.55, 0.55, 0}), 5, 1e-9);
-  EXPECT_NEAR(field.At({0.55, 1.55, 0}), 0, 1e-12);
+  EXPECT_NEAR(field.At(0, {2.55, 1.55, 0}), 4, 1e-9);
+  EXPECT_NEAR(field.At(0, {0.55, 0.55, 0}), 5, 1e-9);
+  EXPECT_NEAR(field.At(0, {0.55, 1.55, 0}), 0, 1e-12);
 }
 
 TEST(PoseFieldTest, ATurnTakesItsTime) {
   PoseField field = FieldTo({2, 1.5, 0}, {1, 1, 3}, Everywhere);
-  EXPECT_NEAR(field.At({2, 1.5, std::numbers::pi}), 3 * std::numbers::pi, 1e-9);
-  EXPECT_NEAR(field.At({2, 1.5, -std::numbers::pi / 2}), 1.5 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(field.At(0, {2, 1.5, std::numbers::pi}), 3 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(field.At(0, {2, 1.5, -std::numbers::pi / 2}), 1.5 * std::numbers::pi, 1e-9);
 }
 
 /// Sideways is dear: it is quicker to turn, walk and turn back.
 TEST(PoseFieldTest, ALongWayAsideIsWalked) {
   PoseField field = FieldTo({2, 0.05, 0}, {1, 100, 0.1}, Everywhere);
-  EXPECT_NEAR(field.At({2, 2.55, 0}), 2.5 + 0.1 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(field.At(0, {2, 2.55, 0}), 2.5 + 0.1 * std::numbers::pi, 1e-9);
 }
 
 TEST(PoseFieldTest, AGapThatIsOpenToOneHeadingIsPassedInIt) {
@@ -48,7 +51,7 @@ TEST(PoseFieldTest, AGapThatIsOpenToOneHeadingIsPassedInIt) {
   };
   PoseField field = FieldTo({3.55, 1.55, 0}, {1, 2, 0.5}, is_open);
   // To the wall and beyond it ahead, through it aside, and a quarter turn there and back.
-  const double time = field.At({0.55, 1.55, 0});
+  const double time = field.At(0, {0.55, 1.55, 0});
   EXPECT_GT(time, 3 + 0.5 * std::numbers::pi);
   EXPECT_LT(time, 3 + 0.5 * std::numbers::pi + 0.7);
 }
@@ -56,24 +59,45 @@ TEST(PoseFieldTest, AGapThatIsOpenToOneHeadingIsPassedInIt) {
 TEST(PoseFieldTest, WithoutAWayTheTimeIsInfinite) {
   const auto is_open = [](const PlanarPose& pose) { return pose.x < 2 || pose.x > 2.2; };
   PoseField field = FieldTo({3.5, 1.5, 0}, {1, 1, 1}, is_open);
-  EXPECT_TRUE(std::isinf(field.At({0.5, 1.5, 0})));
-  EXPECT_TRUE(std::isfinite(field.At({2.5, 0.5, 1})));
+  EXPECT_TRUE(std::isinf(field.At(0, {0.5, 1.5, 0})));
+  EXPECT_TRUE(std::isfinite(field.At(0, {2.5, 0.5, 1})));
 }
 
 TEST(PoseFieldTest, CancellationEndsIt) {
-  PoseField field(kRoom, 0.01, 0, {{2, 1.5, 0}}, {1, 1, 1}, Everywhere);
-  EXPECT_THROW(field.At({0.1, 0.1, 0}, CancellationToken([] { return false; })), Cancelled);
+  PoseField field(kRoom, 0.01, 0, {{{2, 1.5, 0}}}, {1, 1, 1}, EverywhereInAllLayers, {});
+  EXPECT_THROW(field.At(0, {0.1, 0.1, 0}, CancellationToken([] { return false; })), Cancelled);
 }
 
-TEST(PoseFieldTest, ClimbingTakesItsTimeUnlessItIsTooHigh) {
-  PoseField::Paces paces{2, 5, 1, 10, 0.2};
-  const auto height = [](const Eigen::Vector2d& p) {
-    return p.x() < 1 ? 0 : p.x() < 1.5 ? 0.15 : p.x() < 2 ? 0.05 : 3;
+/// A floor with a block on it. The ground alone takes 3 s from the floor onto the block.
+TEST(PoseFieldTest, BetweenLayersPassesWhatTheGroundTakes) {
+  PoseField::Ground ground;
+  ground.layers = 2;
+  ground.most = 4;
+  ground.time = [](int layer, const Eigen::Vector2d& p) {
+    const bool is_on_block = p.x() < 1;
+    if (layer == 1) return is_on_block ? 0 : std::numeric_limits<double>::infinity();
+    return 3.0;
   };
-  PoseField field(kRoom, kFieldCell, 0, {{0.55, 1.55, 0}}, paces, Everywhere, height);
-  EXPECT_NEAR(field.At({1.25, 1.55, 0}), 1.4 + 1.5, 1e-9);
-  EXPECT_NEAR(field.At({1.75, 1.55, 0}), 2.4 + 2.5, 1e-9);
-  EXPECT_NEAR(field.At({3.55, 1.55, 0}), 6 + 2.5, 1e-9);
+  const std::vector<PoseField::Goal> goals = {{{0.55, 1.55, 0}, 1}};
+  PoseField field(kRoom, kFieldCell, 0, goals, {2, 5, 1}, EverywhereInAllLayers, ground);
+  EXPECT_NEAR(field.At(1, {0.85, 1.55, 0}), 0.6, 1e-9);
+  EXPECT_NEAR(field.At(0, {0.85, 1.55, 0}), 3.6, 1e-9);
+  EXPECT_NEAR(field.At(0, {2.55, 1.55, 0}), 7, 1e-9);
+  EXPECT_TRUE(std::isinf(field.At(1, {2.55, 1.55, 0})));
+  ground.most = 2.9;
+  PoseField higher(kRoom, kFieldCell, 0, goals, {2, 5, 1}, EverywhereInAllLayers, ground);
+  EXPECT_TRUE(std::isinf(higher.At(0, {2.55, 1.55, 0})));
+}
+
+/// Where the ground is slow, poses are.
+TEST(PoseFieldTest, InALayerPassesWhatTheGroundTakes) {
+  PoseField::Ground ground;
+  ground.most = 10;
+  ground.time = [](int, const Eigen::Vector2d& p) { return 7 * p.x(); };
+  PoseField field(kRoom, kFieldCell, 0, {{{0.55, 1.55, 0}}}, {2, 5, 1}, EverywhereInAllLayers,
+                  ground);
+  EXPECT_NEAR(field.At(0, {2.55, 1.55, 0}), 14, 1e-9);
+  EXPECT_NEAR(field.At(0, {0.55, 2.55, 0}), 5, 1e-9);
 }
 
 /// Questions near the goal first, or the farthest one first: the answers are the same.
@@ -90,8 +114,8 @@ TEST(PoseFieldTest, AnswersDoNotDependOnTheOrderOfQuestions) {
   PoseField one = FieldTo({2, 1.5, 0}, {1, 3, 0.7}, is_open);
   PoseField other = FieldTo({2, 1.5, 0}, {1, 3, 0.7}, is_open);
   std::vector<double> times;
-  for (const PlanarPose& pose : poses) times.push_back(one.At(pose));
-  for (std::size_t i = poses.size(); i-- > 0;) EXPECT_EQ(other.At(poses[i]), times[i]);
+  for (const PlanarPose& pose : poses) times.push_back(one.At(0, pose));
+  for (std::size_t i = poses.size(); i-- > 0;) EXPECT_EQ(other.At(0, poses[i]), times[i]);
 }
 
 }  // namespace
