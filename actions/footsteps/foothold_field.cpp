@@ -42,6 +42,7 @@ FootholdField::FootholdField(const NominalStance& stance, const World& world,
       for (const Vector2d& p : stance.bearing_points[limb]) {
         sole.push_back(Eigen::Rotation2Dd(turn * kTurn) * (p - centre));
         radius_ = std::max(radius_, sole.back().norm());
+        if (turn == 0) width_ = std::max(width_, 2 * std::abs(sole.back().y()));
       }
       soles_.push_back(std::move(sole));
     }
@@ -61,6 +62,8 @@ void FootholdField::SizeGrid() {
   rows_ = static_cast<int>(std::ceil(bounds_.sizes().y() / cell_));
   const std::size_t cells = static_cast<std::size_t>(columns_) * rows_ * planes_.size();
   cells_.assign(cells, Cell::kUnknown);
+  fits_.assign(cells, 0);
+  layers_about_.resize(static_cast<std::size_t>(columns_) * rows_);
   times_.assign(cells, std::numeric_limits<double>::infinity());
   const int most = static_cast<int>(reach_ / cell_);
   for (int row = -most; row <= most; ++row) {
@@ -192,6 +195,64 @@ double FootholdField::TimeOf(const Place& place, const CancellationToken& cancel
     Visit(at);
   }
   return times_[index];
+}
+
+bool FootholdField::Fits(const Place& place, int turn) {
+  std::uint32_t& bits = fits_[IndexOf(place)];
+  const std::uint32_t fits = 1U << turn, known = fits << kTurns;
+  if (!(bits & known)) {
+    bits |= known;
+    const Vector2d centre = CentreOf(place);
+    const int plane = planes_[place.plane];
+    // Either limb's: they are alike but for their side.
+    const std::vector<Vector2d>& sole = soles_[turn];
+    const bool holds = std::all_of(sole.begin(), sole.end(), [&](const Vector2d& p) {
+      return world_.ground->Clearance(plane, centre + p) >= limits_.margin;
+    });
+    if (holds) bits |= fits;
+  }
+  return bits & fits;
+}
+
+const std::vector<int>& FootholdField::LayersAbout(const Place& place) {
+  std::vector<int>& about =
+      layers_about_[static_cast<std::size_t>(place.row) * columns_ + place.column];
+  if (about.empty()) {
+    about.push_back(-1);  // asked
+    for (int layer = 0; layer < static_cast<int>(planes_.size()); ++layer) {
+      if (world_.ground->IsNear(planes_[layer], CentreOf(place), reach_ / 2 + cell_)) {
+        about.push_back(layer);
+      }
+    }
+  }
+  return about;
+}
+
+bool FootholdField::Stands(int layer, const PlanarPose& middle, double gap) {
+  const Vector2d p = middle.position();
+  const double around = reach_ / 2 + cell_;
+  const double needed = width_ + gap;
+  if (world_.ground->OneFaceHolds(planes_[layer], p, p, needed)) return true;
+  const double z = world_.ground->planes()[planes_[layer]].HeightAt(p);
+  const int turn = static_cast<int>(std::lround(middle.yaw / kTurn)) & (kTurns - 1);
+  const Place centre = PlaceAt(layer, p);
+  const double sine = std::sin(middle.yaw), cosine = std::cos(middle.yaw);
+  double left = -around, right = around;
+  for (const int other : LayersAbout(centre)) {
+    if (other < 0) continue;
+    for (const Offset& offset : disc_) {
+      if (offset.distance > around) break;
+      const double beside = cell_ * (cosine * offset.row - sine * offset.column);
+      if (beside <= left && beside >= right) continue;
+      const Place at{other, centre.column + offset.column, centre.row + offset.row};
+      if (!IsInGrid(at.column, at.row) || !IsGround(at) || !Fits(at, turn)) continue;
+      if (std::abs(HeightOf(at) - z) > limits_.rise) continue;
+      left = std::max(left, beside);
+      right = std::min(right, beside);
+      if (left - right >= needed) return true;
+    }
+  }
+  return false;
 }
 
 double FootholdField::LongestStep() const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <queue>
 #include <vector>
@@ -44,6 +45,10 @@ class FootholdField {
   /// From the layer's ground nearest to the middle of a stance, s. Infinite if it is so far away
   /// that one cannot stand on it about that middle.
   double Near(int layer, const Eigen::Vector2d& p, const CancellationToken& cancellation = {});
+  /// Whether both limbs find ground about the middle of a stance, in its heading, so that one can
+  /// pass the other: their patches are beside each other, `gap` (m) apart. Knows ground as finely
+  /// as the cells are.
+  bool Stands(int layer, const PlanarPose& middle, double gap);
   /// The longest that one step takes, s.
   double LongestStep() const;
 
@@ -84,6 +89,10 @@ class FootholdField {
   double HeightOf(const Place& place) const;
   bool MayBear(const Place& place) const;
   bool IsGround(const Place& place);
+  /// Layers with ground on which one could stand about a place, and -1.
+  const std::vector<int>& LayersAbout(const Place& place);
+  /// A sole, turned so, with its centre at the cell's.
+  bool Fits(const Place& place, int turn);
   bool IsInside(const Place& place);
   void Offer(const Place& place, double time);
   void Visit(const Entry& at);
@@ -99,13 +108,16 @@ class FootholdField {
   StepTimes steps_;
   std::vector<std::vector<Eigen::Vector2d>> soles_;  ///< from their centres, turned
   double radius_ = 0;                                ///< m, of the soles
+  double width_ = 0;                                 ///< m, of the widest sole
   double reach_;                                     ///< m, of a step
   Eigen::AlignedBox2d bounds_;
   double cell_ = 0;  ///< m
   int columns_ = 0, rows_ = 0;
   std::vector<Offset> disc_;  ///< of a step, the nearest first
   std::vector<Cell> cells_;
-  std::vector<double> times_;  ///< final up to the time of the queue's first entry
+  std::vector<std::vector<int>> layers_about_;  ///< by place; empty: not asked yet
+  std::vector<std::uint32_t> fits_;  ///< by cell: a bit for each turn that fits, and that is known
+  std::vector<double> times_;        ///< final up to the time of the queue's first entry
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   std::size_t visited_ = 0;
 };

@@ -34,6 +34,7 @@ constexpr double kRounding = 1e-6;  // m and rad
 
 /// Patches keep this far from each other, m.
 constexpr double kPatchGap = 0.015;
+constexpr int kSwingSamples = 8;
 
 // Durations, s.
 constexpr double kLevelStep = 0.65;
@@ -282,7 +283,7 @@ struct FootstepSearch::Search {
     known.most = footholds.LongestStep();
     return PoseField(
         world.environment->bounds, CellSize(), headings.empty() ? 0 : headings.front(), places,
-        paces, [this](int layer, const PlanarPose& pose) { return TrunkMayBeAt(layer, pose); },
+        paces, [this](int layer, const PlanarPose& pose) { return MayStandAt(layer, pose); },
         known);
   }
 
@@ -356,9 +357,10 @@ struct FootstepSearch::Search {
     return std::max(kCell, std::sqrt(world.environment->bounds.sizes().prod() / kMostCells));
   }
 
-  bool TrunkMayBeAt(int layer, const PlanarPose& pose) const {
+  bool MayStandAt(int layer, const PlanarPose& pose) {
     const models::GroundPlane& plane = world.ground->planes()[ground.planes()[layer]];
-    return TrunkIsFree(pose, plane.HeightAt(pose.position()));
+    return TrunkIsFree(pose, plane.HeightAt(pose.position())) &&
+           footholds.Stands(layer, pose, kPatchGap);
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -433,6 +435,19 @@ struct FootstepSearch::Search {
     return checker.AreFree(trunk, middle.At(z));
   }
 
+  /// Whether a limb's patch keeps off the other one's on its way, seen from above: where it does
+  /// not, the legs hit each other, however high it is lifted.
+  bool PassesOther(int limb, const Foothold& from, const Foothold& to,
+                   const Foothold& other) const {
+    const std::vector<Vector2d> bearing = PatchAt(stance, 1 - limb, other.stance);
+    for (int i = 1; i < kSwingSamples; ++i) {
+      const PlanarPose at =
+          Interpolate(from.stance, to.stance, static_cast<double>(i) / kSwingSamples);
+      if (GapBetween(PatchAt(stance, limb, at), bearing) < kPatchGap) return false;
+    }
+    return true;
+  }
+
   /// Tests that cost more, when a node is first taken up.
   bool Test(Node* node, const Refusal& is_refused) {
     if (node->is_tested) return true;
@@ -440,6 +455,7 @@ struct FootstepSearch::Search {
     const int moved = 1 - node->next;
     const Foothold& from = nodes[node->parent].feet[moved];
     const Foothold& to = node->feet[moved];
+    if (!PassesOther(moved, from, to, node->feet[node->next])) return false;
     if (!TrunkIsFree(*node)) return false;
     const auto lift = ground.LiftBetween(moved, from, to, limits.clearance, limits.lift);
     if (!lift) return false;
@@ -731,8 +747,9 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
       search.TryBest(index);
       continue;
     }
-    if (!search.closed.insert(Search::KeyOf(search.nodes[index])).second) continue;
-    if (!search.Test(&search.nodes[index], is_refused)) continue;
+    const Search::Key key = Search::KeyOf(search.nodes[index]);
+    if (search.closed.contains(key) || !search.Test(&search.nodes[index], is_refused)) continue;
+    search.closed.insert(key);
     ++search.expanded;
     work += kPlacesPerState - 1;
     if (const int goal = Search::GoalAt(search.nodes[index]); goal >= 0) {

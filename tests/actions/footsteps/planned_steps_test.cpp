@@ -112,7 +112,7 @@ TEST_P(UnevenScenes, AreWalkedByPlannedSteps) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, UnevenScenes,
                          ::testing::Values("crack", "sill", "stones", "stairs", "ramp", "debris",
-                                           "height_map"));
+                                           "height_map", "rubble"));
 
 TEST(UnevenScenesAlone, FootstepsNeedNoOtherExplorer) {
   PlanRequest request;
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, UnevenTwins,
                          ::testing::Values("crack_infeasible", "sill_infeasible",
                                            "stones_infeasible", "stairs_infeasible",
                                            "ramp_infeasible", "debris_infeasible",
-                                           "doorway_infeasible"));
+                                           "doorway_infeasible", "rubble_infeasible"));
 
 }  // namespace
 }  // namespace possibility::actions
