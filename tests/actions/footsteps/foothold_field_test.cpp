@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tests/actions/footsteps/uneven_world.h"
@@ -66,7 +67,7 @@ TEST_F(FootholdFieldTest, AGapLongerThanAStepIsNotCrossed) {
 /// other unless one stands askew.
 TEST_F(FootholdFieldTest, OnANarrowBridgeOneStandsAskew) {
   UnevenWorld world;
-  world.Ground(-3, 4, 0, 0.15);
+  world.Ground(-3, 4, 0, 0.3);
   FootholdField field = FieldTo(&world, UnevenWorld::StanceAt(2));
   constexpr double kGap = 0.015;
   EXPECT_FALSE(field.Stands(0, {0, 0, 0}, kGap));
