@@ -231,8 +231,9 @@ class Tally {
   std::vector<std::vector<std::vector<double>>> seconds_;  // by round, measure, problem
 };
 
-void MeasureRound(std::vector<Contest>* contests) {
+void MeasureRound(std::vector<Contest>* contests, const std::function<void()>& advance) {
   for (Contest& contest : *contests) {
+    advance();
     for (const auto variant : {&Contest::ours, &Contest::mumps, &Contest::exact,
                                &Contest::limited_memory, &Contest::differences}) {
       (contest.*variant).Measure();
@@ -260,16 +261,19 @@ BenchmarkReport BenchCollocation(const models::RobotModel& robot,
   std::vector<RegressionProblem> problems = RegressionProblems();
   const std::size_t num_without_robot = problems.size();
   for (RegressionProblem& problem : RobotProblems(robot)) problems.push_back(std::move(problem));
+  const int steps = (1 + kRounds) * static_cast<int>(problems.size());
+  auto advance = [&, step = 0]() mutable { progress(step++, steps); };
   std::vector<Contest> contests;
   for (const RegressionProblem& problem : problems) {
+    advance();
     contests.push_back(ContestOf(problem, contests.size() >= num_without_robot));
   }
   Tally tally;
   for (int round = 0; round < kRounds; ++round) {
-    progress(round, kRounds);
-    MeasureRound(&contests);
+    MeasureRound(&contests, std::ref(advance));
     tally.AddRound(contests);
   }
+  progress(steps, steps);
   const double throughput = Throughput(problems);
   const auto spatial_step = BenchSpatialStep(robot, kSpatialGuesses, progress);
 

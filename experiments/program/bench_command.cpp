@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "common/stopwatch.h"
 #include "experiments/bench/bench_collocation.h"
 #include "experiments/bench/bench_confirmation.h"
 #include "experiments/bench/bench_dynamics.h"
@@ -61,11 +62,21 @@ const std::map<std::string, Bench>& Benches() {
   return benches;
 }
 
-/// Rewrites "round 3 of 15" on stderr, if it is a terminal.
-void ShowRound(int round, int rounds) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  PrintError("\rround {} of {}{}", round, rounds, round == rounds ? "\r\x1b[K" : "");
-}
+/// Rewrites "3 of 15, about 40 s left" on stderr, if it is a terminal.
+class ShownProgress {
+ public:
+  void Show(int done, int all) {
+    if (isatty(STDERR_FILENO) == 0) return;
+    if (done == 0) stopwatch_ = Stopwatch();
+    PrintError("\r\x1b[K");
+    if (done == all) return;
+    PrintError("{} of {}", done, all);
+    if (done > 0) PrintError(", about {:.0f} s left", stopwatch_.Seconds() * (all - done) / done);
+  }
+
+ private:
+  Stopwatch stopwatch_;
+};
 
 ExitCode RunBench(const BenchOptions& options) {
   const auto found = Benches().find(options.subject);
@@ -76,8 +87,10 @@ ExitCode RunBench(const BenchOptions& options) {
                                  fmt::join(known, ", "),
                                  models::DidYouMean(options.subject, known)));
   }
+  ShownProgress shown;
   const BenchmarkReport report =
-      found->second(options, models::LoadRobotModel(options.robot), &ShowRound);
+      found->second(options, models::LoadRobotModel(options.robot),
+                    [&shown](int done, int all) { shown.Show(done, all); });
   if (options.json) {
     PrintOut("{}\n", models::JsonText(report.Json()));
   } else {
