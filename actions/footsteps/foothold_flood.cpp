@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "actions/footsteps/swing_barriers.h"
+
 namespace possibility::actions {
 namespace {
 
@@ -60,6 +62,8 @@ FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
     soles_.push_back(std::move(sole));
   }
   SizeGrid();
+  FindBarriers();
+  FloodAir(starts);
   for (const GroundedStance& start : starts) ReachFrom(start);
   Flood(cancellation);
 }
@@ -82,6 +86,57 @@ void FootholdFlood::SizeGrid() {
   for (int row = 0; row <= radius; ++row) {
     half_widths_.push_back(static_cast<int>(std::sqrt(radius * radius - row * row)));
   }
+}
+
+/// A swing leads straight from one place to another. The trunk is within the world's bounds at
+/// both, half-way between the limbs.
+void FootholdFlood::FindBarriers() {
+  is_barred_.assign(static_cast<std::size_t>(columns_) * rows_, false);
+  const SwingBarriers barriers(stance_, world_, planes_, limits_, reach_);
+  if (barriers.empty()) return;
+  const double around = reach_ / 2 + stance_.X_SR.translation().head<2>().norm() +
+                        stance_.patch_centres[0].head<2>().norm() + cell_;
+  const Eigen::AlignedBox2d& bounds = world_.environment->bounds;
+  const Eigen::AlignedBox2d used(bounds.min() - Vector2d::Constant(around),
+                                 bounds.max() + Vector2d::Constant(around));
+  const Eigen::AlignedBox2d about = barriers.Bounds();
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const Vector2d centre = CentreOf({0, column, row});
+      is_barred_[IndexOf(column, row)] =
+          !used.contains(centre) || (about.contains(centre) && barriers.Fill(centre, cell_ / 2));
+    }
+  }
+}
+
+void FootholdFlood::FloodAir(const std::vector<GroundedStance>& starts) {
+  std::vector<bool> is_open(is_barred_.size(), false);
+  std::vector<Place> queue;
+  const auto open = [&](int column, int row) {
+    const std::size_t index = IndexOf(column, row);
+    if (is_open[index] || is_barred_[index]) return;
+    is_open[index] = true;
+    queue.push_back({0, column, row});
+  };
+  for (const GroundedStance& start : starts) {
+    for (const int limb : {0, 1}) {
+      const Vector2d centre = start.pose * Vector2d(stance_.patch_centres[limb].head<2>());
+      const Place at = PlaceAt(0, centre);
+      open(at.column, at.row);
+    }
+  }
+  while (!queue.empty()) {
+    const Place at = queue.back();
+    queue.pop_back();
+    for (int row = std::max(0, at.row - 1); row <= std::min(rows_ - 1, at.row + 1); ++row) {
+      for (int column = std::max(0, at.column - 1); column <= std::min(columns_ - 1, at.column + 1);
+           ++column) {
+        open(column, row);
+      }
+    }
+  }
+  is_open.flip();
+  is_barred_ = std::move(is_open);
 }
 
 FootholdFlood::Place FootholdFlood::PlaceAt(int plane, const Vector2d& p) const {
@@ -155,7 +210,8 @@ bool FootholdFlood::MayBear(const Sole& sole, int level, const Vector2d& centre)
 void FootholdFlood::Reach(const Place& place) {
   Cell& cell = At(place);
   if (cell != Cell::kUnknown) return;
-  cell = MayBear(place) ? Cell::kReached : Cell::kNoGround;
+  const bool is_barred = is_barred_[IndexOf(place.column, place.row)];
+  cell = !is_barred && MayBear(place) ? Cell::kReached : Cell::kNoGround;
   if (cell == Cell::kReached) queue_.push_back(place);
 }
 

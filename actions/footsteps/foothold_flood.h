@@ -16,8 +16,10 @@ namespace possibility::actions {
 /// once built.
 ///
 /// It floods the cells of a grid on every plane of the ground. A cell is ground if a sole may bear
-/// with its patch's centre in it. Ground that hangs together counts as reached as a whole, so
-/// between levels only cells at an edge have to be asked how far a step leads from there.
+/// with its patch's centre in it, and if that centre can get there without passing through
+/// obstacles that are too high for every swing (SwingBarriers). Ground that hangs together counts
+/// as reached as a whole, so between levels only cells at an edge have to be asked how far a step
+/// leads from there.
 class FootholdFlood {
  public:
   /// `planes`: of the ground, those that a foot may bear on. `starts`: both limbs bear there.
@@ -47,6 +49,12 @@ class FootholdFlood {
   };
 
   void SizeGrid();
+  void FindBarriers();
+  /// Where the centres of patches can get to, seen from above.
+  void FloodAir(const std::vector<GroundedStance>& starts);
+  std::size_t IndexOf(int column, int row) const {
+    return static_cast<std::size_t>(row) * columns_ + column;
+  }
   void ReachFrom(const GroundedStance& start);
   void Flood(const CancellationToken& cancellation);
   bool IsInGrid(int column, int row) const {
@@ -84,6 +92,7 @@ class FootholdFlood {
   int columns_ = 0, rows_ = 0;
   std::vector<int> half_widths_;          ///< of the disc of a step: cells, by rows from its centre
   std::vector<std::vector<Cell>> cells_;  ///< by plane
+  std::vector<bool> is_barred_;  ///< by cell, seen from above: no patch's centre gets there
   std::vector<Place> queue_;
 };
 

@@ -59,7 +59,7 @@ constexpr std::int64_t kPlacesPerState = 16;
 constexpr std::int64_t kWorkPerQuestion = 256;
 
 /// A search that goes on for so many states asks whether the ground can be reached at all.
-constexpr std::int64_t kStatesBeforeFlood = 1500;
+constexpr std::int64_t kStatesBeforeFlood = 500;
 
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
@@ -208,6 +208,7 @@ struct FootstepSearch::Search {
         limits(limits),
         world(world),
         starts(std::move(ends.starts)),
+        start_times(std::move(ends.start_times)),
         goals(std::move(ends.goals)),
         goal_times(std::move(ends.goal_times)),
         ground(*model.robot, stance, world, limits.margin),
@@ -217,16 +218,29 @@ struct FootstepSearch::Search {
         reaches(ReachesOf(*model.robot, stance, 0.97)),
         headings(SquareHeadingsOf(*world.environment)),
         root_over({RootOver(0), RootOver(1)}),
-        displacements({DisplacementsOf(0), DisplacementsOf(1)}),
-        footholds(stance, world, ground.planes(), limits, goals, goal_times, TimesOfSteps()),
-        field(FieldOf()) {
+        displacements({DisplacementsOf(0), DisplacementsOf(1)}) {
+    Begin(cancellation);
+  }
+
+  void Begin(const CancellationToken& cancellation) {
+    footholds.emplace(stance, world, ground.planes(), limits, goals, goal_times, TimesOfSteps());
+    field.emplace(FieldOf());
     for (std::size_t i = 0; i < starts.size(); ++i) {
       const int layer = LayerUnder(0, {starts[i].pose, starts[i].z});
       if (layer < 0) continue;
-      field.At(layer, starts[i].pose, cancellation);  // most of the field
-      Begin(layer, {starts[i].pose, starts[i].z},
-            ends.start_times.empty() ? 0 : ends.start_times[i]);
+      field->At(layer, starts[i].pose, cancellation);  // most of the field
+      Begin(layer, {starts[i].pose, starts[i].z}, start_times.empty() ? 0 : start_times[i]);
     }
+  }
+
+  /// Once nothing is left to search: begins again with fields that rule out less. Whether there is
+  /// anything to search then.
+  bool BeginAgain(const CancellationToken& cancellation) {
+    if (is_relaxed || second_best || !MayReachAGoal(cancellation)) return false;
+    is_relaxed = true;
+    closed.clear();
+    Begin(cancellation);
+    return !open.empty();
   }
 
   void Begin(int layer, const Foothold& start, double time) {
@@ -279,8 +293,8 @@ struct FootstepSearch::Search {
                                  2 * kLevelStep / limits.turn};
     PoseField::Ground known;
     known.layers = static_cast<int>(ground.planes().size());
-    known.time = [this](int layer, const Vector2d& p) { return footholds.Near(layer, p); };
-    known.most = footholds.LongestStep();
+    known.time = [this](int layer, const Vector2d& p) { return footholds->Near(layer, p); };
+    known.most = is_relaxed ? std::numeric_limits<double>::infinity() : footholds->LongestStep();
     return PoseField(
         world.environment->bounds, CellSize(), headings.empty() ? 0 : headings.front(), places,
         paces, [this](int layer, const PlanarPose& pose) { return MayStandAt(layer, pose); },
@@ -318,13 +332,14 @@ struct FootstepSearch::Search {
       for (std::size_t i = distances - 1; i > 0; --i) {
         times[i - 1] = std::min(times[i - 1], times[i]);
       }
+      // Places may be moved.
+      if (is_relaxed) {
+        const auto moved =
+            static_cast<std::ptrdiff_t>(std::ceil(FootholdGround::kMostShift / steps.spacing));
+        times.insert(times.begin(), moved, times.front());
+      }
       steps.times.push_back(std::move(times));
     }
-    if (getenv("TT"))
-      for (auto& t : steps.times) {
-        for (double v : t) fprintf(stderr, "%.1f ", v);
-        fprintf(stderr, "\n");
-      }
     return steps;
   }
 
@@ -349,7 +364,7 @@ struct FootstepSearch::Search {
   /// Whether no other goal seems quicker by way of this one.
   bool IsBest(int goal) {
     return TimeFrom(goal) <=
-           field.At(LayerUnder(0, {goals[goal].pose, goals[goal].z}), goals[goal].pose) + 1e-9;
+           field->At(LayerUnder(0, {goals[goal].pose, goals[goal].z}), goals[goal].pose) + 1e-9;
   }
 
   double CellSize() const {
@@ -360,7 +375,7 @@ struct FootstepSearch::Search {
   bool MayStandAt(int layer, const PlanarPose& pose) {
     const models::GroundPlane& plane = world.ground->planes()[ground.planes()[layer]];
     return TrunkIsFree(pose, plane.HeightAt(pose.position())) &&
-           footholds.Stands(layer, pose, kPatchGap);
+           (is_relaxed || footholds->Stands(layer, pose, kPatchGap));
   }
 
   static std::int32_t Quantised(double value, double size) {
@@ -390,7 +405,7 @@ struct FootstepSearch::Search {
   void Push(Node node) {
     const int moved = 1 - node.next;
     const double heuristic =
-        field.At(node.layers[moved], Middle(node)) + kLevelStep * StepsLeft(node);
+        field->At(node.layers[moved], Middle(node)) + kLevelStep * StepsLeft(node);
     if (!std::isfinite(heuristic)) return;
     open.push({node.cost + kGreed * heuristic, static_cast<int>(nodes.size()), false});
     nodes.push_back(std::move(node));
@@ -538,7 +553,7 @@ struct FootstepSearch::Search {
       const bool is_goal = place < static_cast<int>(goals.size());
       const int steps_left = !is_goal ? 2 : node.goals[1 - limb] == place ? 0 : 1;
       const double time =
-          field.At(layer, Interpolate(other.stance, *there, 0.5)) + kLevelStep * steps_left;
+          field->At(layer, Interpolate(other.stance, *there, 0.5)) + kLevelStep * steps_left;
       if (!std::isfinite(time)) continue;
       candidates.push_back({CostOf(node, foothold, node.squat) + kGreed * time, place});
     }
@@ -635,15 +650,17 @@ struct FootstepSearch::Search {
            std::abs(place.z - goals[goal].z) < 1e-9;
   }
 
-  /// Leaves nothing to search if no goal can be reached.
-  void AskFlood(const CancellationToken& cancellation) {
-    is_flooded = true;
-    if (world.environment->bounds.isEmpty()) return;
-    const FootholdFlood flood(stance, world, ground.planes(), limits, starts, cancellation);
-    const bool may_be_reached =
-        std::any_of(goals.begin(), goals.end(),
-                    [&](const GroundedStance& goal) { return flood.Reaches(goal); });
-    if (!may_be_reached) open = {};
+  /// False only if there is a proof that no steps lead to any goal. The flood is asked once.
+  bool MayReachAGoal(const CancellationToken& cancellation) {
+    if (!may_reach) {
+      may_reach = true;
+      if (!world.environment->bounds.isEmpty()) {
+        const FootholdFlood flood(stance, world, ground.planes(), limits, starts, cancellation);
+        may_reach = std::any_of(goals.begin(), goals.end(),
+                                [&](const GroundedStance& goal) { return flood.Reaches(goal); });
+      }
+    }
+    return *may_reach;
   }
 
   void Remember(int node, int goal) {
@@ -667,13 +684,13 @@ struct FootstepSearch::Search {
     }
     std::reverse(steps.begin(), steps.end());
     return steps;
-    return steps;
   }
 
   const NominalStance& stance;
   FootstepLimits limits;
   const World& world;
   std::vector<GroundedStance> starts;
+  std::vector<double> start_times;
   std::vector<GroundedStance> goals;
   std::vector<double> goal_times;
   std::optional<std::pair<int, int>> second_best;  ///< node and its goal
@@ -684,14 +701,15 @@ struct FootstepSearch::Search {
   std::vector<double> headings;
   std::array<Vector2d, 2> root_over;  ///< of the stance: the root over a limb that bears alone
   std::array<std::vector<PlanarPose>, 2> displacements;
-  FootholdField footholds;
-  PoseField field;
+  std::optional<FootholdField> footholds;
+  std::optional<PoseField> field;
   std::vector<Node> nodes;
   std::vector<Branch> branches;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   std::unordered_set<Key, HashOfKey> closed;
   std::int64_t expanded = 0;
-  bool is_flooded = false;
+  std::optional<bool> may_reach;  ///< unless not asked yet
+  bool is_relaxed = false;        ///< see BeginAgain
 };
 
 FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
@@ -735,11 +753,11 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
                                                const CancellationToken& cancellation) {
   Search& search = *search_;
   for (std::int64_t work = 0; work < states * kPlacesPerState; ++work) {
-    if (search.open.empty() || search.expanded >= most_states) return Exhausted();
-    if (search.expanded >= kStatesBeforeFlood && !search.is_flooded) {
-      search.AskFlood(cancellation);
-      continue;
+    if (search.expanded >= most_states) return Exhausted();
+    if (search.expanded >= kStatesBeforeFlood && !search.MayReachAGoal(cancellation)) {
+      return Exhausted();
     }
+    if (search.open.empty() && !search.BeginAgain(cancellation)) return Exhausted();
     if (work % kWorkPerQuestion == 0) cancellation.ThrowIfCancelled();
     const auto [value, index, is_branch] = search.open.top();
     search.open.pop();

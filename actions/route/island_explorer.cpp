@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
+#include "actions/footsteps/foothold_flood.h"
 
 namespace possibility::actions {
 namespace {
@@ -109,6 +110,7 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   }
   if (ends.starts.empty() || *islands_ >= kMostIslands) return false;
   beyond_ = StancesBeyond(cancellation);
+  DropUnreachable(ends.starts, cancellation);
   if (beyond_.empty()) return false;
   ends.goals = beyond_;
   for (const GroundedStance& stance : beyond_) ends.goal_times.push_back(TimeLeft(stance));
@@ -178,6 +180,17 @@ std::vector<GroundedStance> IslandExplorer::StancesBeyond(
     offer();
   }
   return beyond;
+}
+
+/// The search for steps heads for the best stance beyond: in vain if steps cannot lead there.
+void IslandExplorer::DropUnreachable(const std::vector<GroundedStance>& starts,
+                                     const CancellationToken& cancellation) {
+  const World& world = gait().world();
+  if (beyond_.empty() || world.environment->bounds.isEmpty()) return;
+  const FootholdFlood flood(lattice_.model->gaits[steps_.from()]->stance, world,
+                            GentlePlanes(*lattice_.model->robot, *world.ground), steps_.limits(),
+                            starts, cancellation);
+  std::erase_if(beyond_, [&](const GroundedStance& stance) { return !flood.Reaches(stance); });
 }
 
 bool IslandExplorer::IsKnown(const GroundedStance& stance) const {

@@ -46,6 +46,8 @@ class IslandExplorer : public graph::Explorer {
   graph::Findings CrossTo(const GroundedStance& from, const GroundedStance& to);
   bool BeginToLeave(const CancellationToken& cancellation);
   std::vector<GroundedStance> StancesBeyond(const CancellationToken& cancellation) const;
+  void DropUnreachable(const std::vector<GroundedStance>& starts,
+                       const CancellationToken& cancellation);
   bool IsKnown(const GroundedStance& stance) const;
   double TimeLeft(const GroundedStance& stance) const;
 

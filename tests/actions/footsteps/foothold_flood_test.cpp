@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <optional>
 #include <random>
 
 #include "tests/actions/footsteps/uneven_world.h"
@@ -143,6 +145,64 @@ TEST_F(FootholdFloodTest, AWideGapAHighStepAndSmallStonesAreDenied) {
     }
     EXPECT_EQ(IsReached(&wider, UnevenWorld::StanceAt(3)), size > 0.3);
   }
+}
+
+/// Boxes on level ground, some of which no swing passes. Every step places a foot where it is free,
+/// and swings it there without a hit.
+TEST_F(FootholdFloodTest, WhatSwingsReachBetweenBoxesIsNeverDenied) {
+  int steps = 0, denials = 0;
+  for (int terrain = 0; terrain < 12; ++terrain) {
+    UnevenWorld uneven;
+    uneven.Ground(-3, 6, 0);
+    for (int box = 0; box < 14; ++box) {
+      const double height = Random(0.05, 0.6);
+      uneven.Box({Random(0.02, 0.3), Random(0.1, 1.2), height},
+                 {Random(0, 4), Random(-1.2, 1.2), height / 2});
+      uneven.environment.obstacles.back().X_WO.linear() =
+          Eigen::AngleAxisd(Random(-3, 3), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    }
+    const World& world = uneven.Built();
+    const FootholdGround ground(DrcHubo1(), stance_, world, limits_.margin);
+    const GroundedStance start = UnevenWorld::StanceAt(-1);
+    const FootholdFlood flood = FloodOf(world, start);
+    std::array<Foothold, 2> feet;
+    feet.fill({start.pose, start.z});
+    int limb = 0;
+    for (int attempt = 0; attempt < 1500; ++attempt) {
+      Foothold place;
+      if (!Step(world, limb, feet[1 - limb], &place)) continue;
+      const std::optional<Foothold> there = ground.Place(limb, place.stance, 0);
+      if (!there || !world.environment->bounds.contains(there->stance.position())) continue;
+      if (!ground.LiftBetween(limb, feet[limb], *there, limits_.clearance, limits_.lift)) continue;
+      ASSERT_TRUE(flood.Reaches(limb, *there))
+          << "terrain " << terrain << ": " << there->stance.x << " " << there->stance.y;
+      feet[limb] = *there;
+      limb = 1 - limb;
+      ++steps;
+    }
+    denials += !flood.Reaches(UnevenWorld::StanceAt(4.5));
+  }
+  EXPECT_GT(steps, 1500);
+  EXPECT_LT(denials, 12);
+}
+
+/// Between walls, 2.4 m apart.
+TEST_F(FootholdFloodTest, ABeamHigherThanEverySwingIsDenied) {
+  const auto is_reached = [&](double height, double bottom, double width, double yaw) {
+    UnevenWorld world;
+    world.Ground(-4, 6, 0);
+    for (const double y : {-1.25, 1.25}) world.Box({10, 0.1, 1}, {1, y, 0.5});
+    world.Box({0.1, width, height - bottom}, {1, 0, (height + bottom) / 2});
+    world.environment.obstacles.back().X_WO.linear() =
+        Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    return IsReached(&world, UnevenWorld::StanceAt(3));
+  };
+  const double lift = limits_.lift;
+  EXPECT_FALSE(is_reached(lift + 0.02, 0, 3, 0));
+  EXPECT_FALSE(is_reached(lift + 0.02, 0, 4, 0.7));
+  EXPECT_TRUE(is_reached(lift - 0.01, 0, 3, 0));
+  EXPECT_TRUE(is_reached(lift + 0.02, 0.1, 3, 0));  // a foot may pass under it
+  EXPECT_TRUE(is_reached(lift + 0.02, 0, 1, 0));    // or beside it
 }
 
 TEST_F(FootholdFloodTest, GroundAboveOtherGroundIsReachedFromItsMiddle) {

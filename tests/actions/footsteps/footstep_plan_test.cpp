@@ -68,6 +68,19 @@ TEST_F(FootstepPlanTest, CrossesACrack) {
   ExpectSequence(start, goal);
 }
 
+/// Two planks at two heights: feet are never beside each other on one plane.
+TEST_F(FootstepPlanTest, WalksWithEachFootOnAPlankOfItsOwn) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(1.5, 4, 0);
+  const double side = stance_.patch_centres[0].y();
+  world.Add({1.5, 0.2, 0.5}, {0.75, side + 0.02, 0.04 - 0.25}, true);
+  world.Add({1.5, 0.2, 0.5}, {0.75, -side - 0.02, -0.02 - 0.25}, true);
+  const auto start = UnevenWorld::StanceAt(-1), goal = UnevenWorld::StanceAt(2.4);
+  ASSERT_EQ(Search(&world, start, goal), FootstepSearch::Status::kFound);
+  ExpectFootholds(world);
+  ExpectSequence(start, goal);
+}
+
 TEST_F(FootstepPlanTest, ClimbsStairs) {
   UnevenWorld world = UnevenWorld::Stairs(0.1);
   const auto start = UnevenWorld::StanceAt(-1), goal = UnevenWorld::StanceAt(3, 0.6);
