@@ -110,6 +110,7 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   }
   if (ends.starts.empty() || *islands_ >= kMostIslands) return false;
   beyond_ = StancesBeyond(cancellation);
+  if (!island_->IsThrough()) KeepNearer(reached);
   DropUnreachable(ends.starts, cancellation);
   if (beyond_.empty()) return false;
   ends.goals = beyond_;
@@ -180,6 +181,13 @@ std::vector<GroundedStance> IslandExplorer::StancesBeyond(
     offer();
   }
   return beyond;
+}
+
+/// Of an island too large to be explored, much of what seems beyond it is not.
+void IslandExplorer::KeepNearer(const std::vector<GroundedStance>& reached) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const GroundedStance& stance : reached) nearest = std::min(nearest, TimeLeft(stance));
+  std::erase_if(beyond_, [&](const GroundedStance& stance) { return TimeLeft(stance) >= nearest; });
 }
 
 /// The search for steps heads for the best stance beyond: in vain if steps cannot lead there.

@@ -46,6 +46,8 @@ class IslandExplorer : public graph::Explorer {
   graph::Findings CrossTo(const GroundedStance& from, const GroundedStance& to);
   bool BeginToLeave(const CancellationToken& cancellation);
   std::vector<GroundedStance> StancesBeyond(const CancellationToken& cancellation) const;
+  /// Only what is nearer to a goal than all that is `reached`.
+  void KeepNearer(const std::vector<GroundedStance>& reached);
   void DropUnreachable(const std::vector<GroundedStance>& starts,
                        const CancellationToken& cancellation);
   bool IsKnown(const GroundedStance& stance) const;

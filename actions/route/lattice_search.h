@@ -42,6 +42,8 @@ class LatticeSearch {
   /// Stances reached so far, in the order of the search. Manoeuvres that lead there may still be
   /// refuted.
   std::vector<GroundedStance> Reached() const;
+  /// Whether that is all there is, and not what `most_stances` allowed.
+  bool IsThrough() const { return open_.empty(); }
   /// Expected duration of the route to one of them: an index into Reached(); s.
   double TimeTo(int reached) const { return nodes_[reached_[reached]].cost; }
   /// That route.
