@@ -40,8 +40,8 @@ class AgreesLong(CheckCase):
 
     def test_all_scenarios(self):
         for scenario in ("three_routes_a", "three_routes_b", "three_routes_c", "hallway",
-                         "double_jump", "crack", "sill", "stones", "stairs", "ramp", "debris", "beam",
-                         "everything"):
+                         "double_jump", "crack", "sill", "stones", "stairs", "ramp", "debris", "rubble",
+                         "beam", "everything"):
             with self.subTest(scenario):
                 report = self.accepts(make_plan(scenario), "--rate", "200")
                 with open(os.path.join(make_plan(scenario), "plan.json"), encoding="utf-8") as file:
