@@ -51,7 +51,7 @@ constexpr double kEasyStride = 0.6;
 constexpr double kSecondsPerStride = 4;
 /// A step that is moved to where ground is may become longer than the family's; that is dear, s/m.
 constexpr double kSecondsPerMetreBeyond = 30;
-/// Expected by the field of poses, s/m: with high steps, low roots, and a second foot that follows.
+/// Expected by the field of footholds, s/m: high steps, low roots, a second foot that follows.
 constexpr double kSecondsPerMetreClimbed = 12;
 
 /// Work of one turn: a place that is tried counts as this share of a state.
