@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kTimeTolerance = 1e-9;   // s
+constexpr double kOrderTolerance = 1e-9;   // s
 constexpr double kLongestInterval = 1.0;  // s, between two knots
 constexpr double kQuaternionTolerance = 1e-6;
 constexpr double kLargestNumber = 1e6;  // SI, of q, v, a, tau, forces and impulses
@@ -68,7 +68,7 @@ void CheckPhase(const Phase& phase, const models::RobotModel& robot, int segment
   const int num_points = NumPoints(robot, phase, {segment, *end});
   CheckImpulses(phase, num_points, is_first, {segment, *end});
   const double start = phase.knots.front().t;
-  Require(std::abs(start - *end) <= kTimeTolerance, {segment, *end},
+  Require(std::abs(start - *end) <= kOrderTolerance, {segment, *end},
           fmt::format("time jumps to {} s", start));
   for (std::size_t i = 0; i < phase.knots.size(); ++i) {
     const Knot& knot = phase.knots[i];

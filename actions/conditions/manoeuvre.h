@@ -75,6 +75,10 @@ class Manoeuvre : public graph::NonholonomicAction {
   virtual std::vector<Phase> Motion(const graph::Edge& edge,
                                     const CancellationToken& cancellation) const = 0;
 
+  /// Whether `Motion` only returns what keeps off the robot itself and all obstacles, so that jobs
+  /// need not test it again.
+  virtual bool TestsItsMotions() const { return false; }
+
   /// Bounds that the floods may rely on; none unless overridden.
   virtual ManoeuvreBounds Bounds() const { return {}; }
 

@@ -21,6 +21,7 @@ graph::JobVerdict MotionJob::Run(graph::JobControl* control) {
   } catch (const MotionError& error) {
     return Decide(error.what());
   }
+  if (manoeuvre_.TestsItsMotions()) return Decide({});
   const models::RobotModel& robot = *manoeuvre_.model().robot;
   std::string hit = FirstSelfHit(robot, *checker_, motion, cancellation);
   if (hit.empty()) {

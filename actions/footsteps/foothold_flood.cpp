@@ -12,12 +12,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLeastCell = 0.03;   // m
-constexpr double kMostCells = 2.5e6;  // of all planes
-constexpr int kTurns = 60;
-constexpr double kTurn = 2 * std::numbers::pi / kTurns;
+constexpr double kLeastFloodCell = 0.03;   // m
+constexpr double kMostFloodCells = 2.5e6;  // of all planes
+constexpr int kFloodTurns = 60;
+constexpr double kFloodTurn = 2 * std::numbers::pi / kFloodTurns;
 constexpr double kRounding = 1e-5;  // m
-constexpr std::size_t kCellsPerQuestion = 1000;
+constexpr std::size_t kFloodCellsPerQuestion = 1000;
 
 }  // namespace
 
@@ -55,8 +55,8 @@ FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
     const Vector2d centre = stance.patch_centres[limb].head<2>();
     for (const Vector2d& p : stance.bearing_points[limb]) {
       sole.radius = std::max(sole.radius, (p - centre).norm());
-      for (int turn = 0; turn < kTurns; ++turn) {
-        sole.points.push_back(Eigen::Rotation2Dd(turn * kTurn) * (p - centre));
+      for (int turn = 0; turn < kFloodTurns; ++turn) {
+        sole.points.push_back(Eigen::Rotation2Dd(turn * kFloodTurn) * (p - centre));
       }
     }
     soles_.push_back(std::move(sole));
@@ -76,7 +76,7 @@ void FootholdFlood::SizeGrid() {
   bounds_ = {bounds_.min() - Vector2d::Constant(around),
              bounds_.max() + Vector2d::Constant(around)};
   const double area = bounds_.sizes().prod() * static_cast<double>(planes_.size());
-  cell_ = std::max(kLeastCell, std::sqrt(area / kMostCells));
+  cell_ = std::max(kLeastFloodCell, std::sqrt(area / kMostFloodCells));
   columns_ = static_cast<int>(std::ceil(bounds_.sizes().x() / cell_));
   rows_ = static_cast<int>(std::ceil(bounds_.sizes().y() / cell_));
   cells_.assign(planes_.size(),
@@ -192,14 +192,14 @@ bool FootholdFlood::MayBear(const Place& place) const {
 bool FootholdFlood::MayBear(const Sole& sole, int level, const Vector2d& centre) const {
   const models::GroundMap& ground = *world_.ground;
   if (ground.OneFaceHolds(level, centre, centre, sole.radius)) return true;
-  const double slack = cell_ / std::numbers::sqrt2 + sole.radius * kTurn / 2 + kRounding;
+  const double slack = cell_ / std::numbers::sqrt2 + sole.radius * kFloodTurn / 2 + kRounding;
   const double needed = limits_.margin - slack;
   if (!ground.IsNear(level, centre, sole.radius + std::max(0.0, -needed))) return false;
-  const std::size_t points = sole.points.size() / kTurns;
-  for (std::size_t turn = 0; turn < kTurns; ++turn) {
+  const std::size_t points = sole.points.size() / kFloodTurns;
+  for (std::size_t turn = 0; turn < kFloodTurns; ++turn) {
     bool fits = true;
     for (std::size_t i = 0; i < points && fits; ++i) {
-      const Vector2d at = centre + sole.points[i * kTurns + turn];
+      const Vector2d at = centre + sole.points[i * kFloodTurns + turn];
       fits = needed > 0 ? ground.Clearance(level, at) >= needed : ground.IsNear(level, at, -needed);
     }
     if (fits) return true;
@@ -267,7 +267,7 @@ void FootholdFlood::ReachFrom(const GroundedStance& start) {
 
 void FootholdFlood::Flood(const CancellationToken& cancellation) {
   for (std::size_t i = 0; i < queue_.size(); ++i) {
-    if (i % kCellsPerQuestion == 0) cancellation.ThrowIfCancelled();
+    if (i % kFloodCellsPerQuestion == 0) cancellation.ThrowIfCancelled();
     Expand(Place(queue_[i]));  // a copy: reaching moves the queue
   }
   queue_ = {};

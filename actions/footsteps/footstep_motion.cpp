@@ -26,6 +26,11 @@ constexpr double kSlowest = 2;
 constexpr double kKnotSpacing = 0.02;  // s
 constexpr int kLeastIntervals = 4;
 constexpr int kFilterPasses = 3;
+constexpr int kCoarseStride = 4;
+
+/// Of a rough motion: spacing, s, and how far its distances may be off, m.
+constexpr double kRoughGrid = 0.06;
+constexpr double kRoughness = 0.3e-3;
 
 /// Distances of links from each other, m: wanted, and enough. High steps bring thighs close to the
 /// pelvis.
@@ -95,10 +100,11 @@ void FootstepMotion::RequireSelfClearance(const std::vector<Phase>& motion, doub
   }
 }
 
-std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, const Style& style,
-                                           const Foothold& start,
-                                           const std::vector<Footstep>& steps,
-                                           const CancellationToken& cancellation) const {
+std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slowness,
+                                                  const Style& style, double grid,
+                                                  int filter_passes, const Foothold& start,
+                                                  const std::vector<Footstep>& steps,
+                                                  const CancellationToken& cancellation) const {
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
@@ -107,24 +113,66 @@ std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, 
   pattern.lean = style.lean;
   pattern.rise_time = kStart;
   pattern.height_spacing = style.spacing;
-  pattern.filter_passes = kFilterPasses;
+  pattern.grid = grid;
+  pattern.filter_passes = filter_passes;
+  pattern.coarse_stride = kCoarseStride;
   pattern.lifts.push_back(0);
   for (const Footstep& step : steps) {
     pattern.lifts.push_back(step.lift);
     pattern.lifts.push_back(0);
   }
+  return PatternPhases(*robot_, *stance_, ScheduleOf(slowness, start, steps), pattern,
+                       cancellation);
+}
+
+Eigen::VectorXd FootstepMotion::GuessAt(const Foothold& start) const {
+  Eigen::VectorXd guess = stance_->q;
+  guess.segment<2>(4) = start.stance.position();
+  guess[6] += start.z;
+  return guess;
+}
+
+void FootstepMotion::RequireRoughSelfClearance(const Style& style, const Foothold& start,
+                                               const std::vector<Footstep>& steps,
+                                               const CancellationToken& cancellation) const {
+  std::vector<Phase> motion;
+  try {
+    const auto phases = PhasesOf(std::vector<double>(steps.size(), 1), style, kRoughGrid, 1, start,
+                                 steps, cancellation);
+    WholeBodySolver solver(*robot_);
+    Eigen::VectorXd guess = GuessAt(start);
+    for (const MotionPhase& phase : phases) {
+      cancellation.ThrowIfCancelled();
+      motion.emplace_back();
+      const int intervals = std::max(1, static_cast<int>(std::ceil(phase.duration / kRoughGrid)));
+      for (int i = 0; i <= intervals; ++i) {
+        const double t = phase.duration * i / intervals;
+        const WholeBodyState state = solver.Solve(phase.task(t), guess);
+        Knot knot;
+        knot.t = t;
+        knot.q = state.q;
+        motion.back().knots.push_back(std::move(knot));
+        guess = i < intervals ? GuessAfter(state, phase.duration / intervals) : state.q;
+      }
+    }
+  } catch (const MotionError&) {
+    return;
+  }
+  RequireSelfClearance(motion, style.self_distance - kRoughness, static_cast<int>(steps.size()));
+}
+
+std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, const Style& style,
+                                           const Foothold& start,
+                                           const std::vector<Footstep>& steps,
+                                           const CancellationToken& cancellation) const {
   MotionSettings settings;
   settings.knot_spacing = kKnotSpacing;
   settings.torque_margin = style.torque_margin;
   settings.minimum_intervals = kLeastIntervals;
-  Eigen::VectorXd guess = stance_->q;
-  guess.segment<2>(4) = start.stance.position();
-  guess[6] += start.z;
   std::vector<Phase> motion =
       MotionBuilder(*robot_, settings)
-          .Build(PatternPhases(*robot_, *stance_, ScheduleOf(slowness, start, steps), pattern,
-                               cancellation),
-                 guess, cancellation);
+          .Build(PhasesOf(slowness, style, kKnotSpacing, kFilterPasses, start, steps, cancellation),
+                 GuessAt(start), cancellation);
   RequireSelfClearance(motion, style.self_distance, static_cast<int>(steps.size()));
   return motion;
 }
@@ -134,6 +182,7 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
                                            const CancellationToken& cancellation) const {
   const int count = static_cast<int>(steps.size());
   std::vector<double> slowness(steps.size(), 1);
+  RequireRoughSelfClearance(style, start, steps, cancellation);
   for (;;) {
     try {
       return BuildAt(slowness, style, start, steps, cancellation);

@@ -63,6 +63,15 @@ class FootstepMotion {
   std::vector<Phase> BuildAt(const std::vector<double>& slowness, const Style& style,
                              const Foothold& start, const std::vector<Footstep>& steps,
                              const CancellationToken& cancellation) const;
+  std::vector<MotionPhase> PhasesOf(const std::vector<double>& slowness, const Style& style,
+                                    double grid, int filter_passes, const Foothold& start,
+                                    const std::vector<Footstep>& steps,
+                                    const CancellationToken& cancellation) const;
+  Eigen::VectorXd GuessAt(const Foothold& start) const;
+  /// Of a rough motion, which takes a fraction of the time. Says nothing where that fails.
+  void RequireRoughSelfClearance(const Style& style, const Foothold& start,
+                                 const std::vector<Footstep>& steps,
+                                 const CancellationToken& cancellation) const;
   models::ContactSchedule ScheduleOf(const std::vector<double>& slowness, const Foothold& start,
                                      const std::vector<Footstep>& steps) const;
   void RequireSelfClearance(const std::vector<Phase>& motion, double distance, int steps) const;

@@ -12,6 +12,7 @@
 #include "actions/footsteps/foothold_field.h"
 #include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/pose_field.h"
+#include "actions/footsteps/step_reach.h"
 #include "actions/motion/limb_bend.h"
 #include "actions/motion/support_polygon.h"
 
@@ -30,16 +31,16 @@ constexpr double kSameHeight = 0.005;
 /// the other one.
 constexpr double kCoarser = 3;
 
-constexpr double kRounding = 1e-6;  // m and rad
+constexpr double kFamilyRounding = 1e-6;  // m and rad
 
 /// Patches keep this far from each other, m.
 constexpr double kPatchGap = 0.015;
-constexpr int kSwingSamples = 8;
+constexpr int kPassingSamples = 8;
 
 // Durations, s.
 constexpr double kLevelStep = 0.65;
 constexpr double kHighStep = 1.2;
-constexpr double kSecondsPerMetreUp = 2;
+constexpr double kSecondsPerMetreLifted = 2;
 
 /// A low root needs torque. Steps that need one lower than kEasySquat (m) below the nominal posture
 /// count as slower, s/m.
@@ -63,14 +64,14 @@ constexpr std::int64_t kStatesBeforeFlood = 500;
 
 /// Of the field of poses, m.
 constexpr double kCell = 0.06;
-constexpr double kMostCells = 100e3;  // seen from above; in larger places cells are larger
+constexpr double kMostPoseCells = 100e3;  // seen from above; in larger places cells are larger
 /// The part of the body that is tested while limbs step: above this share of the root's height.
 constexpr double kTrunkFrom = 0.5;
 
 /// Steps of the family, in shares of its limits.
 constexpr double kAhead[] = {1, 0.88, 0.76, 0.64, 0.5, 0.36, 0.2, 0, -0.25, -0.5};
 constexpr double kAside[] = {0, 0.35, 0.7, 1};
-constexpr double kTurns[] = {0, 0.5, -0.5, 1, -1};
+constexpr double kTurning[] = {0, 0.5, -0.5, 1, -1};
 
 std::vector<Vector2d> PatchAt(const NominalStance& stance, int limb, const PlanarPose& at) {
   std::vector<Vector2d> points;
@@ -138,7 +139,7 @@ FootstepLimits FootstepLimits::Of(const models::RobotModel& robot, const Nominal
 
 double ExpectedDuration(const Footstep& step) {
   const double height = step.lift + step.ChangeOfHeight();
-  return height > 0 ? kHighStep + kSecondsPerMetreUp * height : kLevelStep;
+  return height > 0 ? kHighStep + kSecondsPerMetreLifted * height : kLevelStep;
 }
 
 bool FootstepSearch::Knows(const models::Gait& gait) {
@@ -215,9 +216,8 @@ struct FootstepSearch::Search {
         checker(*world.environment),
         trunk(Above(model.gaits[gait]->volumes.standing,
                     kTrunkFrom * stance.gait->posture.root_height, limits.trunk_margin)),
-        reaches(ReachesOf(*model.robot, stance, 0.97)),
+        reach(*model.robot, stance),
         headings(SquareHeadingsOf(*world.environment)),
-        root_over({RootOver(0), RootOver(1)}),
         displacements({DisplacementsOf(0), DisplacementsOf(1)}) {
     Begin(cancellation);
   }
@@ -255,21 +255,13 @@ struct FootstepSearch::Search {
     }
   }
 
-  Vector2d RootOver(int limb) const {
-    const SupportPolygon patch(stance.bearing_points[limb]);
-    const Vector2d shift =
-        patch.Nearest(stance.centre_of_mass, stance.gait->parameters.com_margin) -
-        stance.centre_of_mass;
-    return Vector2d(stance.X_SR.translation().head<2>()) + shift;
-  }
-
   /// Displacements of a limb's stance in the other's that leave a gap between the patches.
   std::vector<PlanarPose> DisplacementsOf(int limb) const {
     std::vector<PlanarPose> result;
     const double side =
         stance.patch_centres[limb].y() > stance.patch_centres[1 - limb].y() ? 1 : -1;
     const std::vector<Vector2d> other = PatchAt(stance, 1 - limb, {});
-    for (const double turn : kTurns) {
+    for (const double turn : kTurning) {
       for (const double ahead : kAhead) {
         for (const double aside : kAside) {
           if (std::abs(ahead) + 0.6 * aside + 0.6 * std::abs(turn) > 1.3) continue;
@@ -369,7 +361,7 @@ struct FootstepSearch::Search {
 
   double CellSize() const {
     if (world.environment->bounds.isEmpty()) return kCell;
-    return std::max(kCell, std::sqrt(world.environment->bounds.sizes().prod() / kMostCells));
+    return std::max(kCell, std::sqrt(world.environment->bounds.sizes().prod() / kMostPoseCells));
   }
 
   bool MayStandAt(int layer, const PlanarPose& pose) {
@@ -414,23 +406,9 @@ struct FootstepSearch::Search {
   /// How much lower than easy the root has to be for a limb to reach a place while the other one
   /// bears, m; at least 0. None if that is too low.
   std::optional<double> Squat(int limb, const Foothold& place, const Foothold& other) const {
-    const std::optional<double> highest = HighestRoot(limb, place, other);
+    const std::optional<double> highest = reach.HighestRoot(limb, place, other);
     if (!highest || *highest < limits.lowest_root) return std::nullopt;
     return std::max(0.0, stance.gait->posture.root_height - kEasySquat - *highest);
-  }
-
-  /// Above the other limb's ground, while that one bears and this limb reaches a place, m. None if
-  /// it does not reach it.
-  std::optional<double> HighestRoot(int limb, const Foothold& place, const Foothold& other) const {
-    if (!reaches[limb]) return std::numeric_limits<double>::infinity();
-    const Vector2d root = other.stance * root_over[1 - limb];
-    const double yaw = other.stance.yaw + WrapAngle(place.stance.yaw - other.stance.yaw) / 2;
-    const Vector2d centre = place.stance * Vector2d(stance.patch_centres[limb].head<2>());
-    const auto highest =
-        reaches[limb]->HighestRoot({root.x(), root.y(), yaw}, {centre.x(), centre.y(), place.z},
-                                   FrameOf(stance, limb, place).linear());
-    if (!highest) return std::nullopt;
-    return *highest - other.z;
   }
 
   /// At the node, and on the way to it.
@@ -455,9 +433,9 @@ struct FootstepSearch::Search {
   bool PassesOther(int limb, const Foothold& from, const Foothold& to,
                    const Foothold& other) const {
     const std::vector<Vector2d> bearing = PatchAt(stance, 1 - limb, other.stance);
-    for (int i = 1; i < kSwingSamples; ++i) {
+    for (int i = 1; i < kPassingSamples; ++i) {
       const PlanarPose at =
-          Interpolate(from.stance, to.stance, static_cast<double>(i) / kSwingSamples);
+          Interpolate(from.stance, to.stance, static_cast<double>(i) / kPassingSamples);
       if (GapBetween(PatchAt(stance, limb, at), bearing) < kPatchGap) return false;
     }
     return true;
@@ -476,6 +454,19 @@ struct FootstepSearch::Search {
     if (!lift) return false;
     node->lift = *lift;
     return !is_refused || !is_refused({moved, from, to, *lift}, node->feet[node->next]);
+  }
+
+  std::optional<Footstep> StepBetween(int limb, const Foothold& from, const Foothold& to,
+                                      const Foothold& other) const {
+    if (!Squat(limb, from, other) || !Squat(limb, to, other)) return std::nullopt;
+    if (GapBetween(PatchAt(stance, limb, to.stance), PatchAt(stance, 1 - limb, other.stance)) <
+            kPatchGap ||
+        !PassesOther(limb, from, to, other)) {
+      return std::nullopt;
+    }
+    const auto lift = ground.LiftBetween(limb, from, to, limits.clearance, limits.lift);
+    if (!lift) return std::nullopt;
+    return Footstep{limb, from, to, *lift};
   }
 
   /// Places that the limb which moves next may try: goals, displacements at square headings, and
@@ -627,10 +618,10 @@ struct FootstepSearch::Search {
   bool IsWithin(int limb, const PlanarPose& displacement) const {
     const double side =
         stance.patch_centres[limb].y() > stance.patch_centres[1 - limb].y() ? 1 : -1;
-    return std::abs(displacement.x) <= limits.forward + kRounding &&
+    return std::abs(displacement.x) <= limits.forward + kFamilyRounding &&
            side * displacement.y >= -0.1 * limits.lateral &&
-           side * displacement.y <= limits.lateral + kRounding &&
-           std::abs(WrapAngle(displacement.yaw)) <= limits.turn + kRounding;
+           side * displacement.y <= limits.lateral + kFamilyRounding &&
+           std::abs(WrapAngle(displacement.yaw)) <= limits.turn + kFamilyRounding;
   }
 
   /// Index of the goal in which both limbs stand; -1 if there is none.
@@ -668,13 +659,6 @@ struct FootstepSearch::Search {
     second_best.emplace(node, goal);
   }
 
-  double HighestRootOf(const Footstep& step, const Foothold& other) const {
-    const auto root = [&](const Foothold& place) {
-      return HighestRoot(step.limb, place, other).value_or(limits.lowest_root);
-    };
-    return std::min(root(step.from), root(step.to));
-  }
-
   std::vector<Footstep> StepsTo(int index) const {
     std::vector<Footstep> steps;
     for (; nodes[index].parent >= 0; index = nodes[index].parent) {
@@ -697,9 +681,8 @@ struct FootstepSearch::Search {
   FootholdGround ground;
   models::CollisionChecker checker;
   models::UprightBoxes trunk;
-  std::vector<std::optional<LimbReach>> reaches;
+  StepReach reach;
   std::vector<double> headings;
-  std::array<Vector2d, 2> root_over;  ///< of the stance: the root over a limb that bears alone
   std::array<std::vector<PlanarPose>, 2> displacements;
   std::optional<FootholdField> footholds;
   std::optional<PoseField> field;
@@ -727,11 +710,13 @@ FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const Wor
 
 FootstepSearch::~FootstepSearch() = default;
 
-double FootstepSearch::HighestRoot(const Footstep& step, const Foothold& other) const {
-  return search_->HighestRootOf(step, other);
-}
-
 std::int64_t FootstepSearch::states() const { return search_->expanded; }
+
+std::optional<Footstep> FootstepSearch::StepBetween(int limb, const Foothold& from,
+                                                    const Foothold& to,
+                                                    const Foothold& other) const {
+  return search_->StepBetween(limb, from, to, other);
+}
 
 FootstepSearch::Status FootstepSearch::Answer(int node, int goal) {
   goal_ = goal;

@@ -10,7 +10,6 @@
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/footsteps/foothold_ground.h"
-#include "actions/motion/limb_reach.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::actions {
@@ -84,9 +83,10 @@ class FootstepSearch {
   const GroundedStance& start() const { return start_; }         ///< of the steps; once found
   std::int64_t states() const;                                   ///< expanded so far
 
-  /// How high the root can be, at most, all through a step while the other limb bears at `other`, m
-  /// above its ground.
-  double HighestRoot(const Footstep& step, const Foothold& other) const;
+  /// A step from place to place, with its lift, while the other limb bears at `other`. None if the
+  /// limb does not reach, or hits the other one or an obstacle.
+  std::optional<Footstep> StepBetween(int limb, const Foothold& from, const Foothold& to,
+                                      const Foothold& other) const;
 
   std::int64_t most_states = 8000;
   /// Steps that must not be taken. `other`: where the other limb bears meanwhile.

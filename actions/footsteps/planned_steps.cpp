@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actions/footsteps/step_refusals.h"
 #include "actions/motion/motion_collision.h"
 
 namespace possibility::actions {
@@ -14,7 +13,7 @@ namespace {
 // Effort of one job.
 constexpr int kAttempts = 24;           // sequences of steps
 constexpr std::int64_t kStates = 4000;  // expanded in each search
-constexpr std::int64_t kStatesPerTurn = 50;
+constexpr std::int64_t kStatesPerQuestion = 50;
 
 // Where the robot hits something, the swing is raised, and then the trunk kept away; m.
 constexpr double kRaise = 0.03;
@@ -30,10 +29,13 @@ constexpr int kMostTaller = 2;
 /// Farthest ends of an edge, m.
 constexpr double kFarthest = 30;
 
+/// Edges whose ends differ by less are the same: routes compute ends anew. m and rad.
+constexpr double kSameEnd = 1e-7;
+
 // Of the expected duration, s.
 constexpr double kToStartAndStop = 2.5;
 constexpr double kSecondsPerMetre = 2.2;
-constexpr double kSecondsPerMetreUp = 12;
+constexpr double kSecondsPerMetreRisen = 12;
 
 Foothold OtherAt(const GroundedStance& start, const std::vector<Footstep>& steps, int step) {
   for (int i = step - 1; i >= 0; --i) {
@@ -47,6 +49,7 @@ Foothold OtherAt(const GroundedStance& start, const std::vector<Footstep>& steps
 PlannedSteps::PlannedSteps(const PlanningContext& context, int gait)
     : Manoeuvre(context, NameOf(context.model->gaits[gait]->gait), gait, gait),
       limits_(FootstepLimits::Of(*context.model->robot, context.model->gaits[gait]->stance)),
+      reach_(*context.model->robot, context.model->gaits[gait]->stance),
       motion_(*context.model->robot, context.model->gaits[gait]->stance) {}
 
 bool PlannedSteps::CN(const graph::Edge& edge) const {
@@ -60,7 +63,7 @@ bool PlannedSteps::CN(const graph::Edge& edge) const {
 double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
   const Eigen::Vector3d way = (edge.to - edge.from).head<3>();
   return kToStartAndStop + kSecondsPerMetre * way.head<2>().norm() +
-         kSecondsPerMetreUp * std::abs(way.z());
+         kSecondsPerMetreRisen * std::abs(way.z());
 }
 
 std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
@@ -89,7 +92,43 @@ std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vec
   }
 }
 
+PlannedSteps::EdgeKey PlannedSteps::KeyOf(const graph::Edge& edge) {
+  EdgeKey key;
+  for (const graph::Point* end : {&edge.from, &edge.to}) {
+    for (const double number : *end) key.push_back(std::llround(number / kSameEnd));
+  }
+  return key;
+}
+
+void PlannedSteps::Suggest(const graph::Edge& edge, std::vector<Footstep> steps) const {
+  const std::lock_guard lock(mutex_);
+  suggested_.insert_or_assign(KeyOf(edge), std::move(steps));
+}
+
+std::vector<Footstep> PlannedSteps::SuggestedFor(const EdgeKey& key) const {
+  const std::lock_guard lock(mutex_);
+  const auto suggested = suggested_.find(key);
+  return suggested == suggested_.end() ? std::vector<Footstep>() : suggested->second;
+}
+
+std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const GroundedStance& to,
+                                           const FootstepLimits& limits,
+                                           const StepRefusals& refusals,
+                                           const CancellationToken& cancellation) const {
+  FootstepSearch search(model(), this->from(), world(), from, {to}, limits, cancellation);
+  search.most_states = kStates;
+  search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
+    return refusals.Refuses(step, other);
+  };
+  FootstepSearch::Status status = FootstepSearch::Status::kSearching;
+  while (status == FootstepSearch::Status::kSearching) {
+    status = search.Advance(kStatesPerQuestion, cancellation);
+  }
+  return status == FootstepSearch::Status::kFound ? search.steps() : std::vector<Footstep>();
+}
+
 PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const GroundedStance& to,
+                                         std::vector<Footstep> steps,
                                          const CancellationToken& cancellation) const {
   StepRefusals refusals;
   FootstepLimits limits = limits_;
@@ -98,23 +137,17 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
   const double upright = stance().gait->posture.root_height;
   int taller = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    FootstepSearch search(model(), this->from(), world(), from, {to}, limits, cancellation);
-    search.most_states = kStates;
-    search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
-      return refusals.Refuses(step, other);
-    };
-    FootstepSearch::Status status = FootstepSearch::Status::kSearching;
-    while (status == FootstepSearch::Status::kSearching) {
-      status = search.Advance(kStatesPerTurn, cancellation);
-    }
-    if (status == FootstepSearch::Status::kExhausted) {
-      if (limits.lowest_root == limits_.lowest_root) return outcome;
-      limits.lowest_root = limits_.lowest_root;
-      taller = kMostTaller;
-      continue;
+    if (attempt > 0 || steps.empty()) {
+      steps = Search(from, to, limits, refusals, cancellation);
+      if (steps.empty()) {
+        if (limits.lowest_root == limits_.lowest_root) return outcome;
+        limits.lowest_root = limits_.lowest_root;
+        taller = kMostTaller;
+        continue;
+      }
     }
     try {
-      outcome.motion = FreeMotion(from, search.steps(), cancellation);
+      outcome.motion = FreeMotion(from, steps, cancellation);
       outcome.fault.clear();
       return outcome;
     } catch (const FootstepError& error) {
@@ -124,10 +157,10 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
         limits.trunk_margin += kAway;
         continue;
       }
-      const Footstep& step = search.steps()[error.step()];
-      const Foothold other = OtherAt(from, search.steps(), error.step());
+      const Footstep& step = steps[error.step()];
+      const Foothold other = OtherAt(from, steps, error.step());
       refusals.Add(step, other);
-      const double root = search.HighestRoot(step, other);
+      const double root = reach_.HighestRoot(step, other).value_or(limits.lowest_root);
       if (root < upright && taller < kMostTaller) {
         ++taller;
         limits.lowest_root = std::max(limits.lowest_root, std::min(root + kTaller, upright));
@@ -142,8 +175,7 @@ std::vector<Phase> PlannedSteps::Motion(const graph::Edge& edge,
   const std::optional<GroundedStance> from = LaunchStance(edge.from);
   const std::optional<GroundedStance> to = LandingStance(edge.to);
   if (!from || !to) throw MotionError("the edge is no '" + name() + "'");
-  std::vector<double> key(edge.from.data(), edge.from.data() + edge.from.size());
-  key.insert(key.end(), edge.to.data(), edge.to.data() + edge.to.size());
+  const EdgeKey key = KeyOf(edge);
   {
     const std::lock_guard lock(mutex_);
     const auto known = outcomes_.find(key);
@@ -152,7 +184,7 @@ std::vector<Phase> PlannedSteps::Motion(const graph::Edge& edge,
       return known->second.motion;
     }
   }
-  Outcome outcome = Plan(*from, *to, cancellation);
+  Outcome outcome = Plan(*from, *to, SuggestedFor(key), cancellation);
   const std::lock_guard lock(mutex_);
   const Outcome& kept = outcomes_.emplace(key, std::move(outcome)).first->second;
   if (!kept.fault.empty()) throw MotionError(kept.fault);

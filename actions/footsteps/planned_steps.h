@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>
@@ -8,6 +9,8 @@
 #include "actions/conditions/manoeuvre.h"
 #include "actions/footsteps/footstep_motion.h"
 #include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/step_reach.h"
+#include "actions/footsteps/step_refusals.h"
 
 namespace possibility::actions {
 
@@ -45,26 +48,45 @@ class PlannedSteps final : public Manoeuvre {
   std::vector<Phase> Motion(const graph::Edge& edge,
                             const CancellationToken& cancellation) const override;
 
+  bool TestsItsMotions() const override { return true; }
+
+  /// Steps that a search has found from one end of an edge to the other: its job tries them first,
+  /// and searches others only if they are beyond the robot. To be called before the edge is
+  /// proposed; once an edge is planned, it stays as it is.
+  void Suggest(const graph::Edge& edge, std::vector<Footstep> steps) const;
+
   const FootstepLimits& limits() const { return limits_; }
 
  private:
+  using EdgeKey = std::vector<std::int64_t>;  ///< both ends, rounded
+
   /// What is known of an edge.
   struct Outcome {
     std::vector<Phase> motion;
     std::string fault;  ///< why there is none; empty if there is one
   };
 
-  Outcome Plan(const GroundedStance& from, const GroundedStance& to,
+  static EdgeKey KeyOf(const graph::Edge& edge);
+  std::vector<Footstep> SuggestedFor(const EdgeKey& key) const;
+  /// `steps`: to begin with; empty: none are known.
+  Outcome Plan(const GroundedStance& from, const GroundedStance& to, std::vector<Footstep> steps,
                const CancellationToken& cancellation) const;
   /// Raises swings that hit something. @throws FootstepError, Cancelled.
   std::vector<Phase> FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
                                 const CancellationToken& cancellation) const;
   const NominalStance& stance() const { return model().gaits[from()]->stance; }
 
+  /// Empty if none are found.
+  std::vector<Footstep> Search(const GroundedStance& from, const GroundedStance& to,
+                               const FootstepLimits& limits, const StepRefusals& refusals,
+                               const CancellationToken& cancellation) const;
+
   FootstepLimits limits_;
+  StepReach reach_;
   FootstepMotion motion_;
   mutable std::mutex mutex_;
-  mutable std::map<std::vector<double>, Outcome> outcomes_;  ///< by both ends
+  mutable std::map<EdgeKey, Outcome> outcomes_;
+  mutable std::map<EdgeKey, std::vector<Footstep>> suggested_;
 };
 
 }  // namespace possibility::actions

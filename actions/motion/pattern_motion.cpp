@@ -102,7 +102,7 @@ class Pattern {
     GuessRoots();
     for (int pass = 0; pass < settings_.filter_passes; ++pass) {
       if (KeepsReach()) KeepReach(pass == 0 ? kGuessedStretch : kStretch);
-      Filter(cancellation);
+      Filter(pass + 1 < settings_.filter_passes ? settings_.coarse_stride : 1, cancellation);
       SolveCentreOfMass();
     }
     if (KeepsReach()) KeepReach(kStretch);
@@ -432,22 +432,34 @@ class Pattern {
     return kinematics.CentreOfMass().z() + settings_.rise;
   }
 
-  /// The true zero moment point at every knot, minus the pendulum's.
-  void Filter(const CancellationToken& cancellation) {
+  /// The true zero moment point at every knot, minus the pendulum's. It is computed at one knot of
+  /// `stride`, and on straight lines between them.
+  void Filter(int stride, const CancellationToken& cancellation) {
     WholeBodySolver solver(robot_);
     dynamics::MultibodyDynamics dynamics(UncoupledModel(robot_));
     VectorXd q = stance_.q;
     q.segment<2>(4) = intervals_.front().zmp_from.head<2>();
-    for (int i = 0; i <= steps_; ++i) {
+    for (int i = 0, last = -1; last < steps_; last = i, i = std::min(i + stride, steps_)) {
       cancellation.ThrowIfCancelled();
       const double t = std::min(i * h_, duration_);
       const int k = IntervalAt(t);
       const WholeBodyState state = SolveAt(k, t, q, &solver);
       to_root_.col(i) = state.q.segment<2>(4) - CentreOfMass(t).value;
-      q = GuessAfter(state, h_);
+      q = GuessAfter(state, std::min(stride, steps_ - i) * h_);
       dynamics.SetState(state.q, state.v, state.a);
       error_.col(i) = RequiredZeroMomentPoint(&dynamics, ReferenceZmp(t).z()) -
                       Vector2d(x_->Zmp(i), y_->Zmp(i));
+      if (last >= 0) {
+        FillBetween(last, i, &to_root_);
+        FillBetween(last, i, &error_);
+      }
+    }
+  }
+
+  static void FillBetween(int from, int to, Eigen::Matrix2Xd* columns) {
+    for (int i = from + 1; i < to; ++i) {
+      const double s = static_cast<double>(i - from) / (to - from);
+      columns->col(i) = (1 - s) * columns->col(from) + s * columns->col(to);
     }
   }
 

@@ -19,7 +19,10 @@ struct PatternSettings {
       0.05;               ///< wanted distance of the zero moment point from the support's edge, m
   double grid = 0.02;     ///< s, at most, between knots of the centre of mass
   int filter_passes = 2;  ///< corrections of the pendulum by the whole robot's dynamics
-  double rise = 0;        ///< m: height of the root above the stance's, between start and end
+  /// Corrections before the last one look at one knot of so many: they are only roughly right
+  /// anyway.
+  int coarse_stride = 1;
+  double rise = 0;  ///< m: height of the root above the stance's, between start and end
   /// The root is lowered where the limbs need it to reach their places; `rise` is then the most
   /// that it is higher. Always so on uneven ground, and with `lifts`.
   bool keeps_reach = false;

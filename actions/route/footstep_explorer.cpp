@@ -1,5 +1,6 @@
 #include "actions/route/footstep_explorer.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -13,6 +14,8 @@ constexpr std::int64_t kStatesPerTurn = 50;
 
 /// Of a manoeuvre of planned steps, s: coming to rest and starting again.
 constexpr double kStop = 2.5;
+
+constexpr double kArrived = 1e-9;  // m and rad
 
 }  // namespace
 
@@ -64,17 +67,20 @@ bool FootstepExplorer::OnRefuted() {
 
 /// The start, the stances on the way that meet C_S, and the goal.
 std::vector<FootstepExplorer::Halt> FootstepExplorer::Halts() const {
-  std::vector<Halt> halts = {{start_, 0}};
+  std::vector<Halt> halts = {{start_, -1, 0}};
   double time = 0;
-  for (const Footstep& step : search_->steps()) {
+  const std::vector<Footstep>& steps = search_->steps();
+  const int last = static_cast<int>(steps.size()) - 1;
+  for (int i = 0; i <= last; ++i) {
+    const Footstep& step = steps[i];
     time += ExpectedDuration(step);
     GroundedStance stance;
     stance.gait = start_.gait;
     stance.pose = step.to.stance;
     stance.z = step.to.z;
-    if (gait().Examine(stance) == StanceFault::kNone) halts.push_back({stance, time});
+    if (gait().Examine(stance) == StanceFault::kNone) halts.push_back({stance, i, time});
   }
-  halts.push_back({goals_[search_->goal()], time});
+  halts.push_back({goals_[search_->goal()], last, time});
   return halts;
 }
 
@@ -102,14 +108,43 @@ std::vector<graph::PathEdge> FootstepExplorer::Route() const {
   }
   std::vector<graph::PathEdge> edges;
   for (int j = static_cast<int>(halts.size()) - 1; j > 0; j = before[j]) {
-    edges.insert(edges.begin(), EdgeBetween(is_walked[j] ? start_.gait : action_,
-                                            halts[before[j]].stance, halts[j].stance));
+    const Halt& from = halts[before[j]];
+    const graph::PathEdge edge =
+        EdgeBetween(is_walked[j] ? start_.gait : action_, from.stance, halts[j].stance);
+    if (!is_walked[j]) {
+      std::vector<Footstep> steps = StepsBetween(from, halts[j]);
+      if (!steps.empty()) steps_.Suggest(edge.points, std::move(steps));
+    }
+    edges.insert(edges.begin(), edge);
   }
   return edges;
 }
 
+std::vector<Footstep> FootstepExplorer::StepsBetween(const Halt& from, const Halt& to) const {
+  std::vector<Footstep> steps;
+  std::array<Foothold, 2> feet;
+  feet.fill({from.stance.pose, from.stance.z});
+  const auto step_to = [&](int limb, const Foothold& place) {
+    const auto step = search_->StepBetween(limb, feet[limb], place, feet[1 - limb]);
+    if (step) steps.push_back(*step);
+    feet[limb] = place;
+    return step.has_value();
+  };
+  const std::vector<Footstep>& all = search_->steps();
+  for (int i = from.step + 1; i <= to.step; ++i) {
+    if (!step_to(all[i].limb, all[i].to)) return {};
+  }
+  const int behind = 1 - all[to.step].limb;
+  const PlanarPose left = feet[behind].stance.Inverse() * to.stance.pose;
+  const bool has_arrived = left.position().norm() < kArrived && std::abs(left.yaw) < kArrived;
+  if (!has_arrived && !step_to(behind, {to.stance.pose, to.stance.z})) return {};
+  return steps;
+}
+
 std::vector<graph::PathEdge> FootstepExplorer::WholeWay() const {
-  return {EdgeBetween(action_, start_, goals_[search_->goal()])};
+  const graph::PathEdge edge = EdgeBetween(action_, start_, goals_[search_->goal()]);
+  steps_.Suggest(edge.points, search_->steps());
+  return {edge};
 }
 
 graph::PathEdge FootstepExplorer::EdgeBetween(int action, const GroundedStance& from,

@@ -39,6 +39,7 @@ class FootstepExplorer : public graph::Explorer {
   /// A stance on the way, and the step that leads to it.
   struct Halt {
     GroundedStance stance;
+    int step = -1;    ///< index; -1: the start
     double time = 0;  ///< s, of the steps up to here
   };
 
@@ -46,6 +47,8 @@ class FootstepExplorer : public graph::Explorer {
   std::vector<Halt> Halts() const;
   std::vector<graph::PathEdge> Route() const;
   std::vector<graph::PathEdge> WholeWay() const;
+  /// From rest at one halt to rest at another. Empty if feet cannot be put down there.
+  std::vector<Footstep> StepsBetween(const Halt& from, const Halt& to) const;
   graph::PathEdge EdgeBetween(int action, const GroundedStance& from,
                               const GroundedStance& to) const;
 

@@ -12,15 +12,15 @@
 namespace possibility::actions {
 namespace {
 
-constexpr std::int64_t kStancesPerTurn = 250;
-constexpr std::int64_t kStatesPerTurn = 50;
+constexpr std::int64_t kIslandStancesPerTurn = 250;
+constexpr std::int64_t kCrossingStatesPerTurn = 50;
 constexpr std::int64_t kStates = 4000;  // of one crossing
 
 /// Of one island.
 constexpr LatticeSettings kLattice = {
     .step = 0.4, .headings = 8, .greed = 2, .most_stances = 10000};
 constexpr int kMostIslands = 400;  // in all
-constexpr int kMostProposals = 40;
+constexpr int kMostIslandProposals = 40;
 
 /// Stances beyond the island: so far from each other, in so many headings.
 constexpr double kSpacing = 0.2;      // m, more where there would be too many places
@@ -30,7 +30,7 @@ constexpr int kHeadings = 4;
 /// reached up to kBeside away do not meet C_S.
 constexpr double kBeyond = 0.3;
 constexpr double kBeside = 0.9;
-constexpr double kSameHeight = 1e-3;  // m
+constexpr double kSameLevel = 1e-3;  // m
 
 /// More than steps take, so that steps lead on as far as they can.
 constexpr double kSecondsPerMetreLeft = 3;
@@ -69,7 +69,7 @@ graph::Findings IslandExplorer::ExploreIsland(const CancellationToken& cancellat
     ++*islands_;
     island_.emplace(lattice_, entry_, goals_, kLattice);
   }
-  switch (island_->Advance(kStancesPerTurn, cancellation)) {
+  switch (island_->Advance(kIslandStancesPerTurn, cancellation)) {
     case LatticeSearch::Status::kSearching:
       return {graph::Outlook::kLeadsOn, {}};
     case LatticeSearch::Status::kGivenUp:
@@ -88,7 +88,7 @@ graph::Findings IslandExplorer::ExploreIsland(const CancellationToken& cancellat
 
 /// What was refuted is known to the actions.
 bool IslandExplorer::OnRefuted() {
-  if (!is_over_ || proposals_ == 0 || proposals_ >= kMostProposals) return false;
+  if (!is_over_ || proposals_ == 0 || proposals_ >= kMostIslandProposals) return false;
   is_over_ = false;
   entry_ = start_;
   route_.clear();
@@ -123,7 +123,7 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
 
 graph::Findings IslandExplorer::LeaveIsland(const CancellationToken& cancellation) {
   const std::int64_t before = crossing_->states();
-  const FootstepSearch::Status status = crossing_->Advance(kStatesPerTurn, cancellation);
+  const FootstepSearch::Status status = crossing_->Advance(kCrossingStatesPerTurn, cancellation);
   *states_ += crossing_->states() - before;
   if (status == FootstepSearch::Status::kSearching) return {graph::Outlook::kLeadsOn, {}};
   if (status == FootstepSearch::Status::kExhausted) {
@@ -144,9 +144,10 @@ graph::Findings IslandExplorer::CrossTo(const GroundedStance& from, const Ground
     route_.push_back(std::move(edge));
   }
   const NominalStance& stance = lattice_.model->gaits[steps_.from()]->stance;
-  route_.push_back(
-      {action_,
-       {ToPoint(stance.RootPose(from.pose, from.z)), ToPoint(stance.RootPose(to.pose, to.z))}});
+  const graph::Edge edge{ToPoint(stance.RootPose(from.pose, from.z)),
+                         ToPoint(stance.RootPose(to.pose, to.z))};
+  steps_.Suggest(edge, crossing_->steps());
+  route_.push_back({action_, edge});
   entry_ = to;
   island_.reset();
   crossing_.reset();
@@ -203,7 +204,7 @@ void IslandExplorer::DropUnreachable(const std::vector<GroundedStance>& starts,
 
 bool IslandExplorer::IsKnown(const GroundedStance& stance) const {
   return std::any_of(reached_.begin(), reached_.end(), [&](const GroundedStance& other) {
-    if (std::abs(other.z - stance.z) > kSameHeight) return false;
+    if (std::abs(other.z - stance.z) > kSameLevel) return false;
     const double distance = (other.pose.position() - stance.pose.position()).norm();
     if (distance < kBeyond) return true;
     return distance < kBeside && other.gait == stance.gait && gait().CS(other, stance);

@@ -26,7 +26,7 @@ constexpr double kPreparation = 1.0;  // s
 constexpr double kPreparationSpeed = 0.9;
 constexpr double kKnotSpacing = 0.01;         // s
 constexpr double kPreparationSpacing = 0.02;  // s: the root rests
-constexpr double kVast = 20;                  // m
+constexpr double kUnbounded = 20;                  // m
 constexpr double kCorrection = 0.5;    // s, time until the motion is as planned, if there is time
 constexpr double kTurningSpeed = 0.6;  // of a joint's speed limit, while it turns to the plan
 
@@ -165,7 +165,7 @@ bool StanceMotion::Hits(const Phase& phase) const {
   models::Environment environment;
   models::Obstacle& ground = environment.obstacles.emplace_back();
   ground.name = "ground";
-  ground.shape = models::Shape::Box({kVast, kVast, 1});
+  ground.shape = models::Shape::Box({kUnbounded, kUnbounded, 1});
   ground.X_WO.translation().z() = -0.5;
   ground.is_ground = true;
   const models::CollisionChecker checker(robot_, environment);

@@ -10,11 +10,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSameHeight = 1e-3;  // m, as the verifier tolerates
+constexpr double kOneLevel = 1e-3;  // m, as the verifier tolerates
 constexpr double kSamePlace = 1e-3;   // m
 
 bool IsLevel(const Eigen::Matrix3Xd& points) {
-  return points.row(2).maxCoeff() - points.row(2).minCoeff() < kSameHeight;
+  return points.row(2).maxCoeff() - points.row(2).minCoeff() < kOneLevel;
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
+#include "actions/motion/motion_collision.h"
 #include "actions/planner/planner.h"
 #include "tests/actions/footsteps/uneven_world.h"
 
@@ -66,6 +70,73 @@ TEST_F(PlannedStepsTest, TheSameEdgeHasTheSameMotion) {
   const Knot second = StepsIn(&world).Motion(edge, {}).back().knots.back();
   EXPECT_EQ(first.q, second.q);
   EXPECT_EQ(first.t, second.t);
+}
+
+/// Jobs do not test these motions again.
+TEST_F(PlannedStepsTest, MotionKeepsOffObstaclesAndTheRobotItself) {
+  UnevenWorld world;
+  world.Ground(-3, 0.3, 0).Ground(0.3, 4, 0.1).Box({0.06, 3, 0.08}, {-0.6, 0, 0.04});
+  const PlannedSteps& steps = StepsIn(&world);
+  EXPECT_TRUE(steps.TestsItsMotions());
+  const std::vector<Phase> motion =
+      steps.Motion(EdgeOf(UnevenWorld::StanceAt(-1.3), UnevenWorld::StanceAt(1.2, 0.1)), {});
+  const models::CollisionChecker checker(DrcHubo1(), world.environment);
+  EXPECT_EQ(FirstHit(DrcHubo1(), world.environment, checker, motion), "");
+  EXPECT_EQ(FirstSelfHit(DrcHubo1(), checker, motion), "");
+}
+
+class SuggestedSteps : public PlannedStepsTest {
+ protected:
+  /// Equal strides over level ground from x = 0 on, and a last step that brings both feet beside
+  /// each other.
+  static std::vector<Footstep> Strides(int count, double length) {
+    std::vector<Footstep> steps;
+    std::array<Foothold, 2> feet;
+    for (int i = 1; i <= count + 1; ++i) {
+      const int limb = i % 2;
+      Foothold place = feet[limb];
+      place.stance.x = std::min(i, count) * length;
+      steps.push_back({limb, feet[limb], place, 0});
+      feet[limb] = place;
+    }
+    return steps;
+  }
+
+  static int SwingsIn(const std::vector<Phase>& motion) {
+    return static_cast<int>(std::count_if(motion.begin(), motion.end(), [](const Phase& phase) {
+      return phase.contacts.size() == 1;
+    }));
+  }
+};
+
+TEST_F(SuggestedSteps, AreTaken) {
+  UnevenWorld world;
+  world.Ground(-3, 4, 0);
+  const PlannedSteps& steps = StepsIn(&world);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(0), UnevenWorld::StanceAt(9 * 0.1));
+  steps.Suggest(edge, Strides(9, 0.1));
+  EXPECT_EQ(SwingsIn(steps.Motion(edge, {})), 10);
+  EXPECT_LT(SwingsIn(StepsIn(&world).Motion(edge, {})), 10) << "a search takes longer strides";
+}
+
+TEST_F(SuggestedSteps, BelongToEdgesWhoseEndsDifferByRounding) {
+  UnevenWorld world;
+  world.Ground(-3, 4, 0);
+  const PlannedSteps& steps = StepsIn(&world);
+  graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(0), UnevenWorld::StanceAt(9 * 0.1));
+  steps.Suggest(edge, Strides(9, 0.1));
+  edge.to[0] += 1e-12;
+  EXPECT_EQ(SwingsIn(steps.Motion(edge, {})), 10);
+}
+
+TEST_F(SuggestedSteps, BeyondTheRobotAreReplacedByASearch) {
+  UnevenWorld world;
+  world.Ground(-3, 4, 0);
+  const PlannedSteps& steps = StepsIn(&world);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(0), UnevenWorld::StanceAt(1.2));
+  const std::vector<Footstep> leaps = Strides(2, 0.6);
+  steps.Suggest(edge, leaps);
+  EXPECT_GT(SwingsIn(steps.Motion(edge, {})), static_cast<int>(leaps.size()));
 }
 
 TEST_F(PlannedStepsTest, WithoutFootholdsThereIsNoMotion) {

@@ -45,9 +45,10 @@ class PatternMotionTest : public ::testing::TestWithParam<WayCase> {
                       PlanSteps(stance_, groups, {start_, goal()}, bounds), kTiming);
   }
 
-  std::vector<MotionPhase> Phases(int filter_passes = 2) const {
+  std::vector<MotionPhase> Phases(int filter_passes = 2, int coarse_stride = 1) const {
     PatternSettings settings;
     settings.filter_passes = filter_passes;
+    settings.coarse_stride = coarse_stride;
     settings.rise = GetParam().rise;
     return PatternPhases(robot_, stance_, Schedule(), settings);
   }
@@ -284,6 +285,13 @@ TEST_P(PatternMotionTest, EachFilterPassHoldsTheZeroMomentPointMoreStillDuringSw
   EXPECT_LT(once, without / 2);
   EXPECT_LT(twice, once / 2);
   EXPECT_LT(twice, 0.2 * without);
+}
+
+TEST_P(PatternMotionTest, CoarsePassesBeforeTheLastHoldTheZeroMomentPointAboutAsStill) {
+  const double coarse = ZmpTravel(robot_, Phases(3, 4), Guess());
+  RecordProperty("travel_mm", static_cast<int>(1000 * coarse));
+  EXPECT_LT(coarse, ZmpTravel(robot_, Phases(1), Guess()) / 2);
+  EXPECT_LT(coarse, 1.5 * ZmpTravel(robot_, Phases(2), Guess()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, PatternMotionTest,
