@@ -47,24 +47,24 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
       flood_ = CoarseToFine(start, goals, *manoeuvres);
     }
     if (flood_->route_may_exist) {
-      FindPassage(start, goals, *manoeuvres);
+      passage_ = PassageGauge(model_, world_, *manoeuvres).Narrowest(flood_->way, cancellation_);
       return graph::RouteOracleAnswer::kUnknown;
     }
   }
   const graph::RouteOracleAnswer otherwise = leads_are_known || dead_end
                                                  ? graph::RouteOracleAnswer::kExhausted
                                                  : graph::RouteOracleAnswer::kUnknown;
-  const std::optional<std::vector<FlightBounds>> flights = Flights();
-  if (!flights) {
-    if (leads_are_known) FindPassage(start, goals, *manoeuvres);
-    return otherwise;
+  if (leads_are_known) {
+    find_passage_ = [this, start, goals, manoeuvres = *manoeuvres] {
+      return SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, cancellation_);
+    };
   }
+  const std::optional<std::vector<FlightBounds>> flights = Flights();
+  if (!flights) return otherwise;
   FloodResult necessary =
       FloodNecessary(model_, world_, start, goals, resolution_, Limits(), *flights);
-  if (necessary.route_may_exist) {
-    if (leads_are_known) FindPassage(start, goals, *manoeuvres);
-    return otherwise;
-  }
+  if (necessary.route_may_exist) return otherwise;
+  find_passage_ = {};  // after a proof no way is left to examine
   if (flood_) {
     std::move(flood_->barrier.reached.begin(), flood_->barrier.reached.end(),
               std::back_inserter(necessary.barrier.reached));
@@ -73,13 +73,14 @@ graph::RouteOracleAnswer FloodOracle::Answer(const GroundedStance& start,
   return graph::RouteOracleAnswer::kProvenInfeasible;
 }
 
-/// For answers "unknown" and "exhausted"; after a proof no way is left to examine.
-void FloodOracle::FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                              const std::vector<FloodManoeuvre>& manoeuvres) {
-  passage_ =
-      flood_->route_may_exist
-          ? PassageGauge(model_, world_, manoeuvres).Narrowest(flood_->way, cancellation_)
-          : SearchPassage(model_, world_, start, goals, resolution_, manoeuvres, cancellation_);
+const std::optional<NarrowPassage>& FloodOracle::passage() {
+  if (const auto find = std::exchange(find_passage_, {})) {
+    try {
+      passage_ = find();
+    } catch (const Cancelled&) {  // the answer stands without
+    }
+  }
+  return passage_;
 }
 
 /// The flood over C_S. If coarse cells find no barrier, finer floods follow within their limits: a

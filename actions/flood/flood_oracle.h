@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -34,14 +35,13 @@ class FloodOracle {
 
   /// After "no": the narrowest place of a way that would be open with relaxed needs. After
   /// kUnknown: the narrowest place of the way that the finest flood considers open. None if there
-  /// is no such place.
-  const std::optional<NarrowPassage>& passage() const { return passage_; }
+  /// is no such place, or time runs out. Found when first asked after "exhausted": that can take as
+  /// long as the floods.
+  const std::optional<NarrowPassage>& passage();
 
  private:
   graph::RouteOracleAnswer Answer(const GroundedStance& start,
                                   const std::vector<GroundedStance>& goals);
-  void FindPassage(const GroundedStance& start, const std::vector<GroundedStance>& goals,
-                   const std::vector<FloodManoeuvre>& manoeuvres);
   FloodResult CoarseToFine(const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            const std::vector<FloodManoeuvre>& manoeuvres) const;
   FloodLimits Limits(std::int64_t most_judged = FloodLimits::kMostNodes) const;
@@ -55,6 +55,7 @@ class FloodOracle {
   double resolution_;
   CancellationToken cancellation_;
   std::optional<NarrowPassage> passage_;
+  std::function<std::optional<NarrowPassage>()> find_passage_;  ///< empty once done
   std::optional<FloodResult> flood_;  ///< the last one over C_S, or the one that proved "no"
 };
 

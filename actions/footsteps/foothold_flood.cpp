@@ -63,6 +63,18 @@ FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
   }
   SizeGrid();
   FindBarriers();
+  Restart(starts, cancellation);
+}
+
+void FootholdFlood::Restart(const std::vector<GroundedStance>& starts,
+                            const CancellationToken& cancellation) {
+  for (std::vector<Cell>& cells : cells_) {
+    for (Cell& cell : cells) {
+      if (cell == Cell::kReached) cell = Cell::kGround;
+      if (cell == Cell::kBarred) cell = Cell::kUnknown;
+    }
+  }
+  queue_.clear();
   FloodAir(starts);
   for (const GroundedStance& start : starts) ReachFrom(start);
   Flood(cancellation);
@@ -91,7 +103,7 @@ void FootholdFlood::SizeGrid() {
 /// A swing leads straight from one place to another. The trunk is within the world's bounds at
 /// both, half-way between the limbs.
 void FootholdFlood::FindBarriers() {
-  is_barred_.assign(static_cast<std::size_t>(columns_) * rows_, false);
+  is_solid_.assign(static_cast<std::size_t>(columns_) * rows_, false);
   const SwingBarriers barriers(stance_, world_, planes_, limits_, reach_);
   if (barriers.empty()) return;
   const double around = reach_ / 2 + stance_.X_SR.translation().head<2>().norm() +
@@ -103,18 +115,18 @@ void FootholdFlood::FindBarriers() {
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       const Vector2d centre = CentreOf({0, column, row});
-      is_barred_[IndexOf(column, row)] =
+      is_solid_[IndexOf(column, row)] =
           !used.contains(centre) || (about.contains(centre) && barriers.Fill(centre, cell_ / 2));
     }
   }
 }
 
 void FootholdFlood::FloodAir(const std::vector<GroundedStance>& starts) {
-  std::vector<bool> is_open(is_barred_.size(), false);
+  std::vector<bool> is_open(is_solid_.size(), false);
   std::vector<Place> queue;
   const auto open = [&](int column, int row) {
     const std::size_t index = IndexOf(column, row);
-    if (is_open[index] || is_barred_[index]) return;
+    if (is_open[index] || is_solid_[index]) return;
     is_open[index] = true;
     queue.push_back({0, column, row});
   };
@@ -209,9 +221,12 @@ bool FootholdFlood::MayBear(const Sole& sole, int level, const Vector2d& centre)
 
 void FootholdFlood::Reach(const Place& place) {
   Cell& cell = At(place);
-  if (cell != Cell::kUnknown) return;
-  const bool is_barred = is_barred_[IndexOf(place.column, place.row)];
-  cell = !is_barred && MayBear(place) ? Cell::kReached : Cell::kNoGround;
+  if (!IsOpen(cell)) return;
+  if (is_barred_[IndexOf(place.column, place.row)]) {
+    cell = Cell::kBarred;
+    return;
+  }
+  cell = cell == Cell::kGround || MayBear(place) ? Cell::kReached : Cell::kNoGround;
   if (cell == Cell::kReached) queue_.push_back(place);
 }
 
@@ -236,7 +251,7 @@ void FootholdFlood::ReachAround(const Place& centre, double z, double slack, int
     const int end = std::min(columns_ - 1, centre.column + half_width);
     for (int column = std::max(0, centre.column - half_width); column <= end; ++column) {
       const Place place{plane, column, row};
-      if (At(place) == Cell::kUnknown && std::abs(HeightOf(place) - z) <= most_height) Reach(place);
+      if (IsOpen(At(place)) && std::abs(HeightOf(place) - z) <= most_height) Reach(place);
     }
   }
 }

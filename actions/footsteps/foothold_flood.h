@@ -28,6 +28,11 @@ class FootholdFlood {
                 const FootstepLimits& limits, const std::vector<GroundedStance>& starts,
                 const CancellationToken& cancellation = {});
 
+  /// Floods the same ground from other starts. What is known of the ground is kept, which was most
+  /// of the work. @throws Cancelled.
+  void Restart(const std::vector<GroundedStance>& starts,
+               const CancellationToken& cancellation = {});
+
   /// False only if no steps of the family lead to a place where the limb bears so.
   bool Reaches(int limb, const Foothold& place) const;
   /// Of all limbs.
@@ -37,7 +42,13 @@ class FootholdFlood {
   static double ReachOf(const NominalStance& stance, const FootstepLimits& limits);
 
  private:
-  enum class Cell : signed char { kUnknown, kNoGround, kReached };
+  enum class Cell : signed char {
+    kUnknown,
+    kNoGround,
+    kGround,  ///< not reached
+    kBarred,  ///< not reached: a patch's centre does not get there; whether it is ground is unknown
+    kReached
+  };
 
   /// Bearing points from the patch's centre: each of them in all turns that are tested.
   struct Sole {
@@ -75,6 +86,7 @@ class FootholdFlood {
   std::vector<int> PlanesAbout(const Eigen::Vector2d& p, double z, double slack) const;
   bool MayBear(const Place& place) const;
   bool MayBear(const Sole& sole, int level, const Eigen::Vector2d& centre) const;
+  static bool IsOpen(Cell cell) { return cell == Cell::kUnknown || cell == Cell::kGround; }
   void Reach(const Place& place);
   /// All cells of a plane that a step of the family leads to from height z about a cell.
   void ReachAround(const Place& centre, double z, double slack, int plane);
@@ -92,7 +104,9 @@ class FootholdFlood {
   int columns_ = 0, rows_ = 0;
   std::vector<int> half_widths_;          ///< of the disc of a step: cells, by rows from its centre
   std::vector<std::vector<Cell>> cells_;  ///< by plane
-  std::vector<bool> is_barred_;  ///< by cell, seen from above: no patch's centre gets there
+  // By cell, seen from above.
+  std::vector<bool> is_solid_;   ///< filled by barriers
+  std::vector<bool> is_barred_;  ///< no patch's centre gets there
   std::vector<Place> queue_;
 };
 

@@ -372,7 +372,7 @@ class TraversalPlanner {
     return explorers;
   }
 
-  void Record(const graph::PathResult& path, PlanResult* result) const {
+  void Record(const graph::PathResult& path, PlanResult* result) {
     for (const auto& [name, count] : path.counters) result->plan.statistics[name] += count;
     result->plan.statistics["cycles"] = path.statistics.cycles;
     result->plan.statistics["vertices"] = path.statistics.vertices;
@@ -427,7 +427,7 @@ class TraversalPlanner {
     return PlanStatus::kTimeLimit;
   }
 
-  std::string Explain(const PlanResult& result) const {
+  std::string Explain(const PlanResult& result) {
     const std::string why =
         result.status == PlanStatus::kTimeLimit
             ? fmt::format("no route that can be executed was found within {:.1f} s.",
@@ -503,7 +503,7 @@ class TraversalPlanner {
     }
     if (result->verification.cancelled) throw Cancelled();
     if (result->verification.accepted()) {
-      result->explanation = ExplainManoeuvres(all_manoeuvres_, failures_);
+      result->explanation = refusals_.Explain() + ExplainManoeuvres(all_manoeuvres_, failures_);
       if (!result->explanation.empty()) result->explanation.erase(0, 1);
       return true;
     }

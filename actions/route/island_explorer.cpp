@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
-#include "actions/footsteps/foothold_flood.h"
 
 namespace possibility::actions {
 namespace {
@@ -196,10 +195,14 @@ void IslandExplorer::DropUnreachable(const std::vector<GroundedStance>& starts,
                                      const CancellationToken& cancellation) {
   const World& world = gait().world();
   if (beyond_.empty() || world.environment->bounds.isEmpty()) return;
-  const FootholdFlood flood(lattice_.model->gaits[steps_.from()]->stance, world,
-                            GentlePlanes(*lattice_.model->robot, *world.ground), steps_.limits(),
-                            starts, cancellation);
-  std::erase_if(beyond_, [&](const GroundedStance& stance) { return !flood.Reaches(stance); });
+  if (flood_) {
+    flood_->Restart(starts, cancellation);
+  } else {
+    flood_.emplace(lattice_.model->gaits[steps_.from()]->stance, world,
+                   GentlePlanes(*lattice_.model->robot, *world.ground), steps_.limits(), starts,
+                   cancellation);
+  }
+  std::erase_if(beyond_, [&](const GroundedStance& stance) { return !flood_->Reaches(stance); });
 }
 
 bool IslandExplorer::IsKnown(const GroundedStance& stance) const {

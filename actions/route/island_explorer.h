@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/footsteps/foothold_flood.h"
 #include "actions/footsteps/footstep_plan.h"
 #include "actions/footsteps/planned_steps.h"
 #include "actions/route/lattice_search.h"
@@ -68,6 +69,7 @@ class IslandExplorer : public graph::Explorer {
   std::optional<LatticeSearch> island_;
   std::vector<GroundedStance> reached_;  ///< of this island and those before it
   std::optional<FootstepSearch> crossing_;
+  std::optional<FootholdFlood> flood_;  ///< from the island left last
   std::vector<GroundedStance> beyond_;  ///< goals of the crossing
   bool is_over_ = false;
   int proposals_ = 0;

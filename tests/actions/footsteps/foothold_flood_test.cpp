@@ -120,6 +120,26 @@ TEST_F(FootholdFloodTest, WhatStepsReachIsNeverDenied) {
   EXPECT_GT(away, 100);
 }
 
+/// From either side of a gap, and of a beam, in turn.
+TEST_F(FootholdFloodTest, ARestartReachesWhatANewFloodReaches) {
+  for (int terrain = 0; terrain < 6; ++terrain) {
+    UnevenWorld uneven = terrain % 2 > 0 ? RandomTerrain() : RandomBoards();
+    uneven.Ground(-3, 0.2, 0).Ground(1.4, 6, 0).Box({0.1, 6, 1.2}, {-1.5, 0, 0.6});
+    const World& world = uneven.Built();
+    FootholdFlood flood = FloodOf(world, UnevenWorld::StanceAt(-0.4));
+    for (const double x : {-2.2, 3.0, -0.4}) {
+      flood.Restart({UnevenWorld::StanceAt(x)});
+      const FootholdFlood fresh = FloodOf(world, UnevenWorld::StanceAt(x));
+      for (int i = 0; i < 2000; ++i) {
+        const Foothold place{{Random(-2.5, 5), Random(-1.2, 1.2), Random(-3, 3)}, 0};
+        ASSERT_EQ(flood.Reaches(i % 2, place), fresh.Reaches(i % 2, place))
+            << "terrain " << terrain << " from " << x << ": " << place.stance.x << " "
+            << place.stance.y;
+      }
+    }
+  }
+}
+
 TEST_F(FootholdFloodTest, AWideGapAHighStepAndSmallStonesAreDenied) {
   const double reach = FootholdFlood::ReachOf(stance_, limits_);
   for (const bool is_wide : {false, true}) {
