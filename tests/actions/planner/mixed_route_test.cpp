@@ -18,7 +18,7 @@ PlanResult PlanWith(const std::string& scene, const std::vector<std::string>& ac
 }
 
 /// Whether a segment of the plan uses the action.
-bool Uses(const PlanResult& result, const std::string& action) {
+bool IncludesAction(const PlanResult& result, const std::string& action) {
   const std::vector<Segment>& segments = result.plan.segments;
   return std::any_of(segments.begin(), segments.end(),
                      [&](const Segment& segment) { return segment.action == action; });
@@ -66,8 +66,8 @@ TEST(MixedRoute, StepsAndGaitsAreJoined) {
   const PlanResult result = PlanTraversal(DrcHubo1(), SillsAndABar(), request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(result.verification.accepted());
-  EXPECT_TRUE(Uses(result, "crawl"));
-  EXPECT_TRUE(Uses(result, "walk"));
+  EXPECT_TRUE(IncludesAction(result, "crawl"));
+  EXPECT_TRUE(IncludesAction(result, "walk"));
 }
 
 TEST(MixedRouteLong, ACourseOfEverythingIsPlanned) {
@@ -76,7 +76,7 @@ TEST(MixedRouteLong, ACourseOfEverythingIsPlanned) {
   const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("everything"), request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(result.verification.accepted());
-  for (const char* action : {"walk", "crawl", "leap"}) EXPECT_TRUE(Uses(result, action)) << action;
+  for (const char* action : {"walk", "crawl", "leap"}) EXPECT_TRUE(IncludesAction(result, action)) << action;
 }
 
 TEST(MixedRoute, WithoutAWayUnderTheBarThereIsNone) {
