@@ -75,7 +75,7 @@ class Footprints {
     contacts.points = BearingPoints(robot_, phase);
     contacts.anchors.resize(3, static_cast<Eigen::Index>(contacts.points.size()));
     const VerifierState state = evaluator_->Evaluate(phase.knots.front());
-    contacts.normals = Normals(contacts.points, state);
+    SetGround(state, &contacts);
     for (std::size_t i = 0; i < contacts.points.size(); ++i) {
       const BearingPoint& point = contacts.points[i];
       contacts.anchors.col(i) = SetDown(point, state);
@@ -92,26 +92,30 @@ class Footprints {
     Vector3d anchor;
   };
 
-  /// A patch bears on the plane that holds most of its points; the plane's normal counts for them.
-  Eigen::Matrix3Xd Normals(const std::vector<BearingPoint>& points,
-                           const VerifierState& state) const {
+  /// A patch bears on the plane that holds most of its points, of several on the most slippery one;
+  /// the plane's normal and friction count for them.
+  void SetGround(const VerifierState& state, PhaseContacts* contacts) const {
+    const std::vector<BearingPoint>& points = contacts->points;
     std::vector<std::vector<int>> planes;
     std::map<int, std::map<int, int>> votes;  // by patch and plane
     for (const BearingPoint& point : points) {
       planes.push_back(PlanesUnder(state.Position(point), ground_));
       for (const int plane : planes.back()) ++votes[point.patch][plane];
     }
-    Eigen::Matrix3Xd normals = Vector3d::UnitZ().replicate(1, static_cast<int>(points.size()));
+    const auto count = static_cast<Eigen::Index>(points.size());
+    contacts->normals = Vector3d::UnitZ().replicate(1, count);
+    contacts->friction = Eigen::VectorXd::Constant(count, robot_.friction);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::map<int, int>& of_patch = votes[points[i].patch];
       const auto best = std::max_element(planes[i].begin(), planes[i].end(), [&](int a, int b) {
-        return of_patch.at(a) < of_patch.at(b);
+        return std::pair(of_patch.at(a), -ground_.planes()[a].friction) <
+               std::pair(of_patch.at(b), -ground_.planes()[b].friction);
       });
-      if (best != planes[i].end()) {
-        normals.col(static_cast<int>(i)) = ground_.planes()[*best].normal;
-      }
+      if (best == planes[i].end()) continue;
+      const models::GroundPlane& plane = ground_.planes()[*best];
+      contacts->normals.col(static_cast<Eigen::Index>(i)) = plane.normal;
+      contacts->friction[static_cast<Eigen::Index>(i)] = std::min(robot_.friction, plane.friction);
     }
-    return normals;
   }
 
   const Vector3d& SetDown(const BearingPoint& point, const VerifierState& state) {

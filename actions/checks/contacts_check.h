@@ -15,6 +15,7 @@ struct PhaseContacts {
   std::vector<BearingPoint> points;
   Eigen::Matrix3Xd anchors;  ///< world, one column per point, m
   Eigen::Matrix3Xd normals;  ///< of the ground at the points, unit, one column per point
+  Eigen::VectorXd friction;  ///< coefficients at the points
   bool lands = false;        ///< some point is set down at the start of the phase
 };
 

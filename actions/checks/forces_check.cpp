@@ -92,15 +92,15 @@ void SubtractJointTorques(const VerifierState& state, const std::vector<BearingP
   }
 }
 
-void CheckCone(const Vector3d& force, const Vector3d& normal, const BearingPoint& point,
-               const models::RobotModel& robot, double weight, const Instant& at,
-               ViolationLog* log) {
+void CheckCone(const Vector3d& force, const Vector3d& normal, double friction,
+               const BearingPoint& point, const models::RobotModel& robot, double weight,
+               const Instant& at, ViolationLog* log) {
   const double tolerance = kConeTolerance * weight;
   const double load = normal.dot(force);
   log->RequireAtLeast(ViolationKind::kFriction, at, load, 0, tolerance, "N",
                       [&] { return NameOf(robot, point) + " pulls on the ground"; });
   log->RequireAtMost(ViolationKind::kFriction, at, (force - load * normal).norm(),
-                     robot.friction * std::max(load, 0.0), tolerance, "N",
+                     friction * std::max(load, 0.0), tolerance, "N",
                      [&] { return NameOf(robot, point) + " tangential force"; });
 }
 
@@ -150,8 +150,8 @@ void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
       ViolationKind::kDynamics, at, realised.residual, 0, kBetweenTolerance * weight, "N or N m",
       [] { return std::string("unactuated rows that no contact force can supply"); });
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    CheckCone(realised.forces.col(i), contacts.normals.col(i), contacts.points[i], robot, weight,
-              at, log);
+    CheckCone(realised.forces.col(i), contacts.normals.col(i), contacts.friction[i],
+              contacts.points[i], robot, weight, at, log);
   }
   CheckTorqueLimits(realised.torques, robot, at, log);
 }

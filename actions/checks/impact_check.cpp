@@ -56,15 +56,15 @@ void CheckEquation(const Impact& impact, const MatrixXd& mass, const models::Rob
   }
 }
 
-void CheckImpulse(const Vector3d& impulse, const Vector3d& normal, const BearingPoint& point,
-                  const models::RobotModel& robot, double weight, const Instant& at,
-                  ViolationLog* log) {
+void CheckImpulse(const Vector3d& impulse, const Vector3d& normal, double friction,
+                  const BearingPoint& point, const models::RobotModel& robot, double weight,
+                  const Instant& at, ViolationLog* log) {
   const double tolerance = kImpulseConeTolerance * weight;
   const double blow = normal.dot(impulse);
   log->RequireAtLeast(ViolationKind::kImpact, at, blow, 0, tolerance, "N s",
                       [&] { return NameOf(robot, point) + " impulse pulls on the ground"; });
   log->RequireAtMost(ViolationKind::kImpact, at, (impulse - blow * normal).norm(),
-                     robot.friction * std::max(blow, 0.0), tolerance, "N s",
+                     friction * std::max(blow, 0.0), tolerance, "N s",
                      [&] { return NameOf(robot, point) + " tangential impulse"; });
 }
 
@@ -86,8 +86,8 @@ void CheckImpact(const Impact& impact, const models::RobotModel& robot, StateEva
   CheckEquation(impact, mass, robot, evaluator->dynamics(), weight, &sums->rest, log);
   for (std::size_t i = 0; i < impact.contacts.points.size(); ++i) {
     const BearingPoint& point = impact.contacts.points[i];
-    CheckImpulse(impact.impulses.col(i), impact.contacts.normals.col(i), point, robot, weight,
-                 impact.at, log);
+    CheckImpulse(impact.impulses.col(i), impact.contacts.normals.col(i),
+                 impact.contacts.friction[i], point, robot, weight, impact.at, log);
     log->RequireAtMost(ViolationKind::kImpact, impact.at, state.Velocity(point).norm(), 0,
                        kStuckSpeed, "m/s",
                        [&] { return NameOf(robot, point) + " not at rest after the impact"; });

@@ -184,7 +184,7 @@ bool PelvisCells::GroundIsNear(const Vector3d& p, double displaced) const {
     }
   }
   const double far = reach_ + std::hypot(flight_.rise, flight_.range);
-  return world_.ground->TiltedGroundIsNear(p, far + displaced);
+  return world_.ground->RoughGroundIsNear(p, far + displaced);
 }
 
 /// Sufficient: true only if ground is near every point at p's height within `displaced` of it.

@@ -34,7 +34,8 @@ FootholdField::FootholdField(const NominalStance& stance, const World& world,
       planes_(planes),
       limits_(limits),
       steps_(std::move(steps)),
-      reach_(FootholdFlood::ReachOf(stance, limits)) {
+      reach_(FootholdFlood::ReachOf(stance, limits)),
+      cover_(stance, *world.environment) {
   for (const int limb : {0, 1}) {
     const Vector2d centre = stance.patch_centres[limb].head<2>();
     for (int turn = 0; turn < kTurns; ++turn) {
@@ -109,11 +110,16 @@ double FootholdField::HeightOf(const Place& place) const {
   return world_.ground->planes()[planes_[place.plane]].HeightAt(CentreOf(place));
 }
 
+bool FootholdField::IsHorizontal(int plane) const {
+  return world_.ground->planes()[planes_[plane]].normal == Eigen::Vector3d::UnitZ();
+}
+
 /// Every place and turn of a sole in the cell is near a turn that is tested at its centre.
 bool FootholdField::MayBear(const Place& place) const {
   const models::GroundMap& ground = *world_.ground;
   const int plane = planes_[place.plane];
   const Vector2d centre = CentreOf(place);
+  if (IsHorizontal(place.plane) && cover_.Covers(centre, cell_ / 2, HeightOf(place))) return false;
   if (ground.OneFaceHolds(plane, centre, centre, radius_)) return true;
   const double slack = cell_ / std::numbers::sqrt2 + radius_ * kTurn / 2;
   if (!ground.IsNear(plane, centre, slack)) return false;
@@ -232,8 +238,9 @@ bool FootholdField::Stands(int layer, const PlanarPose& middle, double gap) {
   const Vector2d p = middle.position();
   const double around = reach_ / 2 + cell_;
   const double needed = width_ + gap;
-  if (world_.ground->OneFaceHolds(planes_[layer], p, p, needed)) return true;
   const double z = world_.ground->planes()[planes_[layer]].HeightAt(p);
+  const bool is_bare = !IsHorizontal(layer) || cover_.IsBare(p, needed / 2, z);
+  if (is_bare && world_.ground->OneFaceHolds(planes_[layer], p, p, needed)) return true;
   const int turn = static_cast<int>(std::lround(middle.yaw / kTurn)) & (kTurns - 1);
   const Place centre = PlaceAt(layer, p);
   const double sine = std::sin(middle.yaw), cosine = std::cos(middle.yaw);

@@ -7,7 +7,8 @@
 #include <queue>
 #include <vector>
 
-#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/footstep.h"
+#include "actions/footsteps/ground_cover.h"
 #include "actions/motion/nominal_stance.h"
 #include "common/cancellation_token.h"
 
@@ -87,6 +88,7 @@ class FootholdField {
     return bounds_.min() + cell_ * Eigen::Vector2d(place.column + 0.5, place.row + 0.5);
   }
   double HeightOf(const Place& place) const;
+  bool IsHorizontal(int plane) const;
   bool MayBear(const Place& place) const;
   bool IsGround(const Place& place);
   /// Layers with ground on which one could stand about a place, and -1.
@@ -110,6 +112,7 @@ class FootholdField {
   double radius_ = 0;                                ///< m, of the soles
   double width_ = 0;                                 ///< m, of the widest sole
   double reach_;                                     ///< m, of a step
+  GroundCover cover_;
   Eigen::AlignedBox2d bounds_;
   double cell_ = 0;  ///< m
   int columns_ = 0, rows_ = 0;

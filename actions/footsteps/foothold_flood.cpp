@@ -49,6 +49,7 @@ FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
       world_(world),
       planes_(std::move(planes)),
       limits_(limits),
+      cover_(stance, *world.environment),
       reach_(ReachOf(stance, limits)) {
   for (const int limb : {0, 1}) {
     Sole sole;
@@ -187,8 +188,15 @@ std::vector<int> FootholdFlood::PlanesAbout(const Vector2d& p, double z, double 
   return about;
 }
 
+bool FootholdFlood::IsCovered(const Place& place) const {
+  if (world_.ground->planes()[planes_[place.plane]].normal != Eigen::Vector3d::UnitZ())
+    return false;
+  return cover_.Covers(CentreOf(place), cell_ / 2, HeightOf(place));
+}
+
 /// On slopes it is enough that there is ground.
 bool FootholdFlood::MayBear(const Place& place) const {
+  if (IsCovered(place)) return false;
   const Vector2d centre = CentreOf(place);
   const int plane = planes_[place.plane];
   if (!IsLevel(place.plane)) {

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/footstep.h"
+#include "actions/footsteps/ground_cover.h"
 #include "actions/motion/nominal_stance.h"
 #include "common/cancellation_token.h"
 
@@ -16,10 +17,10 @@ namespace possibility::actions {
 /// once built.
 ///
 /// It floods the cells of a grid on every plane of the ground. A cell is ground if a sole may bear
-/// with its patch's centre in it, and if that centre can get there without passing through
-/// obstacles that are too high for every swing (SwingBarriers). Ground that hangs together counts
-/// as reached as a whole, so between levels only cells at an edge have to be asked how far a step
-/// leads from there.
+/// with its patch's centre in it, if no solid stands there (GroundCover), and if that centre can
+/// get there without passing through obstacles that are too high for every swing (SwingBarriers).
+/// Ground that hangs together counts as reached as a whole, so between levels only cells at an edge
+/// have to be asked how far a step leads from there.
 class FootholdFlood {
  public:
   /// `planes`: of the ground, those that a foot may bear on. `starts`: both limbs bear there.
@@ -79,6 +80,7 @@ class FootholdFlood {
   }
   Place PlaceAt(int plane, const Eigen::Vector2d& p) const;
   bool IsLevel(int plane) const;
+  bool IsCovered(const Place& place) const;
   /// Heights of the cell's ground: the middle, and how far they may be from it.
   double HeightOf(const Place& place) const;
   double SlackOf(int plane) const;
@@ -97,6 +99,7 @@ class FootholdFlood {
   const World& world_;
   std::vector<int> planes_;
   FootstepLimits limits_;
+  GroundCover cover_;
   double reach_;  ///< m, of a step
   std::vector<Sole> soles_;
   Eigen::AlignedBox2d bounds_;

@@ -72,7 +72,8 @@ std::vector<int> GentlePlanes(const models::RobotModel& robot, const models::Gro
   std::vector<int> gentle;
   for (int plane = 0; plane < static_cast<int>(ground.planes().size()); ++plane) {
     const Vector3d& normal = ground.planes()[plane].normal;
-    const double steepest = kUsableFriction * robot.friction;
+    const double steepest =
+        kUsableFriction * std::min(robot.friction, ground.planes()[plane].friction);
     if (normal.head<2>().norm() <= steepest * normal.z()) gentle.push_back(plane);
   }
   return gentle;
@@ -93,7 +94,7 @@ FootholdGround::FootholdGround(const models::RobotModel& robot, const NominalSta
 Foothold FootholdGround::On(int limb, const PlanarPose& stance, int plane) const {
   const models::GroundPlane& ground = world_.ground->planes()[plane];
   const Vector2d centre = stance * Vector2d(stance_.patch_centres[limb].head<2>());
-  return {stance, ground.HeightAt(centre), ground.normal, ground.offset};
+  return {stance, ground.HeightAt(centre), ground.normal, ground.offset, ground.friction};
 }
 
 bool FootholdGround::Holds(int limb, int plane, const Foothold& place) const {

@@ -19,6 +19,7 @@ struct Foothold {
   double z = 0;                                       ///< m, of the ground under the patch's centre
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the ground, unit
   double offset = 0;                                  ///< of a slope (models::GroundPlane), m
+  double friction = models::kRobotsFriction;          ///< of the ground (models::GroundPlane)
 
   bool IsLevel() const { return normal == Eigen::Vector3d::UnitZ(); }
 };

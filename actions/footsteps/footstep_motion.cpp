@@ -121,8 +121,25 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slo
     pattern.lifts.push_back(step.lift);
     pattern.lifts.push_back(0);
   }
-  return PatternPhases(*robot_, *stance_, ScheduleOf(slowness, start, steps), pattern,
-                       cancellation);
+  std::vector<MotionPhase> phases =
+      PatternPhases(*robot_, *stance_, ScheduleOf(slowness, start, steps), pattern, cancellation);
+  SetFriction(start, steps, &phases);
+  return phases;
+}
+
+/// Phases alternate: all limbs bear, one swings, ...
+void FootstepMotion::SetFriction(const Foothold& start, const std::vector<Footstep>& steps,
+                                 std::vector<MotionPhase>* phases) const {
+  std::vector<double> by_limb(stance_->gait->limbs.size(), start.friction);
+  for (std::size_t i = 0; i < phases->size(); ++i) {
+    const bool swings = i % 2 == 1;
+    const int moving = i > 0 ? steps[(i - 1) / 2].limb : -1;
+    if (i > 0 && !swings) by_limb[moving] = steps[(i - 1) / 2].to.friction;
+    for (int limb = 0; limb < static_cast<int>(by_limb.size()); ++limb) {
+      if (swings && limb == moving) continue;
+      (*phases)[i].friction.push_back(std::min(robot_->friction, by_limb[limb]));
+    }
+  }
 }
 
 Eigen::VectorXd FootstepMotion::GuessAt(const Foothold& start) const {
@@ -191,7 +208,10 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
     } catch (const MotionError& error) {
       if (error.phase() < 0) throw FootstepError(error.what(), -1);
       const int step = StepOfPhase(error.phase(), count);
-      if (slowness[step] * kSlower > kSlowest) throw FootstepError(error.what(), step);
+      // A slower motion has much the same postures.
+      const bool may_be_slower =
+          error.limit() != MotionError::Limit::kJointRange && slowness[step] * kSlower <= kSlowest;
+      if (!may_be_slower) throw FootstepError(error.what(), step);
       for (int i = std::max(0, step - 1); i <= std::min(step + 1, count - 1); ++i) {
         slowness[i] = std::min(kSlowest, slowness[i] * kSlower);
       }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/footstep.h"
 #include "actions/motion/motion_builder.h"
 #include "actions/motion/nominal_stance.h"
 #include "actions/motion/self_clearance.h"
@@ -67,6 +67,9 @@ class FootstepMotion {
                                     double grid, int filter_passes, const Foothold& start,
                                     const std::vector<Footstep>& steps,
                                     const CancellationToken& cancellation) const;
+  /// Of the footholds, in the phases of the motion.
+  void SetFriction(const Foothold& start, const std::vector<Footstep>& steps,
+                   std::vector<MotionPhase>* phases) const;
   Eigen::VectorXd GuessAt(const Foothold& start) const;
   /// Of a rough motion, which takes a fraction of the time. Says nothing where that fails.
   void RequireRoughSelfClearance(const Style& style, const Foothold& start,

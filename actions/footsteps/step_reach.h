@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/footstep.h"
 #include "actions/motion/limb_reach.h"
 #include "actions/motion/nominal_stance.h"
 #include "models/robot/robot_model.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/footstep.h"
 
 namespace possibility::actions {
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
-#include "models/shapes/signed_distance.h"
 #include "models/world/ground_map.h"
 
 namespace possibility::actions {
@@ -13,28 +11,6 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kThickness = 1e-3;  // m, of the disc
-constexpr double kAboveSole = 5e-3;  // m: within the foot
-constexpr double kRounding = 1e-4;   // m: distances are too small by less
-
-/// Radius of the greatest disc about the centres of all patches that the bearing points surround.
-double RadiusOf(const NominalStance& stance) {
-  double radius = std::numeric_limits<double>::infinity();
-  for (std::size_t limb = 0; limb < stance.bearing_points.size(); ++limb) {
-    const Vector2d centre = stance.patch_centres[limb].head<2>();
-    const std::vector<Vector2d>& points = stance.bearing_points[limb];
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector2d from = points[i] - centre;
-      const Vector2d along = points[(i + 1) % points.size()] - points[i];
-      const double length = along.norm();
-      // With fewer than three points, or not in order, there may be none.
-      const double away = length > 0 ? (along.x() * from.y() - along.y() * from.x()) / -length : 0;
-      radius = std::min(radius, std::max(0.0, away));
-    }
-  }
-  return std::max(0.0, radius - kRounding);
-}
 
 /// Heights of the level ground within `away` of a box, seen from above. Empty if a slope is there.
 Eigen::AlignedBox1d HeightsAbout(const models::GroundMap& ground, const std::vector<int>& planes,
@@ -54,8 +30,7 @@ Eigen::AlignedBox1d HeightsAbout(const models::GroundMap& ground, const std::vec
 SwingBarriers::SwingBarriers(const NominalStance& stance, const World& world,
                              const std::vector<int>& planes, const FootstepLimits& limits,
                              double reach)
-    : radius_(RadiusOf(stance)),
-      disc_(models::Shape::Cylinder(std::max(radius_, kThickness), kThickness)) {
+    : disc_(stance) {
   for (const models::Obstacle& obstacle : world.environment->obstacles) {
     if (obstacle.is_ground) continue;
     const Eigen::AlignedBox3d box = obstacle.shape.Bounds(obstacle.X_WO);
@@ -63,12 +38,13 @@ SwingBarriers::SwingBarriers(const NominalStance& stance, const World& world,
     // A limb swings from beside the other one to beside it again.
     const Eigen::AlignedBox1d heights = HeightsAbout(*world.ground, planes, bounds, 2 * reach);
     if (heights.isEmpty()) continue;
-    bounds.min().array() -= radius_;
-    bounds.max().array() += radius_;
+    bounds.min().array() -= disc_.radius();
+    bounds.max().array() += disc_.radius();
     const double low = heights.min()[0];
     const double high = heights.max()[0] + std::max(limits.lift, limits.clearance);
     // The rest of it stops no swing at all these heights.
-    if (box.min().z() > low + kAboveSole || box.max().z() < high + kAboveSole) continue;
+    if (box.min().z() > low + SoleDisc::kAboveSole || box.max().z() < high + SoleDisc::kAboveSole)
+      continue;
     barriers_.push_back({models::PreparedShape(obstacle.shape), obstacle.X_WO, bounds, low, high});
   }
 }
@@ -83,10 +59,8 @@ AlignedBox2d SwingBarriers::Bounds() const {
 bool SwingBarriers::Stops(const Barrier& barrier, const Vector2d& p) const {
   if (!barrier.bounds.contains(p)) return false;
   const std::array<double, 2> heights = {barrier.low, barrier.high};
-  return std::all_of(heights.begin(), heights.end(), [&](double z) {
-    const Eigen::Isometry3d X_WD(Eigen::Translation3d(p.x(), p.y(), z + kAboveSole));
-    return models::SignedDistance(disc_, X_WD, barrier.shape, barrier.X_WC, 0) <= 0;
-  });
+  return std::all_of(heights.begin(), heights.end(),
+                     [&](double z) { return disc_.Hits(barrier.shape, barrier.X_WC, p, z); });
 }
 
 /// One barrier that stops the corners stops all between them.

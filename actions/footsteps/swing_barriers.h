@@ -3,7 +3,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "actions/footsteps/footstep_plan.h"
+#include "actions/footsteps/footstep.h"
+#include "actions/footsteps/sole_disc.h"
 #include "actions/motion/nominal_stance.h"
 #include "models/shapes/prepared_shape.h"
 
@@ -36,8 +37,7 @@ class SwingBarriers {
   /// Whether a disc about this point hits the barrier wherever a swing may be.
   bool Stops(const Barrier& barrier, const Eigen::Vector2d& p) const;
 
-  double radius_ = 0;  ///< m, of the disc
-  models::PreparedShape disc_;
+  SoleDisc disc_;
   std::vector<Barrier> barriers_;
 };
 

@@ -52,6 +52,13 @@ std::string TorqueFault(const MultibodyDynamics& dynamics, const ContactForceSet
                      settings.torque_margin * model.effort()[worst]);
 }
 
+/// Of the most slippery ground.
+double LeastFriction(const std::vector<ContactPoint>& points, double robots) {
+  double least = robots;
+  for (const ContactPoint& point : points) least = std::min(least, point.friction);
+  return least;
+}
+
 std::string BalanceFault(MultibodyDynamics* dynamics, const std::vector<ContactPoint>& points) {
   if (points.empty()) return "the motion needs a contact";
   if (dynamics->InverseDynamics()[5] <= 0) return "the ground would have to pull";
@@ -90,9 +97,9 @@ std::string ForceFault(MultibodyDynamics* dynamics, const std::vector<ContactPoi
     const ContactForces least = AtLeastMargin(
         dynamics, points, tried, &ContactForceSettings::friction_margin, settings.friction_margin,
         std::max(forces->friction_utilisation, settings.friction_margin), *forces);
+    const double friction = LeastFriction(points, settings.friction);
     return fmt::format("the contacts need a friction of {:.2f} of {:.2f}",
-                       least.friction_utilisation * settings.friction,
-                       settings.friction_margin * settings.friction);
+                       least.friction_utilisation * friction, settings.friction_margin * friction);
   }
   return BalanceFault(dynamics, points);
 }

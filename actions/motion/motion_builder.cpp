@@ -17,8 +17,9 @@ namespace {
 /// Share of the forces (contact_forces.h) of a patch that is about to lift, or has just come down.
 constexpr double kLeastShare = 0.05;
 
-/// On slopes much of the friction bears the weight: of a cone with 8 edges 8 % would be missing.
-constexpr int kEdgesOnSlopes = 16;
+/// On slopes much of the friction bears the weight, and on slippery ground there is little: of a
+/// cone with 8 edges 8 % would be missing.
+constexpr int kManyEdges = 16;
 
 bool Contains(const MotionPhase* phase, int contact) {
   return phase == nullptr || std::find(phase->contacts.begin(), phase->contacts.end(), contact) !=
@@ -55,6 +56,12 @@ struct MotionBuilder::Bearing {
     });
   }
 
+  bool IsSlippery(double robots_friction) const {
+    return std::any_of(points.begin(), points.end(), [&](const dynamics::ContactPoint& point) {
+      return point.friction < robots_friction;
+    });
+  }
+
   /// `s`: part of the phase that has passed.
   std::vector<double> Shares(double s) const {
     const double passed = std::clamp(RestToRest(s, 1).value, 0.0, 1.0);
@@ -81,7 +88,8 @@ void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& 
     const double position = q[7 + j];
     if (position < joint.lower || position > joint.upper) {
       throw MotionError(fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s",
-                                    joint.name, position, joint.lower, joint.upper, t));
+                                    joint.name, position, joint.lower, joint.upper, t),
+                        -1, MotionError::Limit::kJointRange);
     }
     const double rate = v[6 + j];
     if (std::abs(rate) > speed_margin * joint.velocity) {
@@ -108,7 +116,7 @@ std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
       result.push_back(BuildPhase(phases[i], before, after, start, &q));
     } catch (const MotionError& error) {
       throw MotionError(std::string(error.what()) + PhaseText(*robot_, phases[i], before, after, i),
-                        static_cast<int>(i));
+                        static_cast<int>(i), error.limit());
     }
     start += phases[i].duration;
   }
@@ -124,9 +132,10 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
     const models::ContactPatch& patch = robot_->contacts[contact];
     const Eigen::Vector3d normal =
         phase.normals.empty() ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : phase.normals[i];
+    const double friction = phase.friction.empty() ? robot_->friction : phase.friction[i];
     result.contacts.push_back(patch.name);
     for (const Eigen::Vector3d& p : patch.points) {
-      bearing.points.push_back({patch.link, p, normal});
+      bearing.points.push_back({patch.link, p, normal, friction});
       const auto& down = phase.coming_down;
       bearing.comes_down.push_back(!Contains(before, contact) ||
                                    std::find(down.begin(), down.end(), contact) != down.end());
@@ -157,7 +166,9 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, d
   force_settings.normal_reserve =
       settings_.normal_reserve * robot_->TotalMass() * dynamics::kGravity;
   force_settings.torque_margin = settings_.torque_margin;
-  if (bearing.IsTilted()) force_settings.cone_edges = kEdgesOnSlopes;
+  if (bearing.IsTilted() || bearing.IsSlippery(robot_->friction)) {
+    force_settings.cone_edges = kManyEdges;
+  }
   force_settings.shares = bearing.Shares(t / phase.duration);
   dynamics_.SetState(state.q, state.v, state.a);
   const std::optional<dynamics::ContactForces> forces =

@@ -17,6 +17,7 @@ struct MotionPhase {
   double duration = 0;                          ///< s
   std::vector<int> contacts;                    ///< bearing patches
   std::vector<Eigen::Vector3d> normals;         ///< of their ground, unit; empty: level ground
+  std::vector<double> friction;                 ///< of their ground; empty: the robot's own
   std::vector<int> coming_down;                 ///< of these, those that did not bear before
   std::function<WholeBodyTask(double t)> task;  ///< t in [0, duration]
 };

@@ -16,13 +16,18 @@ namespace possibility::actions {
 /// Thrown when a motion cannot be generated: out of reach, beyond a limit, no contact forces.
 class MotionError : public std::runtime_error {
  public:
+  /// What a motion exceeds: the range of a joint, or something that may depend on its speed.
+  enum class Limit { kAny, kJointRange };
+
   /// `phase`: index of the phase at fault, -1 if none is.
-  explicit MotionError(const std::string& message, int phase = -1)
-      : std::runtime_error(message), phase_(phase) {}
+  explicit MotionError(const std::string& message, int phase = -1, Limit limit = Limit::kAny)
+      : std::runtime_error(message), phase_(phase), limit_(limit) {}
   int phase() const { return phase_; }
+  Limit limit() const { return limit_; }
 
  private:
   int phase_;
+  Limit limit_;
 };
 
 /// Required pose of one limb's contact patch.

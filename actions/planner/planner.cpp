@@ -87,7 +87,7 @@ class TraversalPlanner {
         switches_(SwitchesOf(request)),
         deadline_(request.time_limit),
         last_deadline_(request.time_limit + std::max(request.time_limit, kLeastToFinish)),
-        ground_(scenario.environment),
+        ground_(scenario.environment, robot.friction),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
         model_(BuildLocomotionModel(robot, GaitNames(), CancellationToken(deadline_),

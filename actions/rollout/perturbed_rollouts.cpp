@@ -18,7 +18,7 @@ std::vector<PerturbedRollout> RollOutPerturbed(const Plan& plan, const models::R
                                                const models::Scenario& scenario,
                                                const std::vector<Perturbation>& perturbations,
                                                const PerturbedRolloutsSettings& settings) {
-  const models::GroundMap ground(scenario.environment);
+  const models::GroundMap ground(scenario.environment, robot.friction);
   const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
   std::vector<PerturbedRollout> rollouts;
   rollouts.reserve(perturbations.size());

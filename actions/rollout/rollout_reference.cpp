@@ -126,7 +126,7 @@ std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
         contact.name = fmt::format("{} {}", patch.name, i);
         contact.point = {patch.link, patch.points[i], tilt_ * plane.normal};
         contact.offset = plane.offset - plane.normal.dot(origin_);
-        contact.friction = robot.friction;
+        contact.friction = std::min(robot.friction, plane.friction);
         if (planes_.size() > 1) {
           contact.lands = [this, kinematics, index, point = contact.point](const VectorXd& q) {
             kinematics->SetPosition(model_->TreeConfiguration(q));

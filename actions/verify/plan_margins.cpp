@@ -84,13 +84,16 @@ class Measurement {
   /// On the most favourable of the planes; level without any.
   void MeasureFriction(const Vector3d& force, const std::vector<int>& planes) {
     double least = std::numeric_limits<double>::infinity();
-    const auto measure = [&](const Vector3d& normal) {
+    const auto measure = [&](const Vector3d& normal, double friction) {
       const double load = normal.dot(force);
       if (load <= kLightLoad * weight_) return;
-      least = std::min(least, (force - load * normal).norm() / (robot_.friction * load));
+      least = std::min(
+          least, (force - load * normal).norm() / (std::min(robot_.friction, friction) * load));
     };
-    for (const int plane : planes) measure(ground_.planes()[plane].normal);
-    if (planes.empty()) measure(Vector3d::UnitZ());
+    for (const int plane : planes) {
+      measure(ground_.planes()[plane].normal, ground_.planes()[plane].friction);
+    }
+    if (planes.empty()) measure(Vector3d::UnitZ(), robot_.friction);
     Greatest(least, &margins_.friction);
   }
 

@@ -26,7 +26,7 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
   CheckContinuity(plan, robot, log);
   StateEvaluator evaluator(robot);
   CheckEnds(plan, robot, scenario, &evaluator, log);
-  const models::GroundMap ground(scenario.environment);
+  const models::GroundMap ground(scenario.environment, robot.friction);
   const VerifiedPlan subject{plan,
                              robot,
                              scenario,

@@ -49,13 +49,19 @@ void WriteCost(const ConeForceProblem& problem, QuadraticProgram* program) {
   program->g.noalias() = -(weighted.transpose() * problem.bounded_required);
 }
 
+/// Whether the cone of a point is too narrow for its sides to ensure that the force pushes.
+bool NeedsPush(const ConeForceProblem& problem, std::size_t point) {
+  return problem.slopes[point] < kSteep;
+}
+
 /// A regular polygon inscribed in the circle of radius slope * (normal force - reserve): half
 /// planes at cos(pi / edges) of the radius. Together they imply a normal force >= the reserve,
 /// unless the slope is almost zero.
 int WriteCones(const ConeForceProblem& problem, QuadraticProgram* program) {
-  const double slope = problem.slope * std::cos(std::numbers::pi / problem.cone_edges);
+  const double inscribed = std::cos(std::numbers::pi / problem.cone_edges);
   int row = 0;
   for (std::size_t i = 0; i < problem.normals.size(); ++i) {
+    const double slope = problem.slopes[i] * inscribed;
     const Eigen::Matrix<double, 3, 2> tangents = Tangents(problem.normals[i]);
     for (int edge = 0; edge < problem.cone_edges; ++edge, ++row) {
       const double angle = 2 * std::numbers::pi * edge / problem.cone_edges;
@@ -66,10 +72,10 @@ int WriteCones(const ConeForceProblem& problem, QuadraticProgram* program) {
       program->d[row] = -slope * problem.normal_reserve;
     }
   }
-  if (problem.slope >= kSteep) return row;
-  for (std::size_t i = 0; i < problem.normals.size(); ++i, ++row) {
+  for (std::size_t i = 0; i < problem.normals.size(); ++i) {
+    if (!NeedsPush(problem, i)) continue;
     program->C.block<1, 3>(row, 3 * i) = -problem.normals[i].transpose();
-    program->d[row] = -problem.normal_reserve;
+    program->d[row++] = -problem.normal_reserve;
   }
   return row;
 }
@@ -94,7 +100,8 @@ void MoveIntoCones(const ConeForceProblem& problem, VectorXd* x) {
     Vector3d tangential = force - along * normal;
     const double excess = std::max(0.0, along - problem.normal_reserve);
     const double size = tangential.norm();
-    if (size > problem.slope * excess) tangential *= problem.slope * excess / size;
+    const double most = problem.slopes[i] * excess;
+    if (size > most) tangential *= most / size;
     force = tangential + (excess + problem.normal_reserve) * normal;
   }
 }
@@ -108,8 +115,8 @@ std::optional<VectorXd> SolveConeForces(const ConeForceProblem& problem) {
   program.E = problem.balance_loads;
   program.e = problem.balance_required;
   program.equality_tolerance = kBalanceTolerance;
-  const int rows_per_cone = problem.cone_edges + (problem.slope < kSteep ? 1 : 0);
-  const int cone_rows = static_cast<int>(problem.normals.size()) * rows_per_cone;
+  int cone_rows = static_cast<int>(problem.normals.size()) * problem.cone_edges;
+  for (std::size_t i = 0; i < problem.normals.size(); ++i) cone_rows += NeedsPush(problem, i);
   const Index bounded = (problem.bounds.array().isFinite()).count();
   program.C.setZero(cone_rows + 2 * bounded, n);
   program.d.setZero(cone_rows + 2 * bounded);

@@ -12,7 +12,7 @@ namespace possibility::dynamics {
 /// Each cone is replaced by the pyramid inside it whose edges lie on the cone.
 struct ConeForceProblem {
   std::vector<Eigen::Vector3d> normals;  ///< unit, out of the ground, one per point
-  double slope = 0;                      ///< greatest ratio of tangential to normal force
+  std::vector<double> slopes;  ///< greatest ratio of tangential to normal force, one per point
   int cone_edges = 8;
   /// Normal force at which every cone starts.
   double normal_reserve = 0;

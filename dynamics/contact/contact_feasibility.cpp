@@ -67,6 +67,7 @@ class ImpulseProblem {
     problem_.bounded_loads.resize(0, jacobian.rows());
     problem_.cone_edges = kConeEdges;
     for (const ContactPoint& point : points) problem_.normals.push_back(point.normal_W);
+    problem_.slopes.resize(points.size());
   }
 
   ImpulseFeasibility Solution() {
@@ -88,21 +89,27 @@ class ImpulseProblem {
   }
 
  private:
+  double FrictionAt(const ContactPoint& point) const { return std::min(friction_, point.friction); }
+
   static Eigen::Matrix3Xd Reshaped(const VectorXd& x) {
     return Eigen::Map<const Eigen::Matrix3Xd>(x.data(), 3, x.size() / 3);
   }
 
   /// Keeps the impulses found and returns the fraction that they use.
   std::optional<double> Attempt(double fraction) {
-    problem_.slope = friction_ * fraction;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      problem_.slopes[i] = FrictionAt(points_[i]) * fraction;
+    }
     const std::optional<VectorXd> x = SolveConeForces(problem_);
     if (!x) return std::nullopt;
     best_ = *x;
     double used = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      used = std::max(used, FrictionUsed(points_[i], x->segment<3>(3 * i)));
+      const double friction = FrictionAt(points_[i]);
+      if (!(friction > 0)) return 0;
+      used = std::max(used, FrictionUsed(points_[i], x->segment<3>(3 * i)) / friction);
     }
-    return friction_ > 0 ? std::min(fraction, used / friction_) : 0;
+    return std::min(fraction, used);
   }
 
   /// Least squares of the pulls p, with n'x + p >= 0, p >= 0.

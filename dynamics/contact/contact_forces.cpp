@@ -102,9 +102,15 @@ class ForceProblem {
     return balance_.efforts[joint] * settings_.torque_margin * kInside / unit_;
   }
 
+  double FrictionAt(const ContactPoint& point) const {
+    return std::min(settings_.friction, point.friction);
+  }
+
   void WriteProblem() {
-    for (const ContactPoint& point : points_) problem_.normals.push_back(point.normal_W);
-    problem_.slope = settings_.friction * settings_.friction_margin * kInside;
+    for (const ContactPoint& point : points_) {
+      problem_.normals.push_back(point.normal_W);
+      problem_.slopes.push_back(FrictionAt(point) * settings_.friction_margin * kInside);
+    }
     problem_.cone_edges = settings_.cone_edges;
     problem_.normal_reserve = settings_.normal_reserve / unit_;
     problem_.balance_loads = balance_.jacobians.leftCols(balance_.num_base).transpose();
@@ -135,7 +141,7 @@ class ForceProblem {
     for (std::size_t k = 0; k < loaded_.size(); ++k) result.torques[loaded_[k]] -= loads[k];
     if (settings_.friction > 0) {
       for (std::size_t i = 0; i < points_.size(); ++i) {
-        const double used = FrictionUsed(points_[i], result.forces.col(i)) / settings_.friction;
+        const double used = FrictionUsed(points_[i], result.forces.col(i)) / FrictionAt(points_[i]);
         result.friction_utilisation = std::max(result.friction_utilisation, used);
       }
     }

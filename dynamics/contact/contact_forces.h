@@ -10,8 +10,9 @@
 namespace possibility::dynamics {
 
 struct ContactForceSettings {
-  double friction = 0.7;         ///< Coulomb; the cone is linearised from inside
-  double friction_margin = 0.9;  ///< fraction of `friction` that may be used
+  /// Coulomb; the lesser of this and the point's own counts. The cone is linearised from inside.
+  double friction = 0.7;
+  double friction_margin = 0.9;  ///< fraction of the friction that may be used
   double torque_margin = 0.95;   ///< fraction of each joint's effort limit that may be used
   /// N: every point's cone starts at this normal force, so that a force that turns out smaller by
   /// less than this still lies in the cone.
@@ -41,8 +42,8 @@ struct ContactForces {
 /// MultibodyModel's independent joints. None if no such forces exist. Without points: the torques
 /// of free flight, if a flying robot can have that acceleration.
 /// @throws std::invalid_argument if the forces are not finite, a point names no link or is not
-/// finite, a normal is not a unit vector, a setting is out of range, or there is not one share per
-/// point.
+/// finite, a normal is not a unit vector, a friction is not positive, a setting is out of range, or
+/// there is not one share per point.
 std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics,
                                                      const std::vector<ContactPoint>& points,
                                                      const ContactForceSettings& settings);

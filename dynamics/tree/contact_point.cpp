@@ -28,6 +28,9 @@ void CheckContactPoints(const char* caller, int num_links,
     if (!(std::abs(point.normal_W.norm() - 1) <= kUnit)) {
       fail("has a normal that is no unit vector");
     }
+    if (!(point.friction > 0)) {
+      fail(fmt::format("has friction {}, expected a positive number", point.friction));
+    }
   }
 }
 

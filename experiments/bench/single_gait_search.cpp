@@ -23,7 +23,7 @@ SingleGaitSearch::SingleGaitSearch(const models::RobotModel& robot, const std::s
                                    models::Scenario scenario)
     : model_(actions::BuildLocomotionModel(robot, {gait})),
       scenario_(std::move(scenario)),
-      ground_(scenario_.environment),
+      ground_(scenario_.environment, robot.friction),
       world_{&scenario_.environment, &ground_},
       start_(PoseOf(scenario_.start)),
       goal_(PoseOf(scenario_.goals.front())) {

@@ -47,9 +47,10 @@ void RequireSideUp(const YamlNode& node, const Obstacle& box) {
 
 /// A ground box stands upright (`yaw_deg`) or is tilted (`rpy_deg`).
 Obstacle ReadGround(const YamlNode& node) {
-  node.MapOf({"name", "size", "position", "yaw_deg", "rpy_deg"});
+  node.MapOf({"name", "size", "position", "yaw_deg", "rpy_deg", "friction"});
   Obstacle ground;
   ground.is_ground = true;
+  ground.friction = ReadGroundFriction(node);
   ground.name = node.At("name").String();
   ground.shape = Shape::Box(node.At("size").PositiveVector3());
   ground.X_WO.translation() = node.At("position").Vector3();
@@ -63,12 +64,29 @@ Obstacle ReadGround(const YamlNode& node) {
   return ground;
 }
 
+/// Steps may bear on a box that says so: `bears: true`.
 Obstacle ReadObstacle(const YamlNode& node) {
   std::vector<std::string> keys = kShapeKeys;
-  keys.push_back("name");
+  keys.insert(keys.end(), {"name", "bears", "friction"});
   node.MapOf(keys);
   const PosedShape posed = ReadPosedShape(node);
-  return {node.At("name").String(), posed.shape, posed.X_PS, false};
+  Obstacle obstacle;
+  obstacle.name = node.At("name").String();
+  obstacle.shape = posed.shape;
+  obstacle.X_WO = posed.X_PS;
+  const auto bears = node.Find("bears");
+  obstacle.is_ground = bears && bears->Boolean();
+  obstacle.is_for_steps = obstacle.is_ground;
+  if (!obstacle.is_ground) {
+    if (const auto friction = node.Find("friction")) {
+      friction->Fail("is of an obstacle that does not bear, expected 'bears: true' beside it");
+    }
+    return obstacle;
+  }
+  if (obstacle.shape.type != ShapeType::kBox) bears->Fail("expected a box, as only boxes bear");
+  RequireSideUp(*bears, obstacle);
+  obstacle.friction = ReadGroundFriction(node);
+  return obstacle;
 }
 
 }  // namespace

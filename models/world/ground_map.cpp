@@ -32,6 +32,8 @@ constexpr double kLevelTilt = 1e-8;
 struct Face {
   std::vector<Vector3d> corners;  ///< counter-clockwise from above
   Vector3d normal = Vector3d::UnitZ();
+  double friction = kRobotsFriction;
+  bool is_for_steps = false;
 
   bool is_level() const { return (normal - Vector3d::UnitZ()).norm() <= kLevelTilt; }
   double height() const { return corners.front().z(); }
@@ -64,6 +66,8 @@ Face TopOf(const Obstacle& box) {
   const int a = (axis + 1) % 3;
   const int b = (axis + 2) % 3;
   Face face;
+  face.friction = box.friction;
+  face.is_for_steps = box.is_for_steps;
   face.normal = side * box.X_WO.linear().col(axis);
   RequireUpward(face, box.name);
   for (const auto& [u, v] :
@@ -94,6 +98,7 @@ Vector3d Newell(const std::vector<Vector3d>& corners) {
 Face FaceOf(const GroundFace& ground) {
   Face face;
   face.corners = ground.corners;
+  face.friction = ground.friction;
   const Vector3d area = Newell(face.corners);
   if (face.corners.size() < 3 || !(area.norm() > 0) || !area.allFinite()) {
     throw InputError(fmt::format("ground '{}': a face without an area", ground.name));
@@ -123,7 +128,7 @@ Isometry3d FrameOf(const Face& face) {
   return X_WG;
 }
 
-/// All coplanar faces.
+/// All coplanar faces of one friction.
 class Plane {
  public:
   explicit Plane(const std::vector<Face>& faces)
@@ -131,7 +136,9 @@ class Plane {
     is_level_ = faces.front().is_level();
     plane_.normal = X_WG_.linear().col(2);
     plane_.offset = is_level_ ? faces.front().height() : plane_.normal.dot(X_WG_.translation());
+    plane_.friction = faces.front().friction;
     for (const Face& face : faces) {
+      plane_.friction = std::min(plane_.friction, face.friction);
       for (const Vector3d& corner : face.corners) bounds_.extend(corner);
     }
   }
@@ -208,18 +215,19 @@ bool LiesIn(const Face& face, const Face& first) {
   });
 }
 
-/// Tilted faces by plane. Only planes with about the same normal are compared, because uneven
-/// terrain has as many planes as faces. Neighbours in the list are often coplanar, so the search
-/// begins with the last plane.
-std::vector<std::vector<Face>> SlopesOf(std::vector<Face> faces) {
+/// Rough ground by plane and friction. Only planes with about the same normal are compared, because
+/// uneven terrain has as many planes as faces. Neighbours in the list are often coplanar, so the
+/// search begins with the last plane.
+std::vector<std::vector<Face>> RoughGroundOf(std::vector<Face> faces) {
   constexpr double kCell = 1e-3;  // of the normal
-  std::vector<std::vector<Face>> slopes;
+  std::vector<std::vector<Face>> planes;
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> by_normal;
-  const auto is_plane_of = [&slopes](std::size_t plane, const Face& face) {
-    return LiesIn(face, slopes[plane].front()) && LiesIn(slopes[plane].front(), face);
+  const auto is_plane_of = [&planes](std::size_t plane, const Face& face) {
+    return face.friction == planes[plane].front().friction && LiesIn(face, planes[plane].front()) &&
+           LiesIn(planes[plane].front(), face);
   };
   const auto find = [&](const Face& face, std::int64_t x, std::int64_t y) {
-    if (!slopes.empty() && is_plane_of(slopes.size() - 1, face)) return slopes.size() - 1;
+    if (!planes.empty() && is_plane_of(planes.size() - 1, face)) return planes.size() - 1;
     for (const std::int64_t dx : {0, -1, 1}) {
       for (const std::int64_t dy : {0, -1, 1}) {
         const auto cell = by_normal.find({x + dx, y + dy});
@@ -229,19 +237,19 @@ std::vector<std::vector<Face>> SlopesOf(std::vector<Face> faces) {
         }
       }
     }
-    return slopes.size();
+    return planes.size();
   };
   for (Face& face : faces) {
     const std::int64_t x = std::llround(face.normal.x() / kCell);
     const std::int64_t y = std::llround(face.normal.y() / kCell);
     const std::size_t plane = find(face, x, y);
-    if (plane == slopes.size()) {
-      slopes.emplace_back();
+    if (plane == planes.size()) {
+      planes.emplace_back();
       by_normal[{x, y}].push_back(plane);
     }
-    slopes[plane].push_back(std::move(face));
+    planes[plane].push_back(std::move(face));
   }
-  return slopes;
+  return planes;
 }
 
 }  // namespace
@@ -250,7 +258,7 @@ struct GroundMap::Impl {
   std::vector<double> heights;
   std::vector<Plane> planes;  ///< the levels first
   std::vector<GroundPlane> equations;
-  BoundsTree slopes;  ///< of the planes that are no levels
+  BoundsTree rough;  ///< the planes that are no levels
   AlignedBox3d bounds;
 
   void Add(const std::vector<Face>& faces) {
@@ -259,13 +267,13 @@ struct GroundMap::Impl {
     bounds.extend(planes.back().bounds());
   }
 
-  void PlantSlopes() {
+  void PlantRoughGround() {
     std::vector<AlignedBox3d> boxes;
     for (std::size_t i = heights.size(); i < planes.size(); ++i) {
       const Vector3d rounding = Vector3d::Constant(kAbutting);
       boxes.emplace_back(planes[i].bounds().min() - rounding, planes[i].bounds().max() + rounding);
     }
-    slopes = BoundsTree(std::move(boxes));
+    rough = BoundsTree(std::move(boxes));
   }
 
   /// The highest level in [low, high] with ground at p.
@@ -277,14 +285,14 @@ struct GroundMap::Impl {
     return std::nullopt;
   }
 
-  /// Calls `visit` with the tilted planes that have ground at p within [low, high].
+  /// Calls `visit` with the planes of rough ground that have ground at p within [low, high].
   template <typename Visit>
-  void VisitSlopes(const Vector2d& p, double low, double high, const Visit& visit) const {
+  void VisitRough(const Vector2d& p, double low, double high, const Visit& visit) const {
     if (!p.allFinite() || !(low <= high)) return;
     const AlignedBox3d column(Vector3d(p.x(), p.y(), std::max(low, bounds.min().z() - 1)),
                               Vector3d(p.x(), p.y(), std::min(high, bounds.max().z() + 1)));
-    slopes.VisitNear(column, 0, [&](int slope) {
-      const int plane = static_cast<int>(heights.size()) + slope;
+    rough.VisitNear(column, 0, [&](int index) {
+      const int plane = static_cast<int>(heights.size()) + index;
       const double height = planes[plane].HeightAt(p);
       if (height >= low && height <= high &&
           planes[plane].region().Holds(planes[plane].InPlane(p))) {
@@ -295,17 +303,19 @@ struct GroundMap::Impl {
   }
 };
 
-GroundMap::GroundMap(const Environment& environment) : impl_(std::make_unique<Impl>()) {
-  std::vector<Face> level, tilted;
+GroundMap::GroundMap(const Environment& environment, double friction)
+    : impl_(std::make_unique<Impl>()) {
+  std::vector<Face> level, rough;
   for (Face& face : FacesOf(environment)) {
-    (face.is_level() ? level : tilted).push_back(std::move(face));
+    const bool is_of_level = face.is_level() && !face.is_for_steps && face.friction >= friction;
+    (is_of_level ? level : rough).push_back(std::move(face));
   }
   for (const std::vector<Face>& faces : LevelsOf(std::move(level))) {
     impl_->heights.push_back(faces.front().height());
     impl_->Add(faces);
   }
-  for (const std::vector<Face>& faces : SlopesOf(std::move(tilted))) impl_->Add(faces);
-  impl_->PlantSlopes();
+  for (const std::vector<Face>& faces : RoughGroundOf(std::move(rough))) impl_->Add(faces);
+  impl_->PlantRoughGround();
 }
 
 GroundMap::~GroundMap() = default;
@@ -332,14 +342,29 @@ bool GroundMap::IsNear(int plane, const Vector2d& p, double distance) const {
   return ground.region().IsNear(ground.InPlane(p), distance);
 }
 
-bool GroundMap::TiltedGroundIsNear(const Vector3d& p, double distance) const {
+bool GroundMap::RoughGroundIsNear(const Vector3d& p, double distance) const {
   if (impl_->planes.size() == impl_->heights.size() || !p.allFinite()) return false;
   bool found = false;
-  impl_->slopes.VisitNear(AlignedBox3d(p, p), distance, [&](int slope) {
-    found = impl_->planes[impl_->heights.size() + slope].IsNear(p, distance);
+  impl_->rough.VisitNear(AlignedBox3d(p, p), distance, [&](int index) {
+    found = impl_->planes[impl_->heights.size() + index].IsNear(p, distance);
     return found ? -1.0 : distance;
   });
   return found;
+}
+
+std::vector<int> GroundMap::PlanesNear(const Vector3d& p, double distance) const {
+  std::vector<int> near;
+  if (!p.allFinite()) return near;
+  for (int level = 0; level < static_cast<int>(impl_->heights.size()); ++level) {
+    if (std::abs(impl_->heights[level] - p.z()) <= distance) near.push_back(level);
+  }
+  const std::size_t levels = near.size();
+  impl_->rough.VisitNear(AlignedBox3d(p, p), distance, [&](int index) {
+    near.push_back(static_cast<int>(impl_->heights.size()) + index);
+    return distance;
+  });
+  std::sort(near.begin() + static_cast<std::ptrdiff_t>(levels), near.end());
+  return near;
 }
 
 std::optional<int> GroundMap::LevelAt(const Vector2d& p, double z, double tolerance) const {
@@ -357,7 +382,7 @@ std::vector<int> GroundMap::PlanesAt(const Vector2d& p, double low, double high)
     const bool in_range = impl_->heights[level] >= low && impl_->heights[level] <= high;
     if (in_range && impl_->planes[level].region().Holds(p)) found.push_back(level);
   }
-  impl_->VisitSlopes(p, low, high, [&](int plane, double) { found.push_back(plane); });
+  impl_->VisitRough(p, low, high, [&](int plane, double) { found.push_back(plane); });
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -366,7 +391,7 @@ std::optional<double> GroundMap::HeightBelow(const Vector2d& p, double z) const 
   constexpr double kAbove = 1e-3;
   std::optional<double> highest;
   if (const auto level = LevelBelow(p, z)) highest = impl_->heights[*level];
-  impl_->VisitSlopes(p, highest.value_or(-kInfinity), z + kAbove, [&](int, double height) {
+  impl_->VisitRough(p, highest.value_or(-kInfinity), z + kAbove, [&](int, double height) {
     if (!highest || height > *highest) highest = height;
   });
   return highest;

@@ -13,6 +13,7 @@ namespace possibility::models {
 struct GroundPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, upward
   double offset = 0;                                  ///< m
+  double friction = kRobotsFriction;                  ///< the lesser of this and the robot's counts
 
   /// Of the plane above or below a point seen from above, m.
   double HeightAt(const Eigen::Vector2d& p) const {
@@ -20,9 +21,10 @@ struct GroundPlane {
   }
 };
 
-/// The ground as a set of planes: in each, the union of all coplanar ground faces, so that abutting
-/// faces have no seam. Level planes come first; they are called levels. Exact geometry; immutable
-/// and safe to share.
+/// The ground as a set of planes: in each, the union of all coplanar ground faces of one friction,
+/// so that abutting faces have no seam. The first planes are the levels: horizontal, and as much
+/// friction as the robot has. All others are rough ground, for single steps: tilted or slippery, or
+/// the top of an obstacle. Exact geometry; immutable and safe to share.
 ///
 /// Points with two coordinates are places seen from above. Distances from the ground of a plane are
 /// measured in the plane.
@@ -33,10 +35,11 @@ class GroundMap {
   /// No ground is steeper, rad.
   static constexpr double kSteepest = 0.78539816339744831;
 
-  /// Ground that another solid covers still counts as ground.
+  /// Ground that another solid covers still counts as ground. `friction`: the robot's coefficient.
+  /// With 0 no ground is slippery, and of level ground of one height the least friction counts.
   /// @throws InputError naming the obstacle if one that is ground is not a box, or has no side that
   /// faces up; or if a face is no convex polygon of one plane that faces up.
-  explicit GroundMap(const Environment& environment);
+  explicit GroundMap(const Environment& environment, double friction = 0);
   ~GroundMap();
   GroundMap(GroundMap&&) noexcept;
   GroundMap& operator=(GroundMap&&) noexcept;
@@ -65,9 +68,13 @@ class GroundMap {
   /// @throws std::out_of_range unless there is such a plane.
   bool IsNear(int plane, const Eigen::Vector2d& p, double distance) const;
 
-  /// Whether tilted ground is at most `distance` (>= 0, m) away from p, in space. Levels do not
+  /// Whether rough ground is at most `distance` (>= 0, m) away from p, in space. Levels do not
   /// count. False if p is not finite.
-  bool TiltedGroundIsNear(const Eigen::Vector3d& p, double distance) const;
+  bool RoughGroundIsNear(const Eigen::Vector3d& p, double distance) const;
+
+  /// Planes whose ground may be at most `distance` (>= 0, m) away from p, in space; ascending. All
+  /// such planes are among them.
+  std::vector<int> PlanesNear(const Eigen::Vector3d& p, double distance) const;
 
   /// The level whose height is within `tolerance` of z and that has ground at p; the highest one if
   /// there are several; nothing otherwise.

@@ -171,9 +171,10 @@ void AddTerrain(const Terrain& terrain, Environment* environment) {
       solid->name = terrain.name;
       solid->is_ground = is_ground;
       solid->surface = surface;
+      solid->friction = terrain.friction;
       environment->obstacles.push_back(*std::move(solid));
       if (!is_face) continue;
-      environment->faces.push_back({terrain.name, polygon});
+      environment->faces.push_back({terrain.name, polygon, terrain.friction});
       headings.Add(polygon);
     }
   }

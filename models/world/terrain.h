@@ -16,6 +16,7 @@ struct Terrain {
   /// The ground below a height map is solid down to this height, m. Without it, the surface is a
   /// sheet kSheet thick, below its outside.
   std::optional<double> base;
+  double friction = kRobotsFriction;  ///< as of Obstacle
 };
 
 /// m.

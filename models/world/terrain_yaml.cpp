@@ -42,12 +42,18 @@ void RequireSize(const YamlNode& node, const Eigen::AlignedBox3d& bounds, const 
 
 }  // namespace
 
+double ReadGroundFriction(const YamlNode& node) {
+  const auto friction = node.Find("friction");
+  return friction ? friction->Positive() : kRobotsFriction;
+}
+
 TerrainFile ReadMeshTerrain(const YamlNode& node, const std::filesystem::path& folder) {
-  node.MapOf({"name", "file", "scale", "position", "rpy_deg", "ground"});
+  node.MapOf({"name", "file", "scale", "position", "rpy_deg", "ground", "friction"});
   TerrainFile result;
   Terrain& terrain = result.terrain;
   terrain.name = node.At("name").String();
   terrain.is_ground = IsGround(node);
+  terrain.friction = ReadGroundFriction(node);
   const auto scale_node = node.Find("scale");
   const double scale = scale_node ? scale_node->Positive() : 1;
   Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
@@ -76,11 +82,12 @@ TerrainFile ReadMeshTerrain(const YamlNode& node, const std::filesystem::path& f
 }
 
 TerrainFile ReadHeightMapTerrain(const YamlNode& node, const std::filesystem::path& folder) {
-  node.MapOf({"name", "file", "cell", "height_scale", "position", "yaw_deg", "ground"});
+  node.MapOf({"name", "file", "cell", "height_scale", "position", "yaw_deg", "ground", "friction"});
   TerrainFile result;
   Terrain& terrain = result.terrain;
   terrain.name = node.At("name").String();
   terrain.is_ground = IsGround(node);
+  terrain.friction = ReadGroundFriction(node);
   const double cell = node.At("cell").Number(kShortest, kLongest);
   Eigen::Isometry3d X_WM = Eigen::Isometry3d::Identity();
   if (const auto position = node.Find("position")) X_WM.translation() = position->Vector3();

@@ -14,6 +14,9 @@ struct TerrainFile {
   std::string content_hash;
 };
 
+/// The key `friction` of anything that may be ground (Obstacle::friction).
+double ReadGroundFriction(const YamlNode& node);
+
 /// Reads an element of `meshes` or of `height_maps` (docs/file_formats.md, "Scenario YAML") and the
 /// file that it names, relative to `folder`.
 /// @throws InputError for anything missing or malformed, or if the surface is longer than a

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from motion import (Interval, State, cross, knot_state, product, rotation_of, rotation_vector,
                     turned)
-from sample_checks import KNOT_ROUNDING, normals_at, outside_cone
+from sample_checks import KNOT_ROUNDING, ground_at, outside_cone
 
 CONTINUITY = 1e-6  # m, rad, m/s, rad/s: rounding
 IMPACT_SPEED = 1e-4  # m/s, of a point that has just hit the ground
@@ -63,10 +63,10 @@ def check_impacts(robot, plan, findings):
         names = ["root"] * 6 + plan.joints
         findings.note_largest("impact: momentum left over", abs(rows), phase, time, names)
         findings.note("impact: gain of energy", max(energy, 0), phase, time)
-        normals = normals_at(plan.ground, robot.places(phase.points))
+        normals, friction = ground_at(plan.ground, robot.places(phase.points))
         findings.note_largest("impact: impulse outside its cone",
-                              outside_cone(phase.impulses, normals, plan.robot.friction), phase,
-                              time, phase.points)
+                              outside_cone(phase.impulses, normals, friction), phase, time,
+                              phase.points)
         speeds = np.linalg.norm(robot.velocities(phase.points), axis=1)
         findings.note_largest("impact: speed of the points after", speeds, phase, time,
                               phase.points)

@@ -35,11 +35,12 @@ class Robot:
 @dataclass
 class Ground:
     """Sides of boxes that face up most: middles (n x 3), axes (n x 3 x 3: two along the side, then
-    out of it, as columns), half extents (n x 2)."""
+    out of it, as columns), half extents (n x 2), coefficients of friction (n)."""
 
     middles: np.ndarray
     axes: np.ndarray
     half_sizes: np.ndarray
+    friction: np.ndarray
 
     @property
     def normals(self):
@@ -139,8 +140,10 @@ def _read_robot(file):
                  float(_get(node, "friction", float, file)), effort, patches)
 
 
-def _read_ground(file):
-    boxes = _get(_get(_yaml_of(file), "environment", dict, file), "ground", list, file)
+def _read_ground(file, robots_friction):
+    environment = _get(_yaml_of(file), "environment", dict, file)
+    boxes = list(_get(environment, "ground", list, file))
+    boxes += [box for box in environment.get("obstacles", []) if box.get("bears", False)]
     if not boxes:
         raise InputError(f"{file}: environment.ground: expected at least one box")
     where = f"{file}: environment.ground"
@@ -149,7 +152,8 @@ def _read_ground(file):
     turns = _numbers([box.get("rpy_deg", [0, 0, box.get("yaw_deg", 0)]) for box in boxes],
                      (None, 3), where)
     sides = [_upper_side(*box) for box in zip(positions, sizes, np.radians(turns))]
-    return Ground(*(np.array(part) for part in zip(*sides)))
+    friction = _numbers([box.get("friction", robots_friction) for box in boxes], (None,), where)
+    return Ground(*(np.array(part) for part in zip(*sides)), np.minimum(friction, robots_friction))
 
 
 def _rotation(roll, pitch, yaw):
@@ -278,4 +282,4 @@ def read_plan(file):
                                       file))
     if not phases:
         raise InputError(f"{file}: there is no motion in this plan")
-    return Plan(joints, robot, _read_ground(beside("scenario")), phases)
+    return Plan(joints, robot, _read_ground(beside("scenario"), robot.friction), phases)

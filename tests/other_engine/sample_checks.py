@@ -14,7 +14,6 @@ BEARS = 1.0  # N; the ratio of smaller forces says nothing
 class SampleChecks:
     def __init__(self, robot, plan, findings):
         self._robot, self._plan, self._findings = robot, plan, findings
-        self._friction = plan.robot.friction
         self._anchors = {}  # (patch, index) -> where the point began to bear
         self.samples = 0
         weight = robot.weight
@@ -110,13 +109,13 @@ class SampleChecks:
         beyond = np.maximum(robot.lowest - state.joints, state.joints - robot.highest)
         note_largest("joint beyond its range", np.maximum(beyond, 0), phase, time, joints)
         if phase.points:
-            normals = normals_at(self._plan.ground, robot.places(phase.points))
-            note_largest("force outside its cone", outside_cone(forces, normals, self._friction),
-                         phase, time, phase.points)
+            normals, friction = ground_at(self._plan.ground, robot.places(phase.points))
+            note_largest("force outside its cone", outside_cone(forces, normals, friction), phase,
+                         time, phase.points)
             load, sideways = split(forces, normals)
             pressed = load > BEARS
-            used = sideways[pressed] / load[pressed]
-            note_largest("friction used / friction", used / self._friction, phase, time,
+            used = sideways[pressed] / load[pressed] / friction[pressed]
+            note_largest("friction used / friction", used, phase, time,
                          [point for point, bears in zip(phase.points, pressed) if bears])
             self._contact_points(phase, time)
 
@@ -153,10 +152,11 @@ def distances(ground, places):
     return abs(vertical), outside
 
 
-def normals_at(ground, places):
-    """Of the ground nearest to each place."""
+def ground_at(ground, places):
+    """Normals and coefficients of friction of the ground nearest to each place."""
     vertical, outside = distances(ground, places)
-    return ground.normals[np.hypot(vertical, outside).argmin(axis=1)]
+    nearest = np.hypot(vertical, outside).argmin(axis=1)
+    return ground.normals[nearest], ground.friction[nearest]
 
 
 def split(forces, normals):

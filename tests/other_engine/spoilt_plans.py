@@ -85,6 +85,12 @@ class SpoiltStride(Spoilt):
         robot["friction"] = 0.01
         self.refuses(self.write(self.plan, robot), "force outside its cone")
 
+    def test_slippery_ground(self):
+        scenario = self.yaml_of(self.plan, "scenario")
+        for box in scenario["environment"]["ground"]:
+            box["friction"] = 0.01
+        self.refuses(self.write(self.plan, scenario=scenario), "force outside its cone")
+
     def test_longer_sole(self):
         robot = self.yaml_of(self.plan, "robot")
         for contact in robot["contacts"]:

@@ -58,8 +58,20 @@ class FootholdFloodTest : public ::testing::Test {
     return true;
   }
 
+  /// Whether no solid stands where the sole is, a little above its ground.
+  bool IsBare(const models::CollisionChecker& checker, int limb, const Foothold& place) const {
+    Eigen::AlignedBox2d sole;
+    for (const Eigen::Vector2d& p : stance_.bearing_points[limb]) sole.extend(p);
+    const Eigen::Vector2d centre = sole.center();
+    const models::Shape slice = models::Shape::Box({sole.sizes().x(), sole.sizes().y(), 0.002});
+    return checker.IsFree(
+        slice, FrameOf(stance_, limb, place) * Eigen::Translation3d(centre.x(), centre.y(), 0.005),
+        0);
+  }
+
   /// A step of the family, drawn at random; whether it leads to ground.
-  bool Step(const World& world, int limb, const Foothold& other, Foothold* place) {
+  bool Step(const World& world, const models::CollisionChecker& checker, int limb,
+            const Foothold& other, Foothold* place) {
     const double side = stance_.patch_centres[limb].y() > 0 ? 1 : -1;
     const PlanarPose displacement{Random(-limits_.forward, limits_.forward),
                                   side * Random(-0.1, 1) * limits_.lateral,
@@ -76,7 +88,7 @@ class FootholdFloodTest : public ::testing::Test {
     const int plane = below[static_cast<std::size_t>(Random(0, static_cast<double>(below.size())))];
     *place = {there, planes[plane].HeightAt(centre), planes[plane].normal, planes[plane].offset};
     return std::abs(place->z - other.z) <= limits_.rise &&
-           Bears(*world.ground, limb, plane, *place);
+           Bears(*world.ground, limb, plane, *place) && IsBare(checker, limb, *place);
   }
 
   FootholdFlood FloodOf(const World& world, const GroundedStance& start,
@@ -101,12 +113,13 @@ TEST_F(FootholdFloodTest, WhatStepsReachIsNeverDenied) {
     const World& world = uneven.Built();
     const GroundedStance start = UnevenWorld::StanceAt(-0.4);
     const FootholdFlood flood = FloodOf(world, start);
+    const models::CollisionChecker checker(*world.environment);
     std::array<Foothold, 2> feet;
     feet.fill({start.pose, start.z});
     int limb = 0;
     for (int attempt = 0; attempt < 12000; ++attempt) {
       Foothold place;
-      if (!Step(world, limb, feet[1 - limb], &place)) continue;
+      if (!Step(world, checker, limb, feet[1 - limb], &place)) continue;
       ASSERT_TRUE(flood.Reaches(limb, place))
           << "terrain " << terrain << ": " << place.stance.x << " " << place.stance.y << " "
           << place.stance.yaw << " at " << place.z;
@@ -167,6 +180,21 @@ TEST_F(FootholdFloodTest, AWideGapAHighStepAndSmallStonesAreDenied) {
   }
 }
 
+TEST_F(FootholdFloodTest, TheFloorUnderAPalletIsDenied) {
+  for (const bool bears : {false, true}) {
+    UnevenWorld uneven;
+    uneven.Ground(-3, 6, 0);
+    uneven.Add({0.8, 3, 0.1}, {1, 0, 0.05}, bears);
+    const FootholdFlood flood = FloodOf(uneven.Built(), UnevenWorld::StanceAt(-1));
+    for (int i = 0; i < 500; ++i) {
+      const PlanarPose on{Random(0.8, 1.2), Random(-0.5, 0.5), Random(-3, 3)};
+      EXPECT_FALSE(flood.Reaches(0, {on, 0}));
+      EXPECT_EQ(flood.Reaches(0, {on, 0.1}), bears);
+      EXPECT_TRUE(flood.Reaches(0, {PlanarPose{Random(2, 4), on.y, on.yaw}, 0}));
+    }
+  }
+}
+
 /// Boxes on level ground, some of which no swing passes. Every step places a foot where it is free,
 /// and swings it there without a hit.
 TEST_F(FootholdFloodTest, WhatSwingsReachBetweenBoxesIsNeverDenied) {
@@ -185,12 +213,13 @@ TEST_F(FootholdFloodTest, WhatSwingsReachBetweenBoxesIsNeverDenied) {
     const FootholdGround ground(DrcHubo1(), stance_, world, limits_.margin);
     const GroundedStance start = UnevenWorld::StanceAt(-1);
     const FootholdFlood flood = FloodOf(world, start);
+    const models::CollisionChecker checker(*world.environment);
     std::array<Foothold, 2> feet;
     feet.fill({start.pose, start.z});
     int limb = 0;
     for (int attempt = 0; attempt < 1500; ++attempt) {
       Foothold place;
-      if (!Step(world, limb, feet[1 - limb], &place)) continue;
+      if (!Step(world, checker, limb, feet[1 - limb], &place)) continue;
       const std::optional<Foothold> there = ground.Place(limb, place.stance, 0);
       if (!there || !world.environment->bounds.contains(there->stance.position())) continue;
       if (!ground.LiftBetween(limb, feet[limb], *there, limits_.clearance, limits_.lift)) continue;

@@ -42,7 +42,7 @@ TEST(ConeForcesTest, PointsNearlyOnALineBearWhatPointsOnTheLineBear) {
     }
     ConeForceProblem problem;
     problem.normals.assign(4, Vector3d::UnitZ());
-    problem.slope = 0.5;
+    problem.slopes.assign(4, 0.5);
     problem.cone_edges = 16;
     problem.balance_required = Wrenches(points) * forces;
     for (int k = 0; k < 4; ++k) points.col(k) += RandomVector(&random, 3, 1e-11);

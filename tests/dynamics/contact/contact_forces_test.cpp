@@ -117,6 +117,32 @@ TEST(ContactForces, TwoAndThreePointSupportsFollowTheLeverLaw) {
   EXPECT_NEAR(one->forces(2, 0), 10 * kGravity, 1e-9);
 }
 
+// Pushed sideways, a block slips when the force exceeds the sum of each point's friction.
+TEST(ContactForces, EveryPointHasTheFrictionOfItsOwnGround) {
+  Standing block(FreeBlock());
+  block.settings.friction = 0.5;
+  block.settings.friction_margin = 1;
+  block.settings.cone_edges = 32;
+  std::vector<ContactPoint> points = Rectangle(0, -0.5, 0.5, -0.5, 0.5, -1e-3);
+  points[0].friction = points[1].friction = 0.1;  // half the weight, as the push has no lever
+  points[2].friction = 7;
+  const double most = kGravity * (0.1 + 0.5) / 2;
+  VectorXd a = VectorXd::Zero(6);
+  a[3] = 0.97 * most;
+  const auto result = block.Forces(a, points);
+  ASSERT_TRUE(result);
+  for (int i = 0; i < 4; ++i) {
+    const Vector3d f = result->forces.col(i);
+    EXPECT_LE(f.head<2>().norm(), std::min(0.5, points[i].friction) * f.z() + 1e-9);
+  }
+  EXPECT_LE(result->friction_utilisation, 1);
+  EXPECT_GT(result->friction_utilisation, 0.9);
+  a[3] = 1.03 * most;
+  EXPECT_FALSE(block.Forces(a, points));
+  points[3].friction = 0;
+  EXPECT_THROW(block.Forces(a, points), std::invalid_argument);
+}
+
 TEST(ContactForces, CoincidentPointsShareTheLoadEqually) {
   Standing block(FreeBlock());
   std::vector<ContactPoint> points = Rectangle(0, -0.1, 0.3, -0.1, 0.1, -0.5);

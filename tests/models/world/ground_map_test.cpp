@@ -340,7 +340,75 @@ TEST(GroundMap, TheSideOfABoxThatFacesUpIsGround) {
   }
 }
 
-TEST(GroundMap, TiltedGroundIsNearAgreesWithTheNearestPointOfASample) {
+TEST(GroundMap, GroundThatIsMoreSlipperyThanTheRobotIsNoLevel) {
+  Environment environment;
+  environment.obstacles = {Ground(0, 0, 0, 2, 2), Ground(2, 0, 0, 2, 2), Ground(4, 0, 0, 2, 2)};
+  environment.obstacles[1].friction = 0.2;
+  environment.obstacles[2].friction = 0.9;
+  const GroundMap map(environment, 0.6);
+  ASSERT_EQ(map.levels().size(), 1u);
+  ASSERT_EQ(map.planes().size(), 2u);
+  EXPECT_GE(map.planes()[0].friction, 0.6);
+  EXPECT_EQ(map.planes()[1].friction, 0.2);
+  RandomGeometry random(12);
+  for (int trial = 0; trial < 500; ++trial) {
+    const double x = random.Uniform(-1, 5);
+    const std::vector<int> expected = {std::abs(x - 2) < 1 ? 1 : 0};
+    EXPECT_EQ(map.PlanesAt({x, random.Uniform(-1, 1)}, -0.1, 0.1), expected) << x;
+  }
+  EXPECT_FALSE(map.LevelAt({2, 0}, 0, 1e-3));
+  EXPECT_EQ(map.HeightBelow({2, 0}, 1), 0);
+}
+
+TEST(GroundMap, WithoutARobotsFrictionTheLeastOfALevelCounts) {
+  Environment environment;
+  environment.obstacles = {Ground(0, 0, 0, 2, 2), Ground(2, 0, 0, 2, 2)};
+  environment.obstacles[1].friction = 0.2;
+  const GroundMap map(environment);
+  ASSERT_EQ(map.planes().size(), 1u);
+  EXPECT_EQ(map.planes()[0].friction, 0.2);
+}
+
+TEST(GroundMap, AnObstacleThatBearsIsNoLevel) {
+  Environment environment;
+  environment.obstacles = {Ground(0, 0, 0, 2, 2), Ground(0, 0, 0.3, 0.5, 0.5)};
+  environment.obstacles[1].is_for_steps = true;
+  const GroundMap map(environment, 0.6);
+  ASSERT_EQ(map.levels(), std::vector<double>{0});
+  ASSERT_EQ(map.planes().size(), 2u);
+  EXPECT_EQ(map.HeightBelow({0.2, 0.2}, 1), 0.3);
+  EXPECT_TRUE(map.RoughGroundIsNear({0, 0, 0.4}, 0.11));
+  EXPECT_FALSE(map.RoughGroundIsNear({0, 0, 0.4}, 0.09));
+}
+
+TEST(GroundMap, PlanesNearHoldEveryPlaneWithAPointThatIsNear) {
+  RandomGeometry random(13);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Obstacle> boxes;
+    for (int i = 0; i < 12; ++i) {
+      boxes.push_back(Ground(random.Uniform(-3, 3), random.Uniform(-3, 3), random.Uniform(-1, 1),
+                             random.Uniform(0.1, 2), random.Uniform(0.1, 2)));
+      if (i % 2 > 0)
+        boxes.back().X_WO.rotate(AngleAxisd(random.Uniform(0, 0.7), Vector3d::UnitX()));
+    }
+    const GroundMap map = Map(boxes);
+    const Vector3d p(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-1, 1));
+    const double distance = random.Uniform(0, 1);
+    const std::vector<int> near = map.PlanesNear(p, distance);
+    EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+    for (int sample = 0; sample < 200; ++sample) {
+      const Vector3d offset(random.Uniform(-1, 1), random.Uniform(-1, 1), 0);
+      const Vector2d there = p.head<2>() + distance * offset.head<2>();
+      for (const int plane : map.PlanesAt(there, p.z() - distance, p.z() + distance)) {
+        const Vector3d on(there.x(), there.y(), map.planes()[plane].HeightAt(there));
+        if ((on - p).norm() > distance) continue;
+        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), plane));
+      }
+    }
+  }
+}
+
+TEST(GroundMap, RoughGroundIsNearAgreesWithTheNearestPointOfASample) {
   RandomGeometry random(8);
   for (int trial = 0; trial < 20; ++trial) {
     const Board board(&random);
@@ -359,8 +427,8 @@ TEST(GroundMap, TiltedGroundIsNearAgreesWithTheNearestPointOfASample) {
           nearest = std::min(nearest, (board.box.X_WO * local - p).norm());
         }
       }
-      EXPECT_TRUE(map.TiltedGroundIsNear(p, nearest + 1e-6));
-      EXPECT_FALSE(map.TiltedGroundIsNear(p, nearest - 0.03));  // a sample's spacing
+      EXPECT_TRUE(map.RoughGroundIsNear(p, nearest + 1e-6));
+      EXPECT_FALSE(map.RoughGroundIsNear(p, nearest - 0.03));  // a sample's spacing
     }
   }
 }

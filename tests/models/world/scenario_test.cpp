@@ -96,6 +96,20 @@ TEST(ScenarioYaml, ReadsTheEnvironment) {
   EXPECT_EQ(environment.obstacles[5].shape.vertices.size(), 4u);
 }
 
+TEST(ScenarioYaml, ReadsFrictionAndWhatBears) {
+  const TemporaryFolder folder;
+  std::string text =
+      Replaced(kScenario, "yaw_deg: 90}\n  obstacles", "yaw_deg: 90, friction: 0.3}\n  obstacles");
+  text = Replaced(text, "name: crate,", "name: crate, bears: true, friction: 0.4,");
+  const Environment environment = LoadScenario(folder.Write("room.yaml", text)).environment;
+  EXPECT_EQ(environment.obstacles[0].friction, 0.3);
+  EXPECT_FALSE(environment.obstacles[0].is_for_steps);
+  EXPECT_TRUE(environment.obstacles[1].is_ground);
+  EXPECT_TRUE(environment.obstacles[1].is_for_steps);
+  EXPECT_EQ(environment.obstacles[1].friction, 0.4);
+  EXPECT_EQ(environment.obstacles[2].friction, kRobotsFriction);
+}
+
 TEST(ScenarioYaml, ChecksActionsAgainstTheRobot) {
   const TemporaryFolder folder;
   folder.Write("robot.urdf", TwoLeggedUrdf());
@@ -262,6 +276,15 @@ const BadScenario kBad[] = {
      "room.yaml:13: environment.ground[0].rpy_deg: no side of the box faces up, expected one that "
      "is "
      "tilted by at most 45 degrees"},
+    {"GroundFrictionZero", "yaw_deg: 90}\n  obstacles", "yaw_deg: 90, friction: 0}\n  obstacles",
+     "room.yaml:13: environment.ground[0].friction: expected a positive number, got 0"},
+    {"FrictionOfAnObstacle", "name: crate,", "name: crate, friction: 0.5,",
+     "room.yaml:15: environment.obstacles[0].friction: is of an obstacle that does not bear, "
+     "expected 'bears: true' beside it"},
+    {"RoundObstacleThatBears", "shape: sphere,", "shape: sphere, bears: true,",
+     "room.yaml:17: environment.obstacles[2].bears: expected a box, as only boxes bear"},
+    {"BearsNoBoolean", "name: crate,", "name: crate, bears: 3,",
+     "room.yaml:15: environment.obstacles[0].bears: expected true or false, got 3"},
     {"GroundMissing",
      "ground:\n    - {name: floor, size: [4, 6, 0.5], position: [2, 2, -0.25], yaw_deg: 90}",
      "ground: []",
