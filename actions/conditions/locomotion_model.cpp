@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "actions/conditions/exploration_pose.h"
@@ -96,6 +97,22 @@ std::string StanceOf(const std::string& name, const std::vector<GaitFactory>& fu
   return name;
 }
 
+/// Regions of contact patches; gaits share limbs.
+class KnownRegions {
+ public:
+  explicit KnownRegions(const models::RobotModel& robot) : robot_(robot) {}
+  const ReachableRegion& Of(int contact) {
+    const auto known = regions_.find(contact);
+    if (known != regions_.end()) return known->second;
+    return regions_.emplace(contact, ReachableRegion(robot_, robot_.contacts[contact]))
+        .first->second;
+  }
+
+ private:
+  const models::RobotModel& robot_;
+  std::map<int, ReachableRegion> regions_;
+};
+
 }  // namespace
 
 int LocomotionModel::GaitIndex(const std::string& name) const {
@@ -116,10 +133,14 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
   const PaceLibrary paces(robot, library);
   LocomotionModel model;
   model.robot = &robot;
+  KnownRegions regions(robot);
   for (const std::string& action : actions) {
     if (IsJump(robot, action)) continue;
     std::unique_ptr<GaitEntry> entry = MakeEntry(robot, action, paces, further);
     entry->volumes = SweepGait(robot, entry->stance, *entry->motion, cancellation);
+    for (const models::GaitLimb& limb : entry->stance.gait->limbs) {
+      entry->regions.push_back(regions.Of(limb.contact));
+    }
     model.gaits.push_back(std::move(entry));
   }
   for (const models::Transition& transition : robot.transitions) {

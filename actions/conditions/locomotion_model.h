@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/conditions/reachable_region.h"
 #include "actions/gait/gait_motion.h"
 #include "actions/gait/swept_volume.h"
 #include "actions/motion/nominal_stance.h"
@@ -23,6 +24,7 @@ struct LocomotionModel {
     NominalStance stance;
     std::unique_ptr<GaitMotion> motion;
     GaitVolumes volumes;
+    std::vector<ReachableRegion> regions;  ///< by limb
   };
   struct TransitionEntry {
     int from = 0;  ///< indices into gaits

@@ -116,7 +116,6 @@ QuasiStaticAction::QuasiStaticAction(const LocomotionModel& model, int gait, con
     }
     bearing_radii_.push_back(radius);
   }
-  bearing_reach_ = BearingReach(*model.robot, *model.gaits[gait]->stance.gait);
 }
 
 QuasiStaticAction::Sweep QuasiStaticAction::SweepOf(const GaitVolumes& volumes,
@@ -160,9 +159,10 @@ graph::Point QuasiStaticAction::Project(const graph::Point& v) const {
 
 bool QuasiStaticAction::CN(const graph::Point& vertex) const {
   const Isometry3d X_WR = ToPose(vertex);
-  return pelvis_.IsFree(X_WR) && SomeLimbReachesGround(X_WR);
+  return pelvis_.IsFree(X_WR) && EveryLimbReachesGround(X_WR);
 }
 
+/// On the way limbs may swing, but one always bears.
 bool QuasiStaticAction::CN(const graph::Edge& edge) const {
   const Isometry3d from = ToPose(edge.from);
   const Isometry3d to = ToPose(edge.to);
@@ -170,22 +170,25 @@ bool QuasiStaticAction::CN(const graph::Edge& edge) const {
   const int samples = 1 + static_cast<int>(length / kNecessarySpacing);
   for (int i = 0; i <= samples; ++i) {
     const Isometry3d X_WR = Interpolate(from, to, static_cast<double>(i) / samples);
-    if (!pelvis_.IsFree(X_WR) || !SomeLimbReachesGround(X_WR)) return false;
+    const bool is_end = i == 0 || i == samples;
+    if (!pelvis_.IsFree(X_WR)) return false;
+    if (!(is_end ? EveryLimbReachesGround(X_WR) : SomeLimbReachesGround(X_WR))) return false;
   }
   return true;
 }
 
 bool QuasiStaticAction::SomeLimbReachesGround(const Isometry3d& X_WR) const {
-  const std::vector<double>& levels = world_.ground->levels();
-  for (size_t level = 0; level < levels.size(); ++level) {
-    const double height = X_WR.translation().z() - levels[level];
-    if (std::abs(height) > bearing_reach_) continue;
-    const double reach = std::sqrt(bearing_reach_ * bearing_reach_ - height * height);
-    if (world_.ground->Clearance(static_cast<int>(level), X_WR.translation().head<2>()) >= -reach) {
-      return true;
-    }
-  }
-  return world_.ground->TiltedGroundIsNear(X_WR.translation(), bearing_reach_);
+  const auto& regions = model_->gaits[gait_]->regions;
+  return std::any_of(regions.begin(), regions.end(), [&](const ReachableRegion& region) {
+    return region.MeetsGround(*world_.ground, X_WR);
+  });
+}
+
+bool QuasiStaticAction::EveryLimbReachesGround(const Isometry3d& X_WR) const {
+  const auto& regions = model_->gaits[gait_]->regions;
+  return std::all_of(regions.begin(), regions.end(), [&](const ReachableRegion& region) {
+    return region.MeetsGround(*world_.ground, X_WR);
+  });
 }
 
 std::optional<int> QuasiStaticAction::OnlyLevelAt(double z) const {

@@ -118,6 +118,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
   bool TransitionIsClear(const LocomotionModel::TransitionEntry& transition,
                          const GroundedStance& start) const;
   bool SomeLimbReachesGround(const Eigen::Isometry3d& X_WR) const;
+  bool EveryLimbReachesGround(const Eigen::Isometry3d& X_WR) const;
 
   const LocomotionModel* model_;
   int gait_;
@@ -130,8 +131,7 @@ class QuasiStaticAction : public graph::HolonomicAction {
   std::array<Sweep, kStrideClasses.size()> sweeps_;
   std::vector<models::UprightBoxes> transition_sweeps_;  ///< by index of the model's transitions
   std::vector<double>
-      bearing_radii_;         ///< by gait: distance of the farthest bearing point from the axis, m
-  double bearing_reach_ = 0;  ///< upper bound of a bearing point's distance from the root, m
+      bearing_radii_;  ///< by gait: distance of the farthest bearing point from the axis, m
   std::vector<graph::Edge> forbidden_;
 };
 
