@@ -128,6 +128,16 @@ JumpAnswer JumpSolver::Realise(const JumpTask& task,
   return answer;
 }
 
+void JumpSolver::RequireSound(const SolvedJump& jump) const {
+  const auto [distance, height] = jump.task;
+  std::string fault =
+      FaultOnBareGround(robot_, model_, launch_, landing_, distance, height, jump.phases, true);
+  if (fault.empty()) {
+    fault = FallOnBareGround(robot_, model_, launch_, landing_, distance, height, jump.phases);
+  }
+  if (!fault.empty()) throw MotionError(fault);
+}
+
 void JumpSolver::RealiseInSpace(const JumpProblem& problem,
                                 const collocation::Trajectory& trajectory, bool is_new,
                                 JumpAnswer* answer) const {
@@ -137,12 +147,7 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
   try {
     JumpMotion motion(robot_, model_, launch_, landing_);
     jump->phases = motion.Realise(problem, trajectory, &jump->report);
-    if (is_new) {
-      const std::string fault =
-          FaultOnBareGround(robot_, model_, launch_, landing_, jump->task.distance,
-                            jump->task.height, jump->phases, true);
-      if (!fault.empty()) throw MotionError(fault);
-    }
+    if (is_new) RequireSound(*jump);
     answer->jump = std::move(jump);
     answer->reason.clear();
   } catch (const MotionError& error) {

@@ -77,6 +77,10 @@ class JumpSolver {
   void RealiseInSpace(const JumpProblem& problem, const collocation::Trajectory& trajectory,
                       bool is_new, JumpAnswer* answer) const;
 
+  /// On its bare ground: verified, and simulated as planned and with a slightly different mass.
+  /// @throws MotionError naming the fault.
+  void RequireSound(const SolvedJump& jump) const;
+
   const models::RobotModel& robot_;
   const NominalStance& launch_;
   const NominalStance& landing_;

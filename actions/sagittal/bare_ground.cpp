@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "actions/rollout/perturbed_rollouts.h"
 #include "actions/sagittal/sagittal_problem.h"
 #include "actions/verify/verifier.h"
 #include "models/world/scenario.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kVast = 20;               // m
 constexpr const char* kMotion = "motion";  // action name in the plan
+constexpr double kHeavier = 0.01;          // share of all masses
 
 models::Obstacle Floor(const std::string& name, double x, double height) {
   models::Obstacle floor;
@@ -39,6 +41,16 @@ models::Scenario ScenarioOnBareGround(const SagittalModel& model, const NominalS
   return scenario;
 }
 
+Plan PlanOnBareGround(const models::RobotModel& robot, const models::Scenario& scenario,
+                      const std::vector<Phase>& phases) {
+  Plan plan;
+  plan.robot_hash = robot.content_hash;
+  plan.scenario_hash = scenario.content_hash;
+  for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
+  plan.segments = {{kMotion, phases}};
+  return plan;
+}
+
 }  // namespace
 
 models::Environment BareGround(const SagittalModel& model, double distance, double height) {
@@ -56,11 +68,7 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
                               double distance, double height, const std::vector<Phase>& phases,
                               bool simulates) {
   const models::Scenario scenario = ScenarioOnBareGround(model, launch, landing, distance, height);
-  Plan plan;
-  plan.robot_hash = robot.content_hash;
-  plan.scenario_hash = scenario.content_hash;
-  for (const models::Joint& joint : robot.joints) plan.joints.push_back(joint.name);
-  plan.segments = {{kMotion, phases}};
+  const Plan plan = PlanOnBareGround(robot, scenario, phases);
   VerifierSettings settings;
   settings.simulates = simulates;
   settings.measures_margins = false;
@@ -69,6 +77,21 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
   const Violation& worst = report.violations.front();
   return fmt::format("{}: {}, {:.4g} {} (limit {:.4g}) at {:.2f} s", ToString(worst.kind),
                      worst.quantity, worst.value, worst.unit, worst.limit, worst.time);
+}
+
+std::string FallOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
+                             const NominalStance& launch, const NominalStance& landing,
+                             double distance, double height, const std::vector<Phase>& phases) {
+  const models::Scenario scenario = ScenarioOnBareGround(model, launch, landing, distance, height);
+  std::vector<Perturbation> perturbations(2);
+  perturbations[0].mass = 1 - kHeavier;
+  perturbations[1].mass = 1 + kHeavier;
+  for (const PerturbedRollout& rollout : RollOutPerturbed(PlanOnBareGround(robot, scenario, phases),
+                                                          robot, scenario, perturbations)) {
+    if (rollout.survives()) continue;
+    return fmt::format("falls over with {:.0f} % of its mass", 100 * rollout.perturbation.mass);
+  }
+  return {};
 }
 
 }  // namespace possibility::actions

@@ -23,4 +23,11 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
                               double distance, double height, const std::vector<Phase>& phases,
                               bool simulates = false);
 
+/// Simulates such a motion on its bare ground, which is compliant, with a robot that is a little
+/// heavier and a little lighter than planned. Where it falls over, it was about to. Returns how;
+/// empty if it does not.
+std::string FallOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
+                             const NominalStance& launch, const NominalStance& landing,
+                             double distance, double height, const std::vector<Phase>& phases);
+
 }  // namespace possibility::actions
