@@ -19,7 +19,7 @@
 #include "actions/verify/verifier.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "experiments/program/loaded_plan.h"
-#include "experiments/report/csv_tables.h"
+#include "experiments/exports/csv_tables.h"
 #include "experiments/viewer/jump_page.h"
 #include "experiments/viewer/viewer_page.h"
 #include "models/input/file_contents.h"
