@@ -58,8 +58,9 @@ class Program : public ProgramRun {
 };
 
 TEST_F(Program, HelpExitsWith0AndWritesNoError) {
-  for (const char* arguments : {"--help", "plan --help", "verify --help", "rollout --help",
-                                "view --help", "export --help", "regress --help", "bench --help"}) {
+  for (const char* arguments :
+       {"--help", "plan --help", "verify --help", "rollout --help", "view --help", "export --help",
+        "import --help", "regress --help", "bench --help"}) {
     const Outcome outcome = Run(arguments);
     EXPECT_EQ(outcome.code, 0) << arguments;
     EXPECT_FALSE(outcome.out.empty()) << arguments;
@@ -161,8 +162,8 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
 /// For every option with a value and every argument of every command that --help lists.
 TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
   int options = 0;
-  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "bench",
-                                    "regress", "library", "table", "sweep", "merge"}) {
+  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "import",
+                                    "bench", "regress", "library", "table", "sweep", "merge"}) {
     std::istringstream help(Run(command + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find_first_not_of(' ');
