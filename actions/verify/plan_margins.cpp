@@ -18,10 +18,13 @@ using Eigen::Vector3d;
 constexpr double kSameHeight = 1e-3;  // m, as the verifier tolerates
 constexpr double kLightLoad = 1e-3;   // of the weight: friction of lighter points is not measured
 
-class Measurement {
+}  // namespace
+
+/// Measures knots, and keeps the worst of each kind.
+class MarginMeasurement {
  public:
-  Measurement(const models::RobotModel& robot, const models::Environment& environment,
-              const models::GroundMap& ground)
+  MarginMeasurement(const models::RobotModel& robot, const models::Environment& environment,
+                    const models::GroundMap& ground)
       : robot_(robot),
         environment_(environment),
         ground_(ground),
@@ -43,6 +46,8 @@ class Measurement {
   }
 
   const PlanMargins& margins() const { return margins_; }
+  /// Forgets what was measured.
+  void Clear() { margins_ = {}; }
 
  private:
   void Least(double value, Margin* margin) const {
@@ -123,12 +128,24 @@ class Measurement {
   double time_ = 0;
 };
 
-}  // namespace
+InstantMargins::InstantMargins(const models::RobotModel& robot,
+                               const models::Environment& environment,
+                               const models::GroundMap& ground)
+    : measurement_(std::make_unique<MarginMeasurement>(robot, environment, ground)) {}
+
+InstantMargins::~InstantMargins() = default;
+
+PlanMargins InstantMargins::At(int segment, const Phase& phase, const Knot& knot) {
+  measurement_->Clear();
+  measurement_->Enter(segment, phase);
+  measurement_->Measure(knot);
+  return measurement_->margins();
+}
 
 PlanMargins MeasureMargins(const Plan& plan, const models::RobotModel& robot,
                            const models::Environment& environment,
                            const models::GroundMap& ground) {
-  Measurement measurement(robot, environment, ground);
+  MarginMeasurement measurement(robot, environment, ground);
   for (std::size_t segment = 0; segment < plan.segments.size(); ++segment) {
     for (const Phase& phase : plan.segments[segment].phases) {
       measurement.Enter(static_cast<int>(segment), phase);

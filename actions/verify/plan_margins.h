@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "actions/plan/plan.h"
 #include "models/robot/robot_model.h"
 #include "models/world/environment.h"
@@ -35,5 +37,22 @@ struct PlanMargins {
 /// @throws InputError if a contact is not the robot's.
 PlanMargins MeasureMargins(const Plan& plan, const models::RobotModel& robot,
                            const models::Environment& environment, const models::GroundMap& ground);
+
+class MarginMeasurement;
+
+/// The margins of single instants. One per thread. The constructor's arguments must outlive it.
+class InstantMargins {
+ public:
+  InstantMargins(const models::RobotModel& robot, const models::Environment& environment,
+                 const models::GroundMap& ground);
+  ~InstantMargins();
+
+  /// `knot`: of the phase; both fit the robot's sizes. The segment of a margin is -1 if there is
+  /// nothing to measure. @throws InputError if a contact is not the robot's.
+  PlanMargins At(int segment, const Phase& phase, const Knot& knot);
+
+ private:
+  std::unique_ptr<MarginMeasurement> measurement_;
+};
 
 }  // namespace possibility::actions

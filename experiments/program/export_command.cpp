@@ -1,18 +1,16 @@
 #include "experiments/program/export_command.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
+#include "experiments/exports/csv_export.h"
+#include "experiments/exports/npz_export.h"
 #include "experiments/program/loaded_plan.h"
-#include "experiments/report/csv_tables.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
-#include "models/input/atomic_file.h"
+#include "models/input/input_error.h"
 
 namespace possibility::experiments {
 namespace {
@@ -20,53 +18,54 @@ namespace {
 struct ExportOptions {
   std::string plan;
   std::string csv;
+  std::string npz;
+  std::string period;
   std::string step;
+  bool margins = false;
 };
 
-/// Row by row: a table may be larger than memory.
-void WriteTables(const LoadedPlan& loaded, std::optional<double> step,
-                 const std::filesystem::path& folder) {
-  const TrajectoryTable trajectory(loaded.plan, loaded.robot);
-  ContactForceTable forces(loaded.plan, loaded.robot);
-  models::AtomicFile trajectory_file(folder / "trajectory.csv");
-  models::AtomicFile forces_file(folder / "contact_forces.csv");
-  trajectory_file.Write(trajectory.Header());
-  forces_file.Write(forces.Header());
-  const auto write = [&](const PlanSample& sample) {
-    trajectory_file.Write(trajectory.Rows(sample));
-    forces_file.Write(forces.Rows(sample));
-  };
-  if (step) {
-    VisitEvery(loaded.plan, *step, write);
-  } else {
-    VisitKnots(loaded.plan, write);
+/// Writes every file that is asked for, and prints its name.
+void WriteExports(const ExportOptions& options, const ExportSubject& subject,
+                  const ExportSampling& sampling) {
+  if (!options.csv.empty()) {
+    PrepareOutputFolder("--csv", options.csv);
+    for (const auto& file : WriteCsv(subject, sampling, options.csv)) {
+      PrintOut("{}\n", file.string());
+    }
   }
-  trajectory_file.Commit();
-  forces_file.Commit();
+  if (!options.npz.empty()) {
+    WriteNpz(subject, sampling, options.npz);
+    PrintOut("{}\n", options.npz);
+  }
 }
 
 ExitCode RunExport(const ExportOptions& options) {
-  std::optional<double> step;
-  if (!options.step.empty()) step = ParseSeconds("--step", options.step);
+  if (options.csv.empty() && options.npz.empty()) {
+    throw InputError("usage: export: nothing to write, expected --csv DIR or --npz FILE");
+  }
+  ExportSampling sampling;
+  sampling.margins = options.margins;
+  if (!options.step.empty()) sampling.period = ParseSeconds("--step", options.step);
+  if (!options.period.empty()) sampling.period = ParseSeconds("--period", options.period);
   const LoadedPlan loaded = LoadPlan(options.plan);
   RequireMotion(loaded);
   RequireFit(loaded);
-  const std::filesystem::path folder = options.csv;
-  PrepareOutputFolder("--csv", folder);
-  WriteTables(loaded, step, folder);
-  PrintOut("{}\n{}\n", (folder / "trajectory.csv").string(),
-           (folder / "contact_forces.csv").string());
+  WriteExports(options, {loaded.plan, loaded.robot, loaded.scenario}, sampling);
   return kDone;
 }
 
 }  // namespace
 
 Command AddExportCommand(CLI::App& program) {
-  CommandOptions command(program, "export", "Writes a plan's numbers as CSV tables.");
+  CommandOptions command(program, "export", "Writes a plan for other programs.");
   auto options = std::make_shared<ExportOptions>();
   command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
-  command.AddRequired("--csv", &options->csv, "Folder for the tables");
-  command.AddOptional("--step", &options->step, "s between rows (default: the plan's knots)");
+  command.AddOptional("--csv", &options->csv, "Folder for tables");
+  command.AddOptional("--npz", &options->npz, "Arrays for NumPy");
+  command.AddOptional("--period", &options->period,
+                      "s between samples (default: the plan's knots)");
+  command.AddOptional("--step", &options->step, "Older name of --period");
+  command.AddFlag("--margins", &options->margins, "Also the margins at every sample");
   return {command, [options] { return RunExport(*options); }};
 }
 

@@ -14,6 +14,7 @@
 #include "experiments/program/bench_command.h"
 #include "experiments/program/command.h"
 #include "experiments/program/export_command.h"
+#include "experiments/program/import_command.h"
 #include "experiments/program/library_command.h"
 #include "experiments/program/merge_command.h"
 #include "experiments/program/plan_command.h"
@@ -32,9 +33,9 @@ namespace possibility::experiments {
 namespace {
 
 constexpr Command (*kCommands[])(CLI::App&) = {
-    &AddPlanCommand,   &AddVerifyCommand, &AddRolloutCommand, &AddViewCommand,
-    &AddExportCommand, &AddBenchCommand,  &AddRegressCommand, &AddLibraryCommand,
-    &AddTableCommand,  &AddSweepCommand,  &AddMergeCommand};
+    &AddPlanCommand,    &AddVerifyCommand, &AddRolloutCommand, &AddViewCommand,
+    &AddExportCommand,  &AddImportCommand, &AddBenchCommand,   &AddRegressCommand,
+    &AddLibraryCommand, &AddTableCommand,  &AddSweepCommand,   &AddMergeCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -13,8 +13,6 @@
 namespace possibility::models {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 64u << 20;
-
 std::string Hexadecimal(const XXH128_hash_t& hash) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
@@ -28,7 +26,7 @@ std::string EightBytes(std::uint64_t number) {
 
 }  // namespace
 
-std::string ReadFileContents(const std::filesystem::path& file) {
+std::string ReadFileContents(const std::filesystem::path& file, std::uintmax_t largest) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
@@ -38,9 +36,9 @@ std::string ReadFileContents(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: expected a file, got a folder or device", file.string()));
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (!error && size > kLargestFile) {
+  if (!error && size > largest) {
     throw InputError(
-        fmt::format("{}: expected at most {} bytes, got {}", file.string(), kLargestFile, size));
+        fmt::format("{}: expected at most {} bytes, got {}", file.string(), largest, size));
   }
   std::ifstream stream(file, std::ios::binary);
   std::string contents(error ? 0 : size, '\0');

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -7,9 +8,12 @@
 
 namespace possibility::models {
 
+inline constexpr std::uintmax_t kLargestFile = 64u << 20;  // bytes
+
 /// All bytes of a regular file.
-/// @throws InputError if it does not exist, is a folder, cannot be read or exceeds 64 MiB.
-std::string ReadFileContents(const std::filesystem::path& file);
+/// @throws InputError if it does not exist, is a folder, cannot be read or exceeds `largest` bytes.
+std::string ReadFileContents(const std::filesystem::path& file,
+                             std::uintmax_t largest = kLargestFile);
 
 /// XXH3 (128 bits, seed 0) of the bytes, as 32 lower-case hexadecimal digits.
 std::string ContentHash(std::string_view bytes);

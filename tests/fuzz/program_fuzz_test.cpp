@@ -42,6 +42,11 @@ const Kind kKinds[] = {
      &PlanSubject,
      {"verify SPOILT", "verify SPOILT --json", "rollout SPOILT --perturb mass=1.05",
       "view SPOILT --out page.html", "export SPOILT --csv tables"}},
+    {"Trajectory",
+     &TrajectorySubject,
+     {"import SPOILT --scenario 'SOURCE/experiments/scenarios/three_routes_b.yaml' --out out",
+      "import SPOILT --scenario 'SOURCE/experiments/scenarios/three_routes_b.yaml' --out out "
+      "--json"}},
     {"Solution",
      &SolutionSubject,
      {"view SPOILT --robot 'SOURCE/models/drchubo1/drchubo1.yaml' --out page.html"}},

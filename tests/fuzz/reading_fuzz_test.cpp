@@ -21,10 +21,15 @@ struct ReadingKind {
 
 void PrintTo(const ReadingKind& kind, std::ostream* out) { *out << kind.name; }
 
-const ReadingKind kReadingKinds[] = {
-    {"Scenario", &ScenarioSubject}, {"Robot", &RobotSubject},        {"Urdf", &UrdfSubject},
-    {"Plan", &PlanSubject},         {"Solution", &SolutionSubject},  {"Library", &LibrarySubject},
-    {"Mesh", &MeshSubject},         {"HeightMap", &HeightMapSubject}};
+const ReadingKind kReadingKinds[] = {{"Scenario", &ScenarioSubject},
+                                     {"Robot", &RobotSubject},
+                                     {"Urdf", &UrdfSubject},
+                                     {"Plan", &PlanSubject},
+                                     {"Solution", &SolutionSubject},
+                                     {"Library", &LibrarySubject},
+                                     {"Mesh", &MeshSubject},
+                                     {"HeightMap", &HeightMapSubject},
+                                     {"Trajectory", &TrajectorySubject}};
 
 class ReadingFuzz : public ::testing::TestWithParam<ReadingKind> {};
 

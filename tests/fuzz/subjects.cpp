@@ -18,8 +18,12 @@
 #include "actions/planner/planner.h"
 #include "actions/verify/verifier.h"
 #include "collocation/study/stored_solution_reader.h"
+#include "experiments/exports/csv_export.h"
+#include "experiments/exports/csv_tables.h"
+#include "experiments/exports/npz_export.h"
+#include "experiments/imports/imported_plan.h"
+#include "experiments/imports/trajectory_reader.h"
 #include "experiments/program/loaded_plan.h"
-#include "experiments/report/csv_tables.h"
 #include "experiments/viewer/jump_page.h"
 #include "experiments/viewer/viewer_page.h"
 #include "models/input/file_contents.h"
@@ -286,6 +290,26 @@ Subject PlanSubject(const fs::path& folder) {
               forces.Rows(sample);
             });
             actions::WritePlan(loaded.plan, folder / "again.json");
+          }};
+}
+
+Subject TrajectorySubject(const fs::path& folder) {
+  experiments::testing::WriteStandingPlan(kScenario, folder / "whole_plan.json");
+  const auto loaded = std::make_shared<const experiments::LoadedPlan>(
+      experiments::LoadPlan(folder / "whole_plan.json"));
+  const experiments::ExportSubject subject{loaded->plan, loaded->robot, loaded->scenario};
+  experiments::WriteCsv(subject, {}, folder);
+  experiments::WriteNpz(subject, {}, folder / "plan.npz");
+  const std::array<std::string, 2> texts = {models::ReadFileContents(folder / "trajectory.csv"),
+                                            models::ReadFileContents(folder / "plan.npz")};
+  return {"trajectory", ".csv", Syntax::kYaml,
+          [texts](std::uint64_t seed) { return texts[seed % texts.size()]; },
+          [folder, loaded](std::uint64_t, const std::string& text) {
+            const experiments::ImportedTrajectory trajectory =
+                experiments::ReadTrajectory(Write(folder / "motion.csv", text), loaded->robot);
+            const actions::Plan plan =
+                experiments::ImportPlan(trajectory, loaded->robot, loaded->scenario);
+            actions::WritePlan(plan, folder / "imported.json");
           }};
 }
 

@@ -58,8 +58,9 @@ class Program : public ProgramRun {
 };
 
 TEST_F(Program, HelpExitsWith0AndWritesNoError) {
-  for (const char* arguments : {"--help", "plan --help", "verify --help", "rollout --help",
-                                "view --help", "export --help", "regress --help", "bench --help"}) {
+  for (const char* arguments :
+       {"--help", "plan --help", "verify --help", "rollout --help", "view --help", "export --help",
+        "import --help", "regress --help", "bench --help"}) {
     const Outcome outcome = Run(arguments);
     EXPECT_EQ(outcome.code, 0) << arguments;
     EXPECT_FALSE(outcome.out.empty()) << arguments;
@@ -133,6 +134,8 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "export plan.json",
       "export plan.json --csv tables",
       "export plan.json --csv tables --step 0",
+      "export plan.json --npz arrays.npz --period -1",
+      "export plan.json --npz none/arrays.npz",
       "regress --problem no_such_problem --robot '" POSSIBILITY_SOURCE_DIR
       "/models/drchubo1/drchubo1.yaml'",
       "regress --robot no_such_robot.yaml",
@@ -159,8 +162,8 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
 /// For every option with a value and every argument of every command that --help lists.
 TEST_F(Program, EmptyValuesAreRefusedAndNameTheirOption) {
   int options = 0;
-  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "bench",
-                                    "regress", "library", "table", "sweep", "merge"}) {
+  for (const std::string command : {"plan", "verify", "rollout", "view", "export", "import",
+                                    "bench", "regress", "library", "table", "sweep", "merge"}) {
     std::istringstream help(Run(command + " --help").out);
     for (std::string line; std::getline(help, line);) {
       const std::size_t begin = line.find_first_not_of(' ');
@@ -312,10 +315,23 @@ TEST_F(Program, ExportWritesBothTables) {
   EXPECT_EQ(Run("export . --csv tables/deep").code, 0);
   const std::string trajectory = ReadText(folder_ / "tables/deep/trajectory.csv");
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'), 1 + 3);
-  EXPECT_EQ(Run("export . --csv tables --step 0.1").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "tables/deep/margins.csv"));
+  EXPECT_EQ(Run("export . --csv tables --period 0.1 --margins").code, 0);
   const std::string finer = ReadText(folder_ / "tables/trajectory.csv");
   EXPECT_EQ(std::count(finer.begin(), finer.end(), '\n'), 1 + 11);
+  const std::string margins = ReadText(folder_ / "tables/margins.csv");
+  EXPECT_EQ(std::count(margins.begin(), margins.end(), '\n'), 1 + 11);
   EXPECT_TRUE(fs::exists(folder_ / "tables/contact_forces.csv"));
+}
+
+TEST_F(Program, ExportWritesSeveralKindsAtOnceAndNamesThem) {
+  WriteStandingPlan();
+  const Outcome outcome = Run("export . --csv tables --npz arrays.npz --step 0.1");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "tables/trajectory.csv\ntables/contact_forces.csv\ntables/units.csv\n"
+            "tables/gains.csv\narrays.npz\n");
+  EXPECT_TRUE(ReadText(folder_ / "arrays.npz").starts_with("PK\x03\x04"));
 }
 
 TEST_F(Program, APlanForAnotherRobotIsRefusedByView) {

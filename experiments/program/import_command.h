@@ -1,0 +1,9 @@
+#pragma once
+
+#include "experiments/program/command.h"
+
+namespace possibility::experiments {
+
+Command AddImportCommand(CLI::App& program);
+
+}  // namespace possibility::experiments
