@@ -1,8 +1,10 @@
 #include "models/mesh/mesh_reader.h"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <algorithm>
 #include <array>
@@ -47,8 +49,8 @@ std::string EndingOf(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   if (!ending.empty()) ending.erase(0, 1);
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending != "stl" && ending != "obj" && ending != "ply") {
-    FailAt(file, "expected a mesh whose name ends in .stl, .obj or .ply");
+  if (ending != "stl" && ending != "obj" && ending != "ply" && ending != "dae") {
+    FailAt(file, "expected a mesh whose name ends in .stl, .obj, .ply or .dae");
   }
   return ending;
 }
@@ -77,6 +79,8 @@ class OneFormat {
  public:
   explicit OneFormat(const std::string& ending) {
     importer_.SetIOHandler(new NoFiles);  // the importer owns it
+    // Coordinates as the file has them, as programs of robots read it (but in metres).
+    importer_.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     const Assimp::BaseImporter* wanted = importer_.GetImporter(ending.c_str());
     for (std::size_t i = importer_.GetImporterCount(); i > 0; --i) {
       Assimp::BaseImporter* other = importer_.GetImporter(i - 1);
@@ -110,6 +114,42 @@ void CheckPlyHeader(const std::string& bytes, const std::filesystem::path& file)
     if (count <= static_cast<double>(bytes.size())) continue;
     FailAt(file, fmt::format("cannot hold {:.0f} elements '{}' in {} bytes", count, OneLine(name),
                              bytes.size()));
+  }
+}
+
+/// The lists of indices of a Collada file. The reader does not end over one that holds anything but
+/// numbers.
+class IndexLists : public tinyxml2::XMLVisitor {
+ public:
+  bool VisitEnter(const tinyxml2::XMLElement& element, const tinyxml2::XMLAttribute*) override {
+    const std::string_view name = element.Name();
+    if (name != "p" && name != "vcount" && name != "v" && name != "h") return true;
+    const char* text = element.GetText();
+    const std::string_view indices = text == nullptr ? "" : text;
+    if (bad_line_ == 0 && indices.find_first_not_of("0123456789- \t\r\n") != indices.npos) {
+      bad_line_ = element.GetLineNum();
+    }
+    return true;
+  }
+  int bad_line() const { return bad_line_; }  ///< 0: none
+
+ private:
+  int bad_line_ = 0;
+};
+
+/// What the reader does not end over.
+void CheckCollada(const std::string& bytes, const std::filesystem::path& file) {
+  tinyxml2::XMLDocument document;
+  if (const auto error = document.Parse(bytes.data(), bytes.size());
+      error != tinyxml2::XML_SUCCESS) {
+    FailAt(file, fmt::format("not a valid mesh: no XML ({}, line {})",
+                             tinyxml2::XMLDocument::ErrorIDToName(error), document.ErrorLineNum()));
+  }
+  IndexLists lists;
+  document.Accept(&lists);
+  if (lists.bad_line() > 0) {
+    FailAt(file,
+           fmt::format("not a valid mesh: line {}: expected whole numbers", lists.bad_line()));
   }
 }
 
@@ -277,6 +317,7 @@ TriangleMesh ParseMesh(const std::string& bytes, const std::filesystem::path& fi
   const std::string ending = EndingOf(file);
   if (bytes.empty()) FailAt(file, "is empty, expected a mesh");
   if (ending == "ply") CheckPlyHeader(bytes, file);
+  if (ending == "dae") CheckCollada(bytes, file);
   const std::optional<std::string> parcel = InSeparateProcess(
       [&] {
         try {

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "models/input/input_error.h"
 
@@ -23,28 +24,46 @@ class TreeBuilder {
     for (const UrdfJoint& joint : tree.joints) joints_below_.emplace(joint.parent, &joint);
   }
 
-  void Build(const std::string& root) {
+  PendingMeshes Build(const std::string& root) {
     robot_->links.push_back({root, {}, {}});
+    CheckOwnInertial(root);
     Attach(root, 0, Eigen::Isometry3d::Identity());
     for (const Link& link : robot_->links) {
-      if (link.inertial.mass > 0) continue;
-      Fail(
-          fmt::format("link '{}': expected an inertial (only links on fixed or lumped joints may "
-                      "go without)",
-                      link.name));
+      if (!(link.inertial.mass > 0)) {
+        Fail(
+            fmt::format("link '{}': expected an inertial (only links on fixed or lumped joints may "
+                        "go without)",
+                        link.name));
+      }
+      CheckMovingBody(link.inertial, fmt::format("{}: link '{}'", file_, link.name));
     }
+    return std::move(meshes_);
   }
 
  private:
   [[noreturn]] void Fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
+  // Of a link that moves by itself, before anything is lumped into it: a massless frame, or a body.
+  void CheckOwnInertial(const std::string& name) const {
+    const std::optional<Inertial>& inertial = links_.at(name)->inertial;
+    if (!inertial || (inertial->mass == 0 && inertial->I_LC.isZero(0))) return;
+    CheckMovingBody(*inertial, fmt::format("{}: link '{}'", file_, name));
+  }
+
   // Adds the URDF link to the kept link `kept`, posed there at X_KL, and continues below it.
   void Attach(const std::string& name, int kept, const Eigen::Isometry3d& X_KL) {
     const UrdfLink& source = *links_.at(name);
     Link& target = robot_->links[kept];
-    if (source.inertial) target.inertial = Combined(target.inertial, *source.inertial, X_KL);
+    // Without a mass it is a frame.
+    if (source.inertial && source.inertial->mass > 0) {
+      target.inertial = Combined(target.inertial, *source.inertial, X_KL);
+    }
     for (const PosedShape& posed : source.shapes) {
       target.shapes.push_back({posed.shape, X_KL * posed.X_PS});
+    }
+    for (UrdfMesh mesh : source.meshes) {
+      mesh.X_LM = X_KL * mesh.X_LM;
+      meshes_.emplace(kept, std::move(mesh));
     }
     const auto [begin, end] = joints_below_.equal_range(name);
     for (auto it = begin; it != end; ++it) {
@@ -55,6 +74,7 @@ class TreeBuilder {
       } else {
         robot_->joints.push_back(KeptJoint(joint, kept, X_KJ));
         robot_->links.push_back({joint.child, {}, {}});
+        CheckOwnInertial(joint.child);
         Attach(joint.child, robot_->num_links() - 1, Eigen::Isometry3d::Identity());
       }
     }
@@ -84,15 +104,13 @@ class TreeBuilder {
       Fail(fmt::format("{}: expected lower < upper, got {} and {}", owner, result.lower,
                        result.upper));
     }
-    if (!(result.velocity > 0)) {
-      Fail(fmt::format("{}: expected a positive velocity limit, got {}", owner, result.velocity));
-    }
     return result;
   }
 
   const std::set<std::string>& lumped_;
   const std::string file_;
   RobotModel* robot_;
+  PendingMeshes meshes_;
   std::map<std::string, const UrdfLink*> links_;
   // Joints come sorted by name, and equal keys keep their order of insertion.
   std::multimap<std::string, const UrdfJoint*> joints_below_;
@@ -111,9 +129,9 @@ Inertial Combined(const Inertial& total, const Inertial& body, const Eigen::Isom
   return sum;
 }
 
-void BuildLumpedTree(const UrdfTree& tree, const std::set<std::string>& lumped,
-                     const std::string& file, RobotModel* robot) {
-  TreeBuilder(tree, lumped, file, robot).Build(tree.root);
+PendingMeshes BuildLumpedTree(const UrdfTree& tree, const std::set<std::string>& lumped,
+                              const std::string& file, RobotModel* robot) {
+  return TreeBuilder(tree, lumped, file, robot).Build(tree.root);
 }
 
 }  // namespace possibility::models

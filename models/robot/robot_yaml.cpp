@@ -2,17 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <set>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 #include "models/input/named_lookup.h"
 #include "models/input/yaml_reader.h"
 #include "models/robot/gait_yaml.h"
-#include "models/robot/lumping.h"
-#include "models/robot/mimic_joints.h"
+#include "models/robot/mesh_shapes.h"
 #include "models/robot/urdf_reader.h"
+#include "models/robot/urdf_robot.h"
 #include "models/shapes/shape_yaml.h"
 
 namespace possibility::models {
@@ -33,24 +36,44 @@ void ReadRootLink(const YamlNode& node, const UrdfTree& tree) {
   node.Fail(fmt::format("expected the root of the URDF, '{}', got {}", tree.root, node.String()));
 }
 
-void ReadEfforts(const YamlNode& list, RobotModel* robot) {
+/// Calls `set` with each joint of a list of limits and its limit.
+void ReadLimits(const YamlNode& list, const RobotModel& robot,
+                const std::function<void(int, double, const YamlNode&)>& set) {
   std::set<int> seen;
   for (const YamlNode& node : list.Items()) {
     node.MapOf({"joints", "limit", "reason"});
     node.At("reason").String();
     const double limit = node.At("limit").Positive();
-    for (const int joint : IndicesOfNamed(node.At("joints"), robot->joints, "joint")) {
+    for (const int joint : IndicesOfNamed(node.At("joints"), robot.joints, "joint")) {
       if (!seen.insert(joint).second) {
-        node.At("joints").Fail(
-            fmt::format("joint '{}' is listed twice", robot->joints[joint].name));
+        node.At("joints").Fail(fmt::format("joint '{}' is listed twice", robot.joints[joint].name));
       }
-      if (const auto& mimic = robot->joints[joint].mimic) {
-        node.At("joints").Fail(fmt::format("joint '{}' mimics '{}', whose limit counts for both",
-                                           robot->joints[joint].name,
-                                           robot->joints[mimic->joint].name));
-      }
-      robot->joints[joint].effort = limit;
+      set(joint, limit, node.At("joints"));
     }
+  }
+}
+
+void ReadEfforts(const YamlNode& list, RobotModel* robot) {
+  ReadLimits(list, *robot, [robot](int joint, double limit, const YamlNode& node) {
+    if (const auto& mimic = robot->joints[joint].mimic) {
+      node.Fail(fmt::format("joint '{}' mimics '{}', whose limit counts for both",
+                            robot->joints[joint].name, robot->joints[mimic->joint].name));
+    }
+    robot->joints[joint].effort = limit;
+  });
+}
+
+void ReadSpeeds(const YamlNode& list, RobotModel* robot) {
+  ReadLimits(list, *robot, [robot](int joint, double limit, const YamlNode&) {
+    robot->joints[joint].velocity = limit;
+  });
+}
+
+void CheckSpeeds(const std::filesystem::path& urdf_file, const RobotModel& robot) {
+  for (const Joint& joint : robot.joints) {
+    if (joint.velocity > 0) continue;
+    throw InputError(fmt::format("{}: joint '{}': expected a positive velocity limit, got {}",
+                                 urdf_file.string(), joint.name, joint.velocity));
   }
 }
 
@@ -64,13 +87,15 @@ void CheckEfforts(const YamlNode& root, const RobotModel& robot) {
   }
 }
 
-void ReadShapes(const YamlNode& map, RobotModel* robot) {
+void ReadShapes(const YamlNode& map, RobotModel* robot, PendingMeshes* meshes) {
   std::vector<std::string> names;
   for (const Link& link : robot->links) names.push_back(link.name);
   map.MapOf(names);
   for (const auto& [name, list] : map.Entries()) {
-    std::vector<PosedShape>& shapes = robot->links[robot->LinkIndex(name)].shapes;
+    const int link = robot->LinkIndex(name);
+    std::vector<PosedShape>& shapes = robot->links[link].shapes;
     shapes.clear();
+    meshes->erase(link);
     for (const YamlNode& node : list.Items()) {
       shapes.push_back(ReadPosedShape(node.MapOf(kShapeKeys)));
     }
@@ -134,17 +159,39 @@ std::vector<std::pair<int, int>> ReadSagittalPairs(const YamlNode& list, const R
 }
 
 const std::vector<std::string> kRobotKeys = {
-    "name",        "urdf",   "root_link",      "pelvis_link",       "lump",
-    "friction",    "effort", "shapes",         "contacts",          "gaits",
-    "transitions", "jumps",  "sagittal_pairs", "ignored_collisions"};
+    "name",        "urdf",     "root_link",      "pelvis_link",
+    "lump",        "packages", "friction",       "velocity",
+    "effort",      "shapes",   "contacts",       "gaits",
+    "transitions", "jumps",    "sagittal_pairs", "ignored_collisions"};
 
-/// Reads everything but the tree.
-void ReadDescription(const YamlNode& root, RobotModel* robot) {
+/// Folders of packages, relative to the YAML.
+std::vector<std::filesystem::path> ReadPackages(const YamlNode& root,
+                                                const std::filesystem::path& yaml_file) {
+  std::vector<std::filesystem::path> folders;
+  const auto list = root.Find("packages");
+  if (!list) return folders;
+  for (const YamlNode& node : list->Items()) {
+    folders.push_back(yaml_file.parent_path() / node.String());
+    std::error_code error;
+    if (!std::filesystem::is_directory(folders.back(), error)) node.FailExpected("a folder");
+  }
+  return folders;
+}
+
+/// Friction, limits and the shapes that replace the URDF's.
+void ReadPhysics(const YamlNode& root, const std::filesystem::path& urdf_file, UrdfRobot* built) {
+  RobotModel* robot = &built->robot;
   robot->pelvis_shape_link = IndexOfNamed(root.At("pelvis_link"), robot->links, "link");
   robot->friction = root.At("friction").Positive();
+  if (const auto speeds = root.Find("velocity")) ReadSpeeds(*speeds, robot);
+  CheckSpeeds(urdf_file, *robot);
   if (const auto efforts = root.Find("effort")) ReadEfforts(*efforts, robot);
   CheckEfforts(root, *robot);
-  if (const auto shapes = root.Find("shapes")) ReadShapes(*shapes, robot);
+  if (const auto shapes = root.Find("shapes")) ReadShapes(*shapes, robot, &built->meshes);
+}
+
+/// Reads everything but the tree, limits and shapes.
+void ReadDescription(const YamlNode& root, RobotModel* robot) {
   if (robot->links[robot->pelvis_shape_link].shapes.empty()) {
     root.At("pelvis_link").Fail("this link has no collision shape");
   }
@@ -177,27 +224,33 @@ std::filesystem::path UrdfFile(const YamlNode& root, const std::filesystem::path
 std::string RobotContentHash(const std::filesystem::path& yaml_file) {
   const std::string yaml = ReadFileContents(yaml_file);
   const YamlNode root = YamlNode::Parse(yaml, yaml_file);
-  return HashOfParts({yaml, ReadFileContents(UrdfFile(root, yaml_file))});
+  const std::string urdf = ReadFileContents(UrdfFile(root, yaml_file));
+  // Which meshes count, if any, only reading the robot tells.
+  if (urdf.find("<mesh") != std::string::npos) return LoadRobotModel(yaml_file).content_hash;
+  return HashOfParts({yaml, urdf});
 }
 
 RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   const std::string yaml = ReadFileContents(yaml_file);
   const YamlNode root = YamlNode::Parse(yaml, yaml_file);
   root.MapOf(kRobotKeys);
-  RobotModel robot;
-  robot.name = root.At("name").String();
-  robot.file = yaml_file;
+  const std::string name = root.At("name").String();
   const std::filesystem::path urdf_file = UrdfFile(root, yaml_file);
   const std::string urdf = ReadFileContents(urdf_file);
-  robot.content_hash = HashOfParts({yaml, urdf});
   const UrdfTree tree = ParseUrdf(urdf, urdf_file);
   ReadRootLink(root.At("root_link"), tree);
-  const std::set<std::string> lumped = ReadLumped(root, tree);
-  BuildLumpedTree(tree, lumped, urdf_file.string(), &robot);
-  CoupleMimicJoints(tree, lumped, urdf_file.string(), &robot);
-  if (robot.joints.empty()) throw InputError(urdf_file.string() + ": expected at least one joint");
+  UrdfRobot built = BuildUrdfRobot(tree, ReadLumped(root, tree), urdf_file);
+  RobotModel& robot = built.robot;
+  robot.name = name;
+  robot.file = yaml_file;
+  ReadPhysics(root, urdf_file, &built);
+  const MeshFiles meshes =
+      AddMeshShapes(built.meshes, urdf_file, ReadPackages(root, yaml_file), &robot);
+  std::vector<std::string_view> parts = {yaml, urdf};
+  parts.insert(parts.end(), meshes.contents.begin(), meshes.contents.end());
+  robot.content_hash = HashOfParts(parts);
   ReadDescription(root, &robot);
-  return robot;
+  return std::move(robot);
 }
 
 }  // namespace possibility::models

@@ -26,7 +26,10 @@ struct Element {
 const Element& Robot() {
   static const Element origin{"origin", {}, {"xyz", "rpy"}, {}};
   static const Element geometry{
-      "geometry", {}, {}, {{"mesh", {}, {}, {}}, {"", {}, {"size", "radius", "length"}, {}}}};
+      "geometry",
+      {},
+      {},
+      {{"mesh", {}, {"scale"}, {}}, {"", {}, {"size", "radius", "length"}, {}}}};
   static const Element inertial{"inertial",
                                 {},
                                 {},
@@ -80,6 +83,8 @@ class Extraction {
  public:
   explicit Extraction(const std::filesystem::path& file) : file_(file.string()) {}
 
+  const std::vector<std::string>& mesh_files() const { return mesh_files_; }
+
   std::string Run(const std::string& text) {
     tinyxml2::XMLDocument document;
     if (const tinyxml2::XMLError error = document.Parse(text.data(), text.size());
@@ -117,11 +122,21 @@ class Extraction {
       Fail(source.GetLineNum(), fmt::format("expected at most {} links and joints", kMostElements));
     }
     if (found->name != "mesh") return Copy(source, *found);
-    // ParseUrdf rejects the mesh later, with the name of its link. The mesh's own file name is not
-    // copied, since it may contain anything.
     printer_.OpenElement("mesh", true);
-    printer_.PushAttribute("filename", "file");
+    CopyMeshName(source);
+    for (const char* name : found->values) CopyAttribute(source, name, false);
     printer_.CloseElement(true);
+  }
+
+  void CopyMeshName(const tinyxml2::XMLElement& mesh) {
+    const char* value = mesh.Attribute("filename");
+    const std::string name = value == nullptr ? "" : value;
+    if (name.empty()) Fail(mesh.GetLineNum(), "<mesh>: expected a filename");
+    if (std::any_of(name.begin(), name.end(), &IsControl)) {
+      FailAt(mesh, "filename", name, "no control characters");
+    }
+    printer_.PushAttribute("filename", static_cast<unsigned>(mesh_files_.size()));
+    mesh_files_.push_back(name);
   }
 
   void CopyAttribute(const tinyxml2::XMLElement& source, const char* name, bool is_name) {
@@ -145,14 +160,19 @@ class Extraction {
   }
 
   const std::string file_;
+  std::vector<std::string> mesh_files_;
   tinyxml2::XMLPrinter printer_{nullptr, true};
   int num_elements_ = 0;
 };
 
 }  // namespace
 
-std::string ExtractUrdf(const std::string& text, const std::filesystem::path& file) {
-  return Extraction(file).Run(text);
+std::string ExtractUrdf(const std::string& text, const std::filesystem::path& file,
+                        std::vector<std::string>* mesh_files) {
+  Extraction extraction(file);
+  std::string extract = extraction.Run(text);
+  if (mesh_files != nullptr) *mesh_files = extraction.mesh_files();
+  return extract;
 }
 
 std::string DecodeUrdfName(std::string name) {

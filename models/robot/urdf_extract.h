@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace possibility::models {
 
@@ -11,8 +12,11 @@ namespace possibility::models {
 /// urdfdom 3 passes texts of the file to printf as formats, and deeply nested elements overflow its
 /// parser's stack. The extract therefore has no '%' and no deep nesting. In names, where '%' is
 /// legal, a byte that XML forbids replaces it; elsewhere '%' is an error.
+/// A mesh's file name may contain anything: the extract has a number in its place, which counts
+/// from 0 in the order of the file. `mesh_files`, if given, gets the names.
 /// @throws InputError if the text is not XML, or a part that we use is not valid in any URDF.
-std::string ExtractUrdf(const std::string& text, const std::filesystem::path& file);
+std::string ExtractUrdf(const std::string& text, const std::filesystem::path& file,
+                        std::vector<std::string>* mesh_files = nullptr);
 
 /// Restores the '%' in a name of the extract, or in a message about it.
 std::string DecodeUrdfName(std::string name);

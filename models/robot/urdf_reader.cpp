@@ -53,10 +53,22 @@ std::string OneLine(const std::string& text) {
   return line.size() > kLongest ? line.substr(0, kLongest) + "..." : line;
 }
 
+Eigen::Vector3d PrincipalMoments(const Eigen::Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+std::string Indefinite(const Eigen::Vector3d& principal, const std::string& owner) {
+  return fmt::format(
+      "{}: inertia is not positive definite (principal moments {:.3g}, {:.3g}, {:.3g} kg m^2)",
+      owner, principal[0], principal[1], principal[2]);
+}
+
 class UrdfConverter {
  public:
-  UrdfConverter(const urdf::ModelInterface& model, const std::filesystem::path& file)
-      : model_(model), file_(file.string()) {}
+  UrdfConverter(const urdf::ModelInterface& model, const std::vector<std::string>& mesh_files,
+                const std::filesystem::path& file)
+      : model_(model), mesh_files_(mesh_files), file_(file.string()) {}
 
   UrdfTree Convert() const {
     UrdfTree tree;
@@ -98,11 +110,15 @@ class UrdfConverter {
   }
 
   UrdfLink ConvertLink(const urdf::Link& link) const {
-    UrdfLink result{DecodeUrdfName(link.name), std::nullopt, {}};
+    UrdfLink result{DecodeUrdfName(link.name), std::nullopt, {}, {}};
     if (link.inertial) result.inertial = ConvertInertial(*link.inertial, result.name);
     for (const auto& collision : link.collision_array) {
       const std::string owner = fmt::format("link '{}': collision", result.name);
       if (!collision || !collision->geometry) Fail(owner + ": no geometry");
+      if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(collision->geometry.get())) {
+        result.meshes.push_back(ConvertMesh(*mesh, Pose(collision->origin, owner), owner));
+        continue;
+      }
       result.shapes.push_back(
           {ConvertGeometry(*collision->geometry, owner), Pose(collision->origin, owner)});
     }
@@ -115,33 +131,16 @@ class UrdfConverter {
     CheckMagnitude({inertial.mass, inertial.ixx, inertial.ixy, inertial.ixz, inertial.iyy,
                     inertial.iyz, inertial.izz},
                    owner, "inertial");
-    if (!(inertial.mass > 0)) {
+    if (!(inertial.mass >= 0)) {
       Fail(fmt::format("{}: expected a positive mass, got {}", owner, inertial.mass));
     }
     Eigen::Matrix3d I_C;
     I_C << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy, inertial.iyz,
         inertial.ixz, inertial.iyz, inertial.izz;
-    CheckInertia(I_C, owner);
+    constexpr double kRounding = 1e-9;  // of the greatest moment
+    const Eigen::Vector3d principal = PrincipalMoments(I_C);
+    if (!(principal[0] >= -kRounding * std::abs(principal[2]))) Fail(Indefinite(principal, owner));
     return {inertial.mass, X_LC.translation(), X_LC.linear() * I_C * X_LC.linear().transpose()};
-  }
-
-  void CheckInertia(const Eigen::Matrix3d& inertia, const std::string& owner) const {
-    const Eigen::Vector3d principal =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly)
-            .eigenvalues();
-    if (!(principal[0] > 0)) {
-      Fail(
-          fmt::format("{}: inertia is not positive definite (principal moments {:.3g}, {:.3g}, "
-                      "{:.3g} kg m^2)",
-                      owner, principal[0], principal[1], principal[2]));
-    }
-    constexpr double kRounding = 1e-4;  // published inertias come with few digits
-    if (principal[2] > (principal[0] + principal[1]) * (1 + kRounding)) {
-      Fail(
-          fmt::format("{}: no body has this inertia: principal moment {:.3g} exceeds the sum of "
-                      "the other two, {:.3g} and {:.3g} kg m^2",
-                      owner, principal[2], principal[0], principal[1]));
-    }
   }
 
   double Dimension(double value, const std::string& owner, const std::string& what) const {
@@ -164,7 +163,16 @@ class UrdfConverter {
       return Shape::Cylinder(Dimension(cylinder->radius, owner, "cylinder radius"),
                              Dimension(cylinder->length, owner, "cylinder length"));
     }
-    Fail(owner + ": meshes are not supported, expected box, cylinder or sphere");
+    Fail(owner + ": expected a box, cylinder, sphere or mesh");
+  }
+
+  UrdfMesh ConvertMesh(const urdf::Mesh& mesh, const Eigen::Isometry3d& X_LM,
+                       const std::string& owner) const {
+    const Eigen::Vector3d scale(mesh.scale.x, mesh.scale.y, mesh.scale.z);
+    CheckMagnitude({scale.x(), scale.y(), scale.z()}, owner, "mesh scale");
+    if (!(scale.cwiseAbs().minCoeff() > 0)) Fail(owner + ": mesh scale: expected no zero");
+    // The extract has numbers in place of names.
+    return {mesh_files_.at(std::stoul(mesh.filename)), scale, X_LM};
   }
 
   static std::string TypeName(int type) {
@@ -245,6 +253,7 @@ class UrdfConverter {
   }
 
   const urdf::ModelInterface& model_;
+  const std::vector<std::string>& mesh_files_;
   const std::string file_;
 };
 
@@ -273,9 +282,25 @@ UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file) {
   if (text.find('\0') != std::string::npos) {
     throw InputError(fmt::format("{}: not a text file, expected a URDF", file.string()));
   }
-  const urdf::ModelInterfaceSharedPtr model =
-      ParseWithUrdfdom(ExtractUrdf(text, file), file.string());
-  return UrdfConverter(*model, file).Convert();
+  std::vector<std::string> mesh_files;
+  const std::string extract = ExtractUrdf(text, file, &mesh_files);
+  const urdf::ModelInterfaceSharedPtr model = ParseWithUrdfdom(extract, file.string());
+  return UrdfConverter(*model, mesh_files, file).Convert();
+}
+
+void CheckMovingBody(const Inertial& inertial, const std::string& owner) {
+  if (!(inertial.mass > 0)) {
+    throw InputError(fmt::format("{}: expected a positive mass, got {}", owner, inertial.mass));
+  }
+  const Eigen::Vector3d principal = PrincipalMoments(inertial.I_LC);
+  if (!(principal[0] > 0)) throw InputError(Indefinite(principal, owner));
+  constexpr double kRounding = 1e-4;  // published inertias come with few digits
+  if (principal[2] > (principal[0] + principal[1]) * (1 + kRounding)) {
+    throw InputError(
+        fmt::format("{}: no body has this inertia: principal moment {:.3g} exceeds the sum of "
+                    "the other two, {:.3g} and {:.3g} kg m^2",
+                    owner, principal[2], principal[0], principal[1]));
+  }
 }
 
 }  // namespace possibility::models

@@ -32,10 +32,19 @@ struct UrdfJoint {
   double effort = 0;
 };
 
+/// A mesh as collision geometry, not read yet.
+struct UrdfMesh {
+  std::string name;                                 ///< as written: file or package://
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< m per unit of the file; negative: mirrored
+  Eigen::Isometry3d X_LM = Eigen::Isometry3d::Identity();  ///< in the link
+};
+
 struct UrdfLink {
   std::string name;
+  /// Mass and moments may be zero or too small for a body that moves by itself (CheckMovingBody).
   std::optional<Inertial> inertial;
   std::vector<PosedShape> shapes;  ///< <collision> elements: box, cylinder, sphere
+  std::vector<UrdfMesh> meshes;    ///< likewise
 };
 
 /// A URDF's kinematic tree: one root, every other link the child of exactly one joint.
@@ -45,9 +54,14 @@ struct UrdfTree {
   std::vector<UrdfJoint> joints;  ///< sorted by name
 };
 
-/// Parses the text of a URDF; `file` is for messages only. Mass properties are checked.
-/// @throws InputError if urdfdom rejects it, the links are not a tree, a mass or an inertia is
-/// not physically possible, or a collision geometry is a mesh.
+/// Parses the text of a URDF; `file` is for messages only.
+/// @throws InputError if urdfdom rejects it, the links are not a tree, or a mass or a moment of
+/// inertia is negative.
 UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file);
+
+/// What the mass properties of a link must be that moves by itself: a positive mass, and an inertia
+/// that is positive definite and satisfies the triangle inequality to 1e-4.
+/// @throws InputError, beginning with `owner`.
+void CheckMovingBody(const Inertial& inertial, const std::string& owner);
 
 }  // namespace possibility::models

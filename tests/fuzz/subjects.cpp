@@ -202,12 +202,13 @@ void UseSurface(const models::TriangleMesh& mesh, std::optional<double> base) {
 Subject MeshSubject(const fs::path& folder) {
   models::TriangleMesh mesh = models::testing::BoxMesh({1, 2, 0.5});
   models::testing::Append(models::testing::BoxMesh({0.4, 0.3, 1}), &mesh);
-  const std::array<std::pair<std::string, std::string>, 5> files = {{
+  const std::array<std::pair<std::string, std::string>, 6> files = {{
       {"mesh.stl", models::testing::TextStl(mesh)},
       {"mesh.stl", models::testing::BinaryStl(mesh)},
       {"mesh.obj", models::testing::Obj(mesh) + "f 1 2 4 3\nf -1/2/3 -2 -3//1 -4 -5\n"},
       {"mesh.ply", models::testing::TextPly(mesh)},
       {"mesh.ply", models::testing::BinaryPly(mesh)},
+      {"mesh.dae", models::testing::Collada(mesh, 1, "Z_UP")},
   }};
   return {"mesh", ".mesh", Syntax::kYaml,
           [files](std::uint64_t seed) { return files[seed % files.size()].second; },

@@ -83,6 +83,30 @@ inline std::string BinaryPly(const TriangleMesh& mesh) {
   return bytes;
 }
 
+/// `metres`: the file's unit. `up`: "X_UP", "Y_UP" or "Z_UP".
+inline std::string Collada(const TriangleMesh& mesh, double metres, const std::string& up) {
+  std::string numbers, triangles;
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    numbers += fmt::format("{:.9g} {:.9g} {:.9g} ", p.x(), p.y(), p.z());
+  }
+  for (const auto& t : mesh.triangles) triangles += fmt::format("{} {} {} ", t[0], t[1], t[2]);
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+      "version=\"1.4.1\"><asset><unit name=\"unit\" meter=\"{}\"/><up_axis>{}</up_axis></asset>"
+      "<library_geometries><geometry id=\"body\"><mesh><source id=\"places\"><float_array "
+      "id=\"numbers\" count=\"{}\">{}</float_array><technique_common><accessor source=\"#numbers\" "
+      "count=\"{}\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" "
+      "type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+      "<vertices id=\"corners\"><input semantic=\"POSITION\" source=\"#places\"/></vertices>"
+      "<triangles count=\"{}\"><input semantic=\"VERTEX\" source=\"#corners\" "
+      "offset=\"0\"/><p>{}</p></triangles></mesh></geometry></library_geometries>"
+      "<library_visual_scenes><visual_scene id=\"scene\"><node><instance_geometry "
+      "url=\"#body\"/></node></visual_scene></library_visual_scenes><scene>"
+      "<instance_visual_scene url=\"#scene\"/></scene></COLLADA>\n",
+      metres, up, 3 * mesh.vertices.size(), numbers, mesh.vertices.size(), mesh.triangles.size(),
+      triangles);
+}
+
 /// A box with its lowest corner at the origin, normals outwards.
 inline TriangleMesh BoxMesh(const Eigen::Vector3d& size) {
   TriangleMesh mesh;

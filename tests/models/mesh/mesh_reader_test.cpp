@@ -45,12 +45,26 @@ TEST(MeshReader, EveryFormatGivesTheSameMesh) {
       {"binary.STL", testing::BinaryStl(kReadBox)},
       {"box.obj", testing::Obj(kReadBox)},
       {"text.ply", testing::TextPly(kReadBox)},
-      {"binary.ply", testing::BinaryPly(kReadBox)}};
+      {"binary.ply", testing::BinaryPly(kReadBox)},
+      {"box.dae", testing::Collada(kReadBox, 1, "Z_UP")}};
   for (const auto& [name, contents] : files) {
     const TriangleMesh mesh = ReadMesh(folder.Write(name, contents));
     EXPECT_EQ(mesh.vertices.size(), 8u) << name;
     EXPECT_EQ(Corners(mesh), Corners(kReadBox)) << name;
   }
+}
+
+TEST(MeshReader, ColladaIsReadInMetresAndNotTurned) {
+  for (const std::string up : {"X_UP", "Y_UP", "Z_UP"}) {
+    const TriangleMesh mesh = ParseMesh(testing::Collada(kReadBox, 0.5, up), "box.dae");
+    EXPECT_EQ(Corners(mesh), Corners(BoxMesh({0.625, 1.25, 0.0625}))) << up;
+  }
+}
+
+TEST(MeshReader, ColladaWithoutIndicesIsNamed) {
+  EXPECT_EQ(
+      ErrorOfMesh(Replaced(testing::Collada(kReadBox, 1, "Z_UP"), "<p>0", "<p>zero"), "a.dae"),
+      "a.dae: not a valid mesh: line 2: expected whole numbers");
 }
 
 TEST(MeshReader, BinaryStlMayBeginLikeText) {
@@ -87,8 +101,9 @@ TEST(MeshReader, BrokenFilesGiveOneLine) {
   const std::string stl = testing::BinaryStl(kReadBox);
   EXPECT_EQ(ErrorOfMesh("", "a.stl"), "a.stl: is empty, expected a mesh");
   EXPECT_EQ(ErrorOfMesh(stl, "a.fbx"),
-            "a.fbx: expected a mesh whose name ends in .stl, .obj or .ply");
-  EXPECT_EQ(ErrorOfMesh(stl, "a"), "a: expected a mesh whose name ends in .stl, .obj or .ply");
+            "a.fbx: expected a mesh whose name ends in .stl, .obj, .ply or .dae");
+  EXPECT_EQ(ErrorOfMesh(stl, "a"),
+            "a: expected a mesh whose name ends in .stl, .obj, .ply or .dae");
   EXPECT_EQ(MessageOf<InputError>([] { ReadMesh("/nowhere/a.stl"); }),
             "/nowhere/a.stl: no such file");
   EXPECT_EQ(ErrorOfMesh("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "a.obj"),
@@ -111,6 +126,9 @@ TEST(MeshReader, BrokenFilesGiveOneLine) {
       {"a.stl", stl.substr(0, 300)},
       {"a.stl", "solid a\nendsolid a\n"},
       {"a.ply", stl},
+      {"a.dae", stl},
+      {"a.dae", testing::Collada(kReadBox, 1, "Z_UP").substr(0, 700)},
+      {"a.dae", Replaced(testing::Collada(kReadBox, 1, "Z_UP"), "#places", "#nowhere")},
       {"a.ply", ply.substr(0, 200)},
       {"a.ply",
        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "

@@ -6,7 +6,10 @@
 #include <random>
 
 #include "models/input/file_contents.h"
+#include "models/input/input_error.h"
 #include "models/robot/robot_yaml.h"
+#include "tests/models/temporary_folder.h"
+#include "tests/models/two_legged_robot.h"
 
 namespace possibility::models {
 namespace {
@@ -57,6 +60,44 @@ TEST(Lumping, CombinedAddsSpatialInertias) {
     EXPECT_TRUE(SpatialInertia(Combined(a, b, X_PL), Eigen::Isometry3d::Identity())
                     .isApprox(expected, 1e-12));
   }
+}
+
+/// The two-legged robot with another inertial in its tool, which is on a fixed joint.
+RobotModel WithTool(const std::string& mass, const std::string& moment) {
+  const std::string inertial = "<origin xyz=\"0.1 0 0\"/><mass value=\"" + mass +
+                               "\"/><inertia ixx=\"" + moment + "\" ixy=\"0\" ixz=\"0\" iyy=\"" +
+                               moment + "\" iyz=\"0\" izz=\"" + moment + "\"/>";
+  std::string urdf = TwoLeggedUrdf();
+  const std::size_t begin = urdf.find("<inertial>", urdf.find("<link name=\"tool\">")) + 10;
+  urdf.replace(begin, urdf.find("</inertial>", begin) - begin, inertial);
+  const TemporaryFolder folder;
+  folder.Write("robot.urdf", urdf);
+  return LoadRobotModel(folder.Write("robot.yaml", TwoLeggedYaml()));
+}
+
+TEST(Lumping, AFrameWithoutMassAddsNothing) {
+  const RobotModel robot = WithTool("0", "0");
+  EXPECT_EQ(robot.links[0].inertial.mass, 2);
+  EXPECT_TRUE(robot.links[0].inertial.p_LC.isApprox(Eigen::Vector3d(0.01, 0.02, -0.03)));
+}
+
+TEST(Lumping, APointMassIsLumped) {
+  const RobotModel robot = WithTool("3", "0");
+  const Inertial& sum = robot.links[0].inertial;
+  // The tool is 0.3 m above the base, turned by 0.5 rad about y.
+  const Eigen::Vector3d base(0.01, 0.02, -0.03);
+  const Eigen::Vector3d point(0.1 * std::cos(0.5), 0, 0.3 - 0.1 * std::sin(0.5));
+  EXPECT_EQ(sum.mass, 5);
+  EXPECT_TRUE(sum.p_LC.isApprox((2 * base + 3 * point) / 5));
+  // Two bodies add m1 m2 / (m1 + m2) d^2 about an axis across the line between them.
+  Eigen::Matrix3d own;
+  own << 0.02, 0.001, 0, 0.001, 0.03, 0, 0, 0, 0.04;
+  EXPECT_NEAR(sum.I_LC.trace(), own.trace() + 2 * 1.2 * (base - point).squaredNorm(), 1e-12);
+}
+
+TEST(Lumping, WhatMovesIsABody) {
+  EXPECT_THROW(WithTool("-1", "0"), InputError);
+  EXPECT_THROW(WithTool("1", "-1"), InputError);
 }
 
 class DrcHubo1Lumping : public ::testing::Test {

@@ -319,9 +319,30 @@ const BadRobot kBadUrdf[] = {
     {"OriginHuge", true, "0.01 0.02 -0.03", "0.01 0.02 1e300",
      "robot.urdf: link 'base': inertial: origin: expected numbers of at most 1e6 in magnitude, got "
      "1e+300"},
-    {"Mesh", true, "<box size=\"0.2 0.3 0.1\"/>", "<mesh filename=\"a.stl\"/>",
-     "robot.urdf: link 'base': collision: meshes are not supported, expected box, cylinder or "
-     "sphere"},
+    {"MeshMissing", true, "<box size=\"0.2 0.3 0.1\"/>", "<mesh filename=\"a.stl\"/>",
+     "robot.urdf: link 'base': mesh: no such file: a.stl"},
+    {"MeshOutside", true, "<box size=\"0.2 0.3 0.1\"/>", "<mesh filename=\"/etc/passwd\"/>",
+     "robot.urdf: link 'base': mesh: '/etc/passwd' is outside of the URDF's folder, the one above "
+     "and those under 'packages'"},
+    {"MeshOfAnUnknownPackage", true, "<box size=\"0.2 0.3 0.1\"/>",
+     "<mesh filename=\"package://no_such/a.stl\"/>",
+     "robot.urdf: link 'base': mesh: no folder above the URDF holds the package 'no_such' of "
+     "'package://no_such/a.stl': name one under 'packages'"},
+    {"MeshWithoutAName", true, "<box size=\"0.2 0.3 0.1\"/>", "<mesh filename=\"\"/>",
+     "robot.urdf:4: <mesh>: expected a filename"},
+    {"MeshScaleZero", true, "<box size=\"0.2 0.3 0.1\"/>",
+     "<mesh filename=\"a.stl\" scale=\"1 0 1\"/>",
+     "robot.urdf: link 'base': collision: mesh scale: expected no zero"},
+    {"MassAndInertiaZero", true, "<link name=\"l_hip\">\n" + kInertial,
+     "<link name=\"l_hip\"><inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" "
+     "iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>",
+     "robot.urdf: link 'l_hip': expected an inertial (only links on fixed or lumped joints may go "
+     "without)"},
+    {"PackagesNoFolder", false, "pelvis_link: base", "pelvis_link: base\npackages: [robot.urdf]",
+     "robot.yaml:5: packages[0]: expected a folder, got robot.urdf"},
+    {"SpeedOfAnUnknownJoint", false,
+     "effort:", "velocity:\n  - {joints: [l_jaw], limit: 3, reason: a}\neffort:",
+     "robot.yaml:7: velocity[0].joints[0]: unknown joint 'l_jaw' (did you mean 'l_yaw'?)"},
     {"BoxNegative", true, "0.2 0.3 0.1", "0.2 -0.3 0.1",
      "robot.urdf: link 'base': collision: expected a positive box size, got -0.3"},
     {"SphereZero", true, "radius=\"0.05\"", "radius=\"0\"",

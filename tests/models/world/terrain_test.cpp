@@ -246,7 +246,7 @@ TEST_F(TerrainYaml, TheHashCoversEveryFile) {
 TEST_F(TerrainYaml, EachFaultIsNamedInOneLine) {
   EXPECT_EQ(Error("file: bar.obj", "file: rod.obj"), "rod.obj: no such file");
   EXPECT_EQ(Error("file: bar.obj", "file: steps.csv"),
-            "steps.csv: expected a mesh whose name ends in .stl, .obj or .ply");
+            "steps.csv: expected a mesh whose name ends in .stl, .obj, .ply or .dae");
   EXPECT_EQ(Error("file: steps.csv", "file: bar.obj"),
             "bar.obj: expected a height map whose name ends in .png or .csv");
   EXPECT_EQ(Error("name: bar", "name: slab"),
