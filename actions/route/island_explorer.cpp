@@ -66,15 +66,15 @@ graph::Findings IslandExplorer::Explore() {
 graph::Findings IslandExplorer::ExploreIsland(const CancellationToken& cancellation) {
   if (!island_) {
     ++*islands_;
-    island_.emplace(lattice_, entry_, goals_, kLattice);
+    island_ = std::make_unique<LatticeSearch>(lattice_, entry_, goals_, kLattice);
   }
   switch (island_->Advance(kIslandStancesPerTurn, cancellation)) {
     case LatticeSearch::Status::kSearching:
       return {graph::Outlook::kLeadsOn, {}};
     case LatticeSearch::Status::kGivenUp:
+      Remember();
       if (BeginToLeave(cancellation)) return {graph::Outlook::kLeadsOn, {}};
-      is_over_ = true;
-      return {graph::Outlook::kOver, {}};
+      return GoBack(cancellation);
     case LatticeSearch::Status::kFound:
       break;
   }
@@ -92,9 +92,30 @@ bool IslandExplorer::OnRefuted() {
   entry_ = start_;
   route_.clear();
   reached_.clear();
+  earlier_.clear();
   island_.reset();
   crossing_.reset();
   return true;
+}
+
+void IslandExplorer::Remember() {
+  const std::vector<GroundedStance> reached = island_->Reached();
+  reached_.insert(reached_.end(), reached.begin(), reached.end());
+}
+
+/// Stances beyond an island are none that were reached from any other, so every island is left in
+/// vain only once.
+graph::Findings IslandExplorer::GoBack(const CancellationToken& cancellation) {
+  crossing_.reset();
+  while (!earlier_.empty()) {
+    entry_ = earlier_.back().entry;
+    island_ = std::move(earlier_.back().island);
+    route_.erase(route_.begin() + earlier_.back().edges, route_.end());
+    earlier_.pop_back();
+    if (BeginToLeave(cancellation)) return {graph::Outlook::kLeadsOn, {}};
+  }
+  is_over_ = true;
+  return {graph::Outlook::kOver, {}};
 }
 
 /// @returns false if there is nowhere to go.
@@ -102,7 +123,6 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   FootstepEnds ends;
   const std::vector<GroundedStance> reached = island_->Reached();
   for (std::size_t i = 0; i < reached.size(); ++i) {
-    reached_.push_back(reached[i]);
     if (reached[i].gait != steps_.from()) continue;
     ends.starts.push_back(reached[i]);
     ends.start_times.push_back(island_->TimeTo(static_cast<int>(i)));
@@ -125,16 +145,14 @@ graph::Findings IslandExplorer::LeaveIsland(const CancellationToken& cancellatio
   const FootstepSearch::Status status = crossing_->Advance(kCrossingStatesPerTurn, cancellation);
   *states_ += crossing_->states() - before;
   if (status == FootstepSearch::Status::kSearching) return {graph::Outlook::kLeadsOn, {}};
-  if (status == FootstepSearch::Status::kExhausted) {
-    is_over_ = true;
-    return {graph::Outlook::kOver, {}};
-  }
+  if (status == FootstepSearch::Status::kExhausted) return GoBack(cancellation);
   return CrossTo(crossing_->start(), beyond_[crossing_->goal()]);
 }
 
 /// The next island begins there.
 graph::Findings IslandExplorer::CrossTo(const GroundedStance& from, const GroundedStance& to) {
   const std::vector<GroundedStance> reached = island_->Reached();
+  const auto edges = static_cast<std::ptrdiff_t>(route_.size());
   const auto exit = std::find_if(reached.begin(), reached.end(), [&](const GroundedStance& other) {
     return other.gait == from.gait && other.z == from.z &&
            other.pose.position() == from.pose.position() && other.pose.yaw == from.pose.yaw;
@@ -147,8 +165,8 @@ graph::Findings IslandExplorer::CrossTo(const GroundedStance& from, const Ground
                          ToPoint(stance.RootPose(to.pose, to.z))};
   steps_.Suggest(edge, crossing_->steps());
   route_.push_back({action_, edge});
+  earlier_.push_back({entry_, std::move(island_), edges});
   entry_ = to;
-  island_.reset();
   crossing_.reset();
   return {graph::Outlook::kLeadsOn, {}};
 }

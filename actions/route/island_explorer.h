@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,10 +42,19 @@ class IslandExplorer : public graph::Explorer {
  private:
   static constexpr double kWorkOfTurn = 10e-3;  ///< s
 
+  struct Island {
+    GroundedStance entry;
+    std::unique_ptr<LatticeSearch> island;
+    std::ptrdiff_t edges = 0;  ///< of the route up to its entry
+  };
+
   const QuasiStaticAction& gait() const { return *(*lattice_.gaits)[steps_.from()]; }
   graph::Findings ExploreIsland(const CancellationToken& cancellation);
   graph::Findings LeaveIsland(const CancellationToken& cancellation);
   graph::Findings CrossTo(const GroundedStance& from, const GroundedStance& to);
+  void Remember();
+  /// To the last island that leads elsewhere, too.
+  graph::Findings GoBack(const CancellationToken& cancellation);
   bool BeginToLeave(const CancellationToken& cancellation);
   std::vector<GroundedStance> StancesBeyond(const CancellationToken& cancellation) const;
   /// Only what is nearer to a goal than all that is `reached`.
@@ -66,8 +76,9 @@ class IslandExplorer : public graph::Explorer {
   GroundedStance start_;
   GroundedStance entry_;                ///< of the island
   std::vector<graph::PathEdge> route_;  ///< from the start to the entry
-  std::optional<LatticeSearch> island_;
-  std::vector<GroundedStance> reached_;  ///< of this island and those before it
+  std::unique_ptr<LatticeSearch> island_;
+  std::vector<Island> earlier_;          ///< on the way to this one
+  std::vector<GroundedStance> reached_;  ///< of all islands that were explored
   std::optional<FootstepSearch> crossing_;
   std::optional<FootholdFlood> flood_;  ///< from the island left last
   std::vector<GroundedStance> beyond_;  ///< goals of the crossing

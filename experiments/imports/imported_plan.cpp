@@ -39,7 +39,7 @@ std::vector<std::string> ActionsOf(const ImportedTrajectory& trajectory,
 
 actions::Plan ImportPlan(const ImportedTrajectory& trajectory, const models::RobotModel& robot,
                          const models::Scenario& scenario) {
-  const models::GroundMap ground(scenario.environment);
+  const models::GroundMap ground(scenario.environment, robot.friction);
   actions::Plan plan;
   plan.robot_file = robot.file;
   plan.robot_hash = robot.content_hash;

@@ -59,18 +59,17 @@ class MotionCompletion {
     for (std::size_t i = 0; i < all_points_.size(); ++i) {
       if (!bears[i]) continue;
       const actions::BearingPoint& point = all_points_[i];
-      points.push_back(
-          {point.link, point.p_L, Normal(kinematics_.Position(point.link, point.p_L))});
+      const models::GroundPlane ground = GroundAt(kinematics_.Position(point.link, point.p_L));
+      points.push_back({point.link, point.p_L, ground.normal, ground.friction});
     }
     return points;
   }
 
-  /// Of the ground at a point; up where there is none.
-  Eigen::Vector3d Normal(const Eigen::Vector3d& p) const {
+  /// The ground at a point; level where there is none.
+  models::GroundPlane GroundAt(const Eigen::Vector3d& p) const {
     const std::vector<int> planes =
         ground_.PlanesAt(p.head<2>(), p.z() - kOnGround, p.z() + kOnGround);
-    return planes.empty() ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
-                          : ground_.planes()[planes.front()].normal;
+    return planes.empty() ? models::GroundPlane() : ground_.planes()[planes.front()];
   }
 
   /// Whether a point bears in phase `i` that did not in the phase before.

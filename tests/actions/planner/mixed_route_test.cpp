@@ -24,6 +24,56 @@ bool IncludesAction(const PlanResult& result, const std::string& action) {
                      [&](const Segment& segment) { return segment.action == action; });
 }
 
+/// Two ways lead from the start to the goal's side, each across a crack and under a bar. The first
+/// ends on a slab close to the goal, behind a gap that nothing crosses.
+///
+///  y  1 +--------bar------+ +-----+       +-------+
+///       | S               | | end |  gap  |   G   |
+///    -1 +-----+-----wall--+ +-----+-------+       |
+///  -1.1 +-----+-------------bar-----------+       |
+///       |                                         |
+///  -3.1 +-----------------------------------------+
+///      -2    0.5          4 4.1   5      6.2      8  x
+models::Scenario ASlabThatLeadsNowhere() {
+  models::Scenario scenario = ShippedScenario("sill");
+  scenario.actions = {"walk", "crawl"};
+  models::Environment& environment = scenario.environment;
+  const auto add = [&](const std::string& name, const Eigen::AlignedBox3d& box, bool is_ground) {
+    models::Obstacle obstacle;
+    obstacle.name = name;
+    obstacle.shape = models::Shape::Box(box.sizes());
+    obstacle.X_WO.translation() = box.center();
+    obstacle.is_ground = is_ground;
+    environment.obstacles.push_back(obstacle);
+  };
+  const auto box = [](double x0, double x1, double y0, double y1, double z0, double z1) {
+    return Eigen::AlignedBox3d(Eigen::Vector3d(x0, y0, z0), Eigen::Vector3d(x1, y1, z1));
+  };
+  environment.obstacles.clear();
+  environment.bounds = {Eigen::Vector2d(-2, -3.1), Eigen::Vector2d(8, 1)};
+  add("start", box(-2, 4, -1, 1, -0.5, 0), true);
+  add("end", box(4.1, 5, -1, 1, -0.5, 0), true);
+  add("way round", box(-2, 8, -3.1, -1.1, -0.5, 0), true);
+  add("goal", box(6.2, 8, -1.1, 1, -0.5, 0), true);
+  add("wall", box(0.5, 6.2, -1.1, -1, -0.5, 2), false);
+  add("first bar", box(1.5, 1.6, -1, 1, 1.1, 2), false);
+  add("second bar", box(3, 3.1, -3.1, -1.1, 1.1, 2), false);
+  scenario.start.x = -0.5;
+  scenario.start.y = 0;
+  scenario.goals[0].x = 7;
+  scenario.goals[0].y = 0;
+  return scenario;
+}
+
+TEST(MixedRoute, AnIslandThatLeadsNowhereIsLeftAgain) {
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  const PlanResult result = PlanTraversal(DrcHubo1(), ASlabThatLeadsNowhere(), request);
+  ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  EXPECT_TRUE(result.verification.accepted());
+  EXPECT_TRUE(IncludesAction(result, "crawl"));
+}
+
 // With manoeuvres among the actions the floods cannot tell whether a route exists.
 TEST(MixedRoute, StepsAreAlsoPlannedBesideManoeuvres) {
   const PlanResult result = PlanWith("stairs", {"walk", "crawl", "jump"});
@@ -76,7 +126,8 @@ TEST(MixedRouteLong, ACourseOfEverythingIsPlanned) {
   const PlanResult result = PlanTraversal(DrcHubo1(), ShippedScenario("everything"), request);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(result.verification.accepted());
-  for (const char* action : {"walk", "crawl", "leap"}) EXPECT_TRUE(IncludesAction(result, action)) << action;
+  for (const char* action : {"walk", "crawl", "leap"})
+    EXPECT_TRUE(IncludesAction(result, action)) << action;
 }
 
 TEST(MixedRoute, WithoutAWayUnderTheBarThereIsNone) {
