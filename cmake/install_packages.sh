@@ -11,7 +11,7 @@ libxxhash-dev libassimp-dev libpng-dev zlib1g-dev libjs-three libopenblas0-seria
 
 case "${1-}" in
   "") optional="" ;;
-  --with-tests) optional="libdart-dev libompl-dev libnlopt-dev python3-dartpy python3-numpy python3-yaml" ;;
+  --with-tests) optional="libdart-dev libompl-dev libnlopt-dev libmujoco-dev python3-dartpy python3-numpy python3-yaml" ;;
   *) echo "usage: install_packages.sh [--with-tests]" >&2; exit 1 ;;
 esac
 

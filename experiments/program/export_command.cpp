@@ -1,11 +1,15 @@
 #include "experiments/program/export_command.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string>
 
 #include "experiments/exports/csv_export.h"
+#include "experiments/exports/mujoco_export.h"
 #include "experiments/exports/npz_export.h"
+#include "experiments/exports/sto_export.h"
 #include "experiments/program/loaded_plan.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
@@ -19,10 +23,25 @@ struct ExportOptions {
   std::string plan;
   std::string csv;
   std::string npz;
+  std::string mujoco;
+  std::string sto;
   std::string period;
   std::string step;
   bool margins = false;
 };
+
+/// A kind of export that is one file.
+struct ExportFile {
+  const char* option;
+  std::string ExportOptions::*file;
+  const char* help;
+  void (*write)(const ExportSubject&, const ExportSampling&, const std::filesystem::path&);
+};
+
+constexpr ExportFile kFiles[] = {{"--npz", &ExportOptions::npz, "Arrays for NumPy", &WriteNpz},
+                                 {"--mujoco", &ExportOptions::mujoco,
+                                  "Model for MuJoCo with the motion as keyframes", &WriteMujoco},
+                                 {"--sto", &ExportOptions::sto, "Storage for OpenSim", &WriteSto}};
 
 /// Writes every file that is asked for, and prints its name.
 void WriteExports(const ExportOptions& options, const ExportSubject& subject,
@@ -33,15 +52,21 @@ void WriteExports(const ExportOptions& options, const ExportSubject& subject,
       PrintOut("{}\n", file.string());
     }
   }
-  if (!options.npz.empty()) {
-    WriteNpz(subject, sampling, options.npz);
-    PrintOut("{}\n", options.npz);
+  for (const ExportFile& kind : kFiles) {
+    const std::string& file = options.*kind.file;
+    if (file.empty()) continue;
+    kind.write(subject, sampling, file);
+    PrintOut("{}\n", file);
   }
 }
 
 ExitCode RunExport(const ExportOptions& options) {
-  if (options.csv.empty() && options.npz.empty()) {
-    throw InputError("usage: export: nothing to write, expected --csv DIR or --npz FILE");
+  const bool writes = !options.csv.empty() || std::any_of(std::begin(kFiles), std::end(kFiles),
+                                                          [&](const ExportFile& kind) {
+                                                            return !(options.*kind.file).empty();
+                                                          });
+  if (!writes) {
+    throw InputError("usage: export: nothing to write, expected for instance --csv DIR");
   }
   ExportSampling sampling;
   sampling.margins = options.margins;
@@ -61,7 +86,9 @@ Command AddExportCommand(CLI::App& program) {
   auto options = std::make_shared<ExportOptions>();
   command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
   command.AddOptional("--csv", &options->csv, "Folder for tables");
-  command.AddOptional("--npz", &options->npz, "Arrays for NumPy");
+  for (const ExportFile& kind : kFiles) {
+    command.AddOptional(kind.option, &((*options).*kind.file), kind.help);
+  }
   command.AddOptional("--period", &options->period,
                       "s between samples (default: the plan's knots)");
   command.AddOptional("--step", &options->step, "Older name of --period");

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kIntervals = 3;  // per phase
+constexpr int kPhaseIntervals = 3;  // per phase
 constexpr int kJoints = 17;    // legs and swinging arms
 
 /// The integral over a phase, by Simpson's rule, of the contact forces' sum, N s. Controls are the
@@ -26,14 +26,14 @@ Vector3d ImpulseOf(const collocation::PhaseTrajectory& phase) {
       impulse += weight * phase.controls.col(point).segment<3>(3 * i);
     }
   }
-  return impulse * phase.duration / (6 * kIntervals);
+  return impulse * phase.duration / (6 * kPhaseIntervals);
 }
 
 TEST(WalkFromRest, ComesToRestAheadWithoutANetImpulse) {
   const models::RobotModel robot = dynamics::DrcHubo();
   const auto problem = WalkFromRest(robot, {.distance = 0.3});
   collocation::OptimalControlOptions options;
-  options.intervals = {kIntervals};
+  options.intervals = {kPhaseIntervals};
   const auto result = collocation::SolveOptimalControl(*problem, options);
   ASSERT_TRUE(result.succeeded()) << result.message;
   const auto& phases = result.trajectory.phases;
