@@ -19,6 +19,7 @@
 #include "experiments/program/merge_command.h"
 #include "experiments/program/plan_command.h"
 #include "experiments/program/regress_command.h"
+#include "experiments/program/robot_command.h"
 #include "experiments/program/rollout_command.h"
 #include "experiments/program/sweep_command.h"
 #include "experiments/program/table_command.h"
@@ -33,9 +34,9 @@ namespace possibility::experiments {
 namespace {
 
 constexpr Command (*kCommands[])(CLI::App&) = {
-    &AddPlanCommand,    &AddVerifyCommand, &AddRolloutCommand, &AddViewCommand,
-    &AddExportCommand,  &AddImportCommand, &AddBenchCommand,   &AddRegressCommand,
-    &AddLibraryCommand, &AddTableCommand,  &AddSweepCommand,   &AddMergeCommand};
+    &AddPlanCommand,   &AddVerifyCommand, &AddRolloutCommand, &AddViewCommand,    &AddExportCommand,
+    &AddImportCommand, &AddBenchCommand,  &AddRegressCommand, &AddLibraryCommand, &AddTableCommand,
+    &AddSweepCommand,  &AddMergeCommand,  &AddRobotCommand};
 
 std::string OneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -26,9 +26,9 @@ class TreeBuilder {
 
   PendingMeshes Build(const std::string& root) {
     robot_->links.push_back({root, {}, {}});
-    CheckOwnInertial(root);
     Attach(root, 0, Eigen::Isometry3d::Identity());
     for (const Link& link : robot_->links) {
+      CheckOwnInertial(link);
       if (!(link.inertial.mass > 0)) {
         Fail(
             fmt::format("link '{}': expected an inertial (only links on fixed or lumped joints may "
@@ -43,11 +43,12 @@ class TreeBuilder {
  private:
   [[noreturn]] void Fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
 
-  // Of a link that moves by itself, before anything is lumped into it: a massless frame, or a body.
-  void CheckOwnInertial(const std::string& name) const {
-    const std::optional<Inertial>& inertial = links_.at(name)->inertial;
-    if (!inertial || (inertial->mass == 0 && inertial->I_LC.isZero(0))) return;
-    CheckMovingBody(*inertial, fmt::format("{}: link '{}'", file_, name));
+  // Before anything is lumped into the link, unless that outweighs it.
+  void CheckOwnInertial(const Link& link) const {
+    const std::optional<Inertial>& own = links_.at(link.name)->inertial;
+    if (!own || (own->mass == 0 && own->I_LC.isZero(0))) return;
+    if (own->mass > 0 && 2 * own->mass < link.inertial.mass) return;
+    CheckMovingBody(*own, fmt::format("{}: link '{}'", file_, link.name));
   }
 
   // Adds the URDF link to the kept link `kept`, posed there at X_KL, and continues below it.
@@ -74,7 +75,6 @@ class TreeBuilder {
       } else {
         robot_->joints.push_back(KeptJoint(joint, kept, X_KJ));
         robot_->links.push_back({joint.child, {}, {}});
-        CheckOwnInertial(joint.child);
         Attach(joint.child, robot_->num_links() - 1, Eigen::Isometry3d::Identity());
       }
     }
@@ -99,10 +99,6 @@ class TreeBuilder {
     if (result.type == JointType::kContinuous) {
       result.lower = -std::numeric_limits<double>::infinity();
       result.upper = std::numeric_limits<double>::infinity();
-    }
-    if (!(result.lower < result.upper)) {
-      Fail(fmt::format("{}: expected lower < upper, got {} and {}", owner, result.lower,
-                       result.upper));
     }
     return result;
   }

@@ -20,7 +20,8 @@ using PendingMeshes = std::multimap<int, UrdfMesh>;
 /// (held at 0) become part of the nearest link above that is kept. A link without mass there is a
 /// frame. Returns the links' meshes, which are not read yet.
 /// @throws InputError naming `file` for joints that are unsupported or without limits, and for
-/// kept links that are no bodies (CheckMovingBody), with or without what is lumped into them.
+/// kept links that are no bodies (CheckMovingBody), with what is lumped into them, and without it
+/// unless it outweighs them.
 PendingMeshes BuildLumpedTree(const UrdfTree& tree, const std::set<std::string>& lumped,
                               const std::string& file, RobotModel* robot);
 

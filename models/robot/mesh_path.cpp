@@ -71,7 +71,9 @@ bool IsPlainName(const std::string& name) {
 
 fs::path InPackage(const std::string& name, const fs::path& urdf_folder,
                    const std::vector<fs::path>& packages, const std::string& owner) {
-  const std::string rest = name.substr(kPackageScheme.size());
+  // Some write package:///NAME.
+  const std::string rest =
+      name.substr(std::min(name.size(), name.find_first_not_of('/', kPackageScheme.size())));
   const std::size_t slash = rest.find('/');
   const std::string package = rest.substr(0, slash);
   if (!IsPlainName(package) || slash == std::string::npos) {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -67,6 +69,47 @@ void ReadSpeeds(const YamlNode& list, RobotModel* robot) {
   ReadLimits(list, *robot, [robot](int joint, double limit, const YamlNode&) {
     robot->joints[joint].velocity = limit;
   });
+}
+
+void ReadPositions(const YamlNode& list, RobotModel* robot) {
+  std::set<int> seen;
+  for (const YamlNode& node : list.Items()) {
+    node.MapOf({"joints", "limits_deg", "reason"});
+    node.At("reason").String();
+    const Eigen::Vector2d limits = node.At("limits_deg").Interval() * std::numbers::pi / 180;
+    for (const int joint : IndicesOfNamed(node.At("joints"), robot->joints, "joint")) {
+      Joint& changed = robot->joints[joint];
+      if (!seen.insert(joint).second) {
+        node.At("joints").Fail(fmt::format("joint '{}' is listed twice", changed.name));
+      }
+      if (changed.type != JointType::kRevolute) {
+        node.At("joints").Fail(fmt::format("joint '{}' is not revolute", changed.name));
+      }
+      changed.lower = limits[0];
+      changed.upper = limits[1];
+    }
+  }
+}
+
+/// Numbers larger than those of any robot would overflow when squared.
+void CheckMagnitudes(const std::filesystem::path& urdf_file, const RobotModel& robot) {
+  for (const Joint& joint : robot.joints) {
+    for (const double value : {joint.lower, joint.upper, joint.velocity, joint.effort}) {
+      // Continuous joints and mimics have infinite limits.
+      if (std::isinf(value) || std::abs(value) <= 1e6) continue;
+      throw InputError(
+          fmt::format("{}: joint '{}': limit: expected numbers of at most 1e6 in magnitude, got {}",
+                      urdf_file.string(), joint.name, value));
+    }
+  }
+}
+
+void CheckPositions(const std::filesystem::path& urdf_file, const RobotModel& robot) {
+  for (const Joint& joint : robot.joints) {
+    if (joint.lower < joint.upper) continue;
+    throw InputError(fmt::format("{}: joint '{}': expected lower < upper, got {} and {}",
+                                 urdf_file.string(), joint.name, joint.lower, joint.upper));
+  }
 }
 
 void CheckSpeeds(const std::filesystem::path& urdf_file, const RobotModel& robot) {
@@ -158,11 +201,23 @@ std::vector<std::pair<int, int>> ReadSagittalPairs(const YamlNode& list, const R
   return pairs;
 }
 
-const std::vector<std::string> kRobotKeys = {
-    "name",        "urdf",     "root_link",      "pelvis_link",
-    "lump",        "packages", "friction",       "velocity",
-    "effort",      "shapes",   "contacts",       "gaits",
-    "transitions", "jumps",    "sagittal_pairs", "ignored_collisions"};
+const std::vector<std::string> kRobotKeys = {"name",
+                                             "urdf",
+                                             "root_link",
+                                             "pelvis_link",
+                                             "lump",
+                                             "packages",
+                                             "friction",
+                                             "position",
+                                             "velocity",
+                                             "effort",
+                                             "shapes",
+                                             "contacts",
+                                             "gaits",
+                                             "transitions",
+                                             "jumps",
+                                             "sagittal_pairs",
+                                             "ignored_collisions"};
 
 /// Folders of packages, relative to the YAML.
 std::vector<std::filesystem::path> ReadPackages(const YamlNode& root,
@@ -183,9 +238,12 @@ void ReadPhysics(const YamlNode& root, const std::filesystem::path& urdf_file, U
   RobotModel* robot = &built->robot;
   robot->pelvis_shape_link = IndexOfNamed(root.At("pelvis_link"), robot->links, "link");
   robot->friction = root.At("friction").Positive();
+  if (const auto positions = root.Find("position")) ReadPositions(*positions, robot);
+  CheckPositions(urdf_file, *robot);
   if (const auto speeds = root.Find("velocity")) ReadSpeeds(*speeds, robot);
   CheckSpeeds(urdf_file, *robot);
   if (const auto efforts = root.Find("effort")) ReadEfforts(*efforts, robot);
+  CheckMagnitudes(urdf_file, *robot);
   CheckEfforts(root, *robot);
   if (const auto shapes = root.Find("shapes")) ReadShapes(*shapes, robot, &built->meshes);
 }

@@ -137,9 +137,11 @@ class UrdfConverter {
     Eigen::Matrix3d I_C;
     I_C << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy, inertial.iyz,
         inertial.ixz, inertial.iyz, inertial.izz;
-    constexpr double kRounding = 1e-9;  // of the greatest moment
+    constexpr double kRounding = 1e-9;     // of the greatest moment
+    constexpr double kNegligible = 1e-15;  // kg m^2
     const Eigen::Vector3d principal = PrincipalMoments(I_C);
-    if (!(principal[0] >= -kRounding * std::abs(principal[2]))) Fail(Indefinite(principal, owner));
+    if (!(principal[0] >= -std::max(kNegligible, kRounding * std::abs(principal[2]))))
+      Fail(Indefinite(principal, owner));
     return {inertial.mass, X_LC.translation(), X_LC.linear() * I_C * X_LC.linear().transpose()};
   }
 
@@ -205,7 +207,6 @@ class UrdfConverter {
     CheckMagnitude({joint.axis.x, joint.axis.y, joint.axis.z}, owner, "axis");
     if (result.has_limits) {
       const urdf::JointLimits& limits = *joint.limits;
-      CheckMagnitude({limits.lower, limits.upper, limits.velocity, limits.effort}, owner, "limit");
       result.lower = limits.lower;
       result.upper = limits.upper;
       result.velocity = limits.velocity;

@@ -37,6 +37,8 @@ inline const std::vector<CommandRule>& CommandRules() {
       {"docs/experiments.md", "./run table --trials 50", kExempt, "takes hours"},
       {"docs/experiments.md", "./run table --twins", kLong, "plans many times"},
       {"docs/experiments.md", "./run sweep", kExempt, "takes hours"},
+      {"docs/robots.md", "./run robot init", kLong, "fits a gait"},
+      {"docs/robots.md", "./run robot check", kLong, "reports on what the command before makes"},
       {"docs/tutorial.md", "./run plan experiments/scenarios/my_room.yaml --seed 7", kExempt,
        "walks only once the reader has raised the bars"},
       {"docs/tutorial_new_action.md", "cmake", kExempt, "builds"},

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/robot/robot_model.h"
+
+namespace possibility::actions {
+
+/// One thing that is known about a robot.
+struct RobotFinding {
+  std::string subject;  ///< "symmetry", "walk: torque", ...
+  std::string text;
+  bool is_fault = false;  ///< whether it keeps the robot from an action
+};
+
+/// Everything that can be said of a robot without a scene: its symmetry and, for each of its gaits,
+/// balance, margins of joints and torques, links that are close, strides, speed and what forbids
+/// more. All findings, not only the first fault.
+std::vector<RobotFinding> ReportOn(const models::RobotModel& robot);
+
+}  // namespace possibility::actions
