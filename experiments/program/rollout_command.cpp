@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "actions/rollout/perturbed_rollouts.h"
+#include "actions/verify/verifier.h"
 #include "experiments/program/loaded_plan.h"
 #include "experiments/program/perturbation_option.h"
 #include "experiments/report/rollout_table.h"
