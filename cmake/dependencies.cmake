@@ -15,6 +15,7 @@ pkg_check_modules(muparser REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(assimp REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(libpng REQUIRED IMPORTED_TARGET libpng)
 find_package(ZLIB REQUIRED)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Only its C++ interface: libSimTKmath exports the names of the C interface.
 pkg_check_modules(ipopt REQUIRED IMPORTED_TARGET ipopt)

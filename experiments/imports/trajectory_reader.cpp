@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/imports/trajectory_csv.h"
@@ -44,11 +45,11 @@ void CheckTrajectory(ImportedTrajectory* trajectory) {
     ImportedSample& sample = trajectory->samples[i];
     const std::string where = fmt::format("{}: sample {}", file, i);
     CheckSample(where, &sample);
-    if (sample.t < before) {
+    if (sample.t < before - kSameTime) {
       throw InputError(fmt::format("{}: t: {} comes after {}, expected times in order", where,
                                    sample.t, before));
     }
-    before = sample.t;
+    sample.t = before = std::max(sample.t, before);
     sample.t -= begin;
   }
   if (trajectory->samples.back().t < kSameTime) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "experiments/exports/csv_export.h"
+#include "experiments/exports/mcap_export.h"
 #include "experiments/exports/mujoco_export.h"
 #include "experiments/exports/npz_export.h"
 #include "experiments/exports/sto_export.h"
@@ -25,6 +26,7 @@ struct ExportOptions {
   std::string npz;
   std::string mujoco;
   std::string sto;
+  std::string mcap;
   std::string period;
   std::string step;
   bool margins = false;
@@ -41,7 +43,8 @@ struct ExportFile {
 constexpr ExportFile kFiles[] = {{"--npz", &ExportOptions::npz, "Arrays for NumPy", &WriteNpz},
                                  {"--mujoco", &ExportOptions::mujoco,
                                   "Model for MuJoCo with the motion as keyframes", &WriteMujoco},
-                                 {"--sto", &ExportOptions::sto, "Storage for OpenSim", &WriteSto}};
+                                 {"--sto", &ExportOptions::sto, "Storage for OpenSim", &WriteSto},
+    {"--mcap", &ExportOptions::mcap, "Recording for Foxglove", &WriteMcap}};
 
 /// Writes every file that is asked for, and prints its name.
 void WriteExports(const ExportOptions& options, const ExportSubject& subject,

@@ -32,7 +32,6 @@ ExitCode RunImport(const ImportOptions& options) {
   const std::filesystem::path robot_file =
       options.robot.empty() ? scenario.robot_file : std::filesystem::path(options.robot);
   const models::RobotModel robot = models::LoadRobotModel(robot_file);
-  models::CheckScenarioAgainstRobot(scenario, robot);
   const ImportedTrajectory trajectory = ReadTrajectory(options.trajectory, robot);
   PrepareOutputFolder("--out", options.out);
   const std::filesystem::path file = std::filesystem::path(options.out) / "plan.json";

@@ -388,6 +388,17 @@ class Drawing {
     this.stale = true;
   }
 
+  /* The eye, and the place it looks at: six coordinates. */
+  place() {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+  lookFrom(place) {
+    this.camera.position.fromArray(place, 0);
+    this.controls.target.fromArray(place, 3);
+    this.controls.update();
+    this.stale = true;
+  }
+
   /* Least distance from which every corner of the world is in view. */
   distanceToSee(direction, target) {
     const up = new THREE.Vector3(0, 0, 1);

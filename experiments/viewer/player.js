@@ -142,6 +142,9 @@ class Player {
     });
     element('plots-open').addEventListener('click', () => this.openPlots(element('plots').hidden));
     element('plots-close').addEventListener('click', () => this.openPlots(false));
+    for (const event of ['pointerenter', 'focus']) {
+      element('link').addEventListener(event, () => this.refreshLink());
+    }
   }
 
   connectTimeline() {
@@ -210,7 +213,19 @@ class Player {
     }
     const view = asked.get('view');
     this.drawing.look(['iso', 'top', 'side'].includes(view) ? view : 'iso');
+    const camera = (asked.get('camera') || '').split(',').map(Number);
+    if (camera.length === 6 && camera.every(isFinite)) this.drawing.lookFrom(camera);
     this.setPlaying(asked.get('play') === '1');
+    this.refreshLink();
+  }
+
+  /* Lets the link lead to this time and this view. */
+  refreshLink() {
+    const address = new URLSearchParams(location.hash.slice(1));
+    ['play', 'view'].forEach((name) => address.delete(name));
+    address.set('t', this.time.toFixed(3));
+    address.set('camera', this.drawing.place().map((x) => fixed(x, 3)).join(','));
+    element('link').href = '#' + address.toString().replace(/%2C/g, ',');
   }
 
   switchPart(box, on) {

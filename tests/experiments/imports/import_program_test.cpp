@@ -9,6 +9,7 @@
 #include "experiments/exports/npy_array.h"
 #include "experiments/exports/zip_file.h"
 #include "tests/experiments/program_run.h"
+#include "tests/experiments/standing_plan.h"
 
 namespace possibility::experiments {
 namespace {
@@ -106,6 +107,18 @@ TEST_F(ImportProgram, AMotionThatTheRobotCannotDoIsRejected) {
   }
   EXPECT_TRUE(is_off_the_ground) << outcome.out;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "again/plan.json")) << "to look at";
+}
+
+TEST_F(ImportProgram, ScenariosMayListActionsOfThePlanner) {
+  const std::string beam = POSSIBILITY_SOURCE_DIR "/experiments/scenarios/beam.yaml";  // step_over
+  testing::WriteStandingPlan(beam, folder_ / "plan.json");
+  ASSERT_EQ(Run("export plan.json --csv tables").code, 0);
+  const Outcome outcome =
+      Run("import tables/trajectory.csv --scenario '" + beam + "' --out again --json");
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(report["violations"].size(), 1u) << outcome.out;
+  EXPECT_EQ(report["violations"][0]["kind"], "goal") << "the robot stands at the start";
 }
 
 TEST_F(ImportProgram, BadInputIsRefusedInOneLine) {

@@ -101,6 +101,14 @@ TEST_F(TrajectoryReader, PositionsAndContactsAreEnough) {
   EXPECT_TRUE(trajectory.actions.empty());
 }
 
+TEST_F(TrajectoryReader, TimesThatDifferByRoundingAreOne) {
+  const std::string rest = ",1,0,0,0,0,0,0,0.1,1\n";
+  const ImportedTrajectory trajectory =
+      Read(std::string(kHead) + "0" + rest + "1.0000000000000002" + rest + "1" + rest + "2" + rest);
+  EXPECT_GE(trajectory.samples[2].t, trajectory.samples[1].t);
+  EXPECT_TRUE(SharesTime(trajectory, 1));
+}
+
 TEST_F(TrajectoryReader, MistakesAreNamedWithTheirPlace) {
   const std::string head = kHead;
   const std::string row = "0,1,0,0,0,0,0,0,0.1,1\n";
