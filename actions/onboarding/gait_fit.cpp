@@ -24,9 +24,8 @@ constexpr double kMarginShares[] = {1, 1.6, 0.6};
 /// Of the longest strides ahead, aside and in turns.
 constexpr double kStrides[] = {1, 0.75, 0.5, 0.35, 0.2};
 
-constexpr std::size_t kKept = 3;
+constexpr std::size_t kKept = 2;
 constexpr double kStrideSampling = 0.04;  // s
-constexpr double kTriedRises[] = {0.07, 0.035, 0.105, 0};
 
 class WalkFit {
  public:
@@ -127,13 +126,13 @@ class WalkFit {
     try {
       const NominalStance stance = SolveNominalStance(robot, fitted->gait);
       if (!FitStrides(robot, stance, fitted, trial)) return false;
-      FitAside(robot, stance, fitted);
-      const DynamicGait gait = WithPaces(robot, stance, fitted->gait);
+      const PaceLimits limits(robot, stance);
+      const DynamicGait gait(robot, stance, PacesOf(robot, stance, limits, fitted));
       SweepGait(robot, stance, gait, {});
       fitted->paces = gait.paces();
       trial->speed =
           gait.paces().empty() ? StaticSpeed(robot, stance) : gait.paces().front().speed();
-      trial->binding = BindingLimit(gait, fitted->gait);
+      trial->binding = limits.BindingLimit(gait.paces());
       trial->reason.clear();
       return true;
     } catch (const InputError& error) {
@@ -180,41 +179,40 @@ class WalkFit {
     }
   }
 
-  /// Without trying the whole family if not even its slowest pace fits.
-  static DynamicGait WithPaces(const models::RobotModel& robot, const NominalStance& stance,
-                               const models::Gait& of) {
-    DynamicGait none(robot, stance, {});
-    const bool some_fit =
-        std::any_of(std::begin(kTriedRises), std::end(kTriedRises), [&](double rise) {
-          const Pace pace = PaceOf(of, 0.8, 1, rise);
-          return WhyNot(none, pace, PlanarPose{pace.bounds.forward, 0, 0}).empty();
-        });
-    return some_fit ? DynamicGait(robot, stance) : std::move(none);
+  /// With the clearance between links that fitted paces have, or else half of it, which motions
+  /// fall back to. The whole family takes seconds to try, so the slowest pace comes first.
+  static std::vector<Pace> PacesOf(const models::RobotModel& robot, const NominalStance& stance,
+                                   const PaceLimits& limits, FittedGait* fitted) {
+    if (!limits.AllowsSlowestPace(kTightClearance)) return {};
+    const models::GaitParameters before = fitted->gait.parameters;
+    if (limits.AllowsSlowestPace(kFittedClearance) &&
+        FitAside(limits, kFittedClearance, &fitted->gait.parameters)) {
+      const DynamicGait gait(robot, stance);
+      if (!gait.paces().empty()) return gait.paces();
+    }
+    fitted->gait.parameters = before;
+    if (!FitAside(limits, kTightClearance, &fitted->gait.parameters)) return {};
+    const std::optional<Pace> pace = limits.Quickest(kTightClearance);
+    return pace ? std::vector<Pace>{*pace} : std::vector<Pace>();
   }
 
   /// Shortens steps aside and turns until a pace of middling speed allows them.
-  static void FitAside(const models::RobotModel& robot, const NominalStance& stance,
-                       FittedGait* fitted) {
-    const DynamicGait gait(robot, stance, {});
-    models::GaitParameters& p = fitted->gait.parameters;
-    for (const double share : kStrides) {
-      if (AnyRise(gait, fitted->gait, PlanarPose{0, share * p.lateral, 0})) {
-        p.lateral *= share;
-        break;
+  static bool FitAside(const PaceLimits& limits, double clearance, models::GaitParameters* p) {
+    const auto shorten = [](double* bound, const auto& is_possible) {
+      for (const double share : kStrides) {
+        if (!is_possible(share * *bound)) continue;
+        *bound *= share;
+        return true;
       }
-    }
-    for (const double share : kStrides) {
-      if (AnyRise(gait, fitted->gait, PlanarPose{0, 0, share * p.turn})) {
-        p.turn *= share;
-        return;
-      }
-    }
-  }
-
-  static bool AnyRise(const DynamicGait& gait, const models::Gait& of, const PlanarPose& step) {
-    return std::any_of(std::begin(kTriedRises), std::end(kTriedRises), [&](double rise) {
-      return WhyNot(gait, PaceOf(of, 1, 0.9, rise), step).empty();
-    });
+      return false;
+    };
+    return shorten(&p->lateral,
+                   [&](double y) {
+                     return limits.AllowsStep({0, y, 0}, clearance);
+                   }) &&
+           shorten(&p->turn, [&](double yaw) {
+             return limits.AllowsStep({0, 0, yaw}, clearance);
+           });
   }
 
   static double StaticSpeed(const models::RobotModel& robot, const NominalStance& stance) {

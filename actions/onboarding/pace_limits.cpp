@@ -1,13 +1,18 @@
 #include "actions/onboarding/pace_limits.h"
 
-#include <vector>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "actions/motion/motion_builder.h"
 
 namespace possibility::actions {
 namespace {
 
-constexpr double kFittedMargin = 0.92;  // as DynamicGait fits paces
+constexpr double kFittedMargin = 0.92;                    // as DynamicGait fits paces
+constexpr double kRootRises[] = {0.035, 0.07, 0.105, 0};  // of its height, in the order tried
 constexpr int kTriedSteps = 4;
 constexpr double kQuicker = 1.1;
 
@@ -25,7 +30,10 @@ Pace PaceOf(const models::Gait& gait, double length, double swing, double rise) 
   return pace;
 }
 
-std::string WhyNot(const DynamicGait& gait, const Pace& pace, const PlanarPose& step) {
+PaceLimits::PaceLimits(const models::RobotModel& robot, const NominalStance& stance)
+    : robot_(&robot), stance_(&stance), gait_(robot, stance, {}), clearance_(robot, {stance.q}) {}
+
+std::string PaceLimits::WhyNot(const Pace& pace, const PlanarPose& step, double clearance) const {
   std::vector<PlanarPose> way = {PlanarPose()};
   for (int i = 0; i < kTriedSteps; ++i) way.push_back(way.back() * step);
   MotionSettings settings;
@@ -33,26 +41,77 @@ std::string WhyNot(const DynamicGait& gait, const Pace& pace, const PlanarPose& 
   settings.minimum_intervals = 4;
   settings.speed_margin = settings.torque_margin = kFittedMargin;
   try {
-    gait.MotionAt(pace, way, settings, false);
-    return "";
+    return CloseLinks(gait_.MotionAt(pace, way, settings, false), clearance);
   } catch (const MotionError& error) {
     return error.what();
   }
 }
 
-std::string BindingLimit(const DynamicGait& gait, const models::Gait& of) {
-  Pace pace = PaceOf(of, 0.8, 1, 0);
-  if (!gait.paces().empty()) {
-    pace = gait.paces().front();
+std::string PaceLimits::CloseLinks(const std::vector<Phase>& motion, double clearance) const {
+  for (const Phase& phase : motion) {
+    for (const Knot& knot : phase.knots) {
+      const auto faults = clearance_.Faults(knot.q, clearance);
+      if (faults.empty()) continue;
+      const models::Proximity& pair = faults.front().pair;
+      return fmt::format("{} is {:.1f} mm from {} at {:.2f} s, expected {:.1f}",
+                         robot_->links[pair.link].name, 1e3 * pair.distance,
+                         robot_->links[pair.other].name, knot.t, 1e3 * faults.front().required);
+    }
+  }
+  return "";
+}
+
+bool PaceLimits::AllowsStep(const PlanarPose& step, double clearance) const {
+  return std::any_of(std::begin(kRootRises), std::end(kRootRises), [&](double rise) {
+    return WhyNot(PaceOf(*stance_->gait, 1, 0.9, rise), step, clearance).empty();
+  });
+}
+
+bool PaceLimits::AllowsSlowestPace(double clearance) const {
+  return std::any_of(std::begin(kRootRises), std::end(kRootRises), [&](double rise) {
+    const Pace pace = PaceOf(*stance_->gait, 0.8, 1, rise);
+    return WhyNot(pace, {pace.bounds.forward, 0, 0}, clearance).empty();
+  });
+}
+
+std::optional<Pace> PaceLimits::Quickest(double clearance) const {
+  const models::GaitParameters& p = stance_->gait->parameters;
+  std::vector<Pace> paces;
+  for (const double length : {1.6, 1.4, 1.2, 1.0, 0.8}) {
+    for (const double swing : {0.6, 0.8, 1.0}) {
+      for (const double rise : kRootRises) {
+        paces.push_back(PaceOf(*stance_->gait, length, swing, rise));
+      }
+    }
+  }
+  std::stable_sort(paces.begin(), paces.end(),
+                   [](const Pace& a, const Pace& b) { return a.speed() > b.speed(); });
+  const auto fits = [&](const Pace& pace) {
+    return WhyNot(pace, {pace.bounds.forward, 0, 0}, clearance).empty() &&
+           WhyNot(pace, {0, p.lateral, 0}, clearance).empty() &&
+           WhyNot(pace, {0, 0, p.turn}, clearance).empty();
+  };
+  const auto found = std::find_if(paces.begin(), paces.end(), fits);
+  if (found == paces.end()) return std::nullopt;
+  return *found;
+}
+
+std::string PaceLimits::BindingLimit(const std::vector<Pace>& paces) const {
+  const models::GaitParameters& p = stance_->gait->parameters;
+  Pace pace = PaceOf(*stance_->gait, 0.8, 1, kRootRises[0]);
+  if (!paces.empty()) {
+    pace = paces.front();
     pace.bounds.forward *= kQuicker;
     pace.timing.swing_length = pace.bounds.forward;
   }
-  for (const PlanarPose& step :
-       {PlanarPose{pace.bounds.forward, 0, 0}, PlanarPose{0, of.parameters.lateral, 0},
-        PlanarPose{0, 0, of.parameters.turn}}) {
-    if (std::string why = WhyNot(gait, pace, step); !why.empty()) return why;
+  const std::pair<const char*, PlanarPose> steps[] = {{"ahead", {pace.bounds.forward, 0, 0}},
+                                                      {"aside", {0, p.lateral, 0}},
+                                                      {"in turns", {0, 0, p.turn}}};
+  for (const auto& [where, step] : steps) {
+    const std::string why = WhyNot(pace, step, kFittedClearance);
+    if (!why.empty()) return fmt::format("{}, {}", where, why);
   }
-  return "the clearance between links, or the family of paces ends";
+  return "the family of paces ends";
 }
 
 }  // namespace possibility::actions

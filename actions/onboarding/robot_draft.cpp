@@ -35,31 +35,40 @@ constexpr double kLegEffort = 0.35;  // of weight times length of the leg
 constexpr double kArmEffort = 0.08;  // likewise
 constexpr double kJointSpeed = 2.5;  // rad per sqrt(leg length / gravity)
 
+/// Corners of a polytope around the shape, in the link's frame: round shapes lie in prisms.
 std::vector<Vector3d> Corners(const PosedShape& posed) {
+  const models::Shape& shape = posed.shape;
   std::vector<Vector3d> corners;
-  models::Link one;
-  one.shapes = {posed};
-  // Of round shapes the points that are lowest in some direction.
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      const Eigen::Matrix3d R =
-          Eigen::Quaterniond::FromTwoVectors(side * Vector3d::Unit(axis), -Vector3d::UnitZ())
-              .toRotationMatrix();
-      const models::Sole sole = models::SoleOf(one, R, 1, 1000);
-      for (const Vector3d& p : sole.points) corners.push_back(p);
+  if (shape.type == models::ShapeType::kConvexMesh) {
+    corners = shape.vertices;
+  } else if (shape.type == models::ShapeType::kBox) {
+    for (int i = 0; i < 8; ++i) {
+      corners.push_back(Vector3d(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5)
+                            .cwiseProduct(shape.size));
+    }
+  } else {
+    constexpr int kSides = 12;
+    const bool is_round = shape.type != models::ShapeType::kCylinder;
+    const double half = 0.5 * shape.length + (is_round ? shape.radius : 0);
+    const double radius = shape.radius / std::cos(std::numbers::pi / kSides);
+    for (int i = 0; i < 2 * kSides; ++i) {
+      const double angle = 2 * std::numbers::pi * (i / 2) / kSides;
+      corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                           i % 2 ? half : -half);
     }
   }
-  if (posed.shape.type == models::ShapeType::kConvexMesh) {
-    corners.clear();
-    for (const Vector3d& v : posed.shape.vertices) corners.push_back(posed.X_PS * v);
-  }
+  for (Vector3d& corner : corners) corner = posed.X_PS * corner;
   return corners;
 }
 
-/// Joins the shapes of links that have many, fingers for example, to one hull each.
+/// Joins the shapes of links that have many, fingers for example, to one hull each. Simple shapes
+/// alone stay: they are exact and cheap.
 void JoinShapes(models::RobotModel* robot, std::vector<std::string>* findings) {
   for (models::Link& link : robot->links) {
-    if (static_cast<int>(link.shapes.size()) <= kMostShapes) continue;
+    const bool has_mesh = std::any_of(
+        link.shapes.begin(), link.shapes.end(),
+        [](const PosedShape& posed) { return posed.shape.type == models::ShapeType::kConvexMesh; });
+    if (!has_mesh || static_cast<int>(link.shapes.size()) <= kMostShapes) continue;
     std::vector<Vector3d> corners;
     for (const PosedShape& posed : link.shapes) {
       const std::vector<Vector3d> more = Corners(posed);

@@ -139,6 +139,7 @@ class Reporter {
 
   void Strides(const models::Gait& gait, const NominalStance& stance) {
     const DynamicGait motion(robot_, stance);
+    const PaceLimits limits(robot_, stance);
     try {
       SweepGait(robot_, stance, motion);
       Add(gait.name + ": strides", "every stride within the bounds is possible");
@@ -148,9 +149,9 @@ class Reporter {
     Add(gait.name + ": speed",
         motion.paces().empty()
             ? fmt::format("no pace fits; quasi-static strides only. The slowest pace: {}",
-                          BindingLimit(motion, gait))
+                          limits.BindingLimit(motion.paces()))
             : fmt::format("{:.2f} m/s. A tenth more: {}", motion.paces().front().speed(),
-                          BindingLimit(motion, gait)));
+                          limits.BindingLimit(motion.paces())));
   }
 
   const models::RobotModel& robot_;

@@ -23,7 +23,7 @@ struct RobotOptions {
   std::string srdf;
   std::vector<std::string> packages;
   std::string out;
-  std::string fit_seconds = "60";
+  std::string fit_seconds = "90";
   bool json = false;
 };
 

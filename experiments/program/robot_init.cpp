@@ -30,7 +30,7 @@ using actions::FitTrial;
 
 constexpr double kWay = 8;         // lengths of the leg
 constexpr double kEnough = 1.15;   // times the expected speed: the fit stops there
-constexpr double kTimeLimit = 30;  // s, to plan
+constexpr double kTimeLimit = 20;  // s, to plan
 
 std::string TrialText(const FitTrial& trial) {
   const std::string what = trial.reason.empty()

@@ -13,7 +13,7 @@ struct RobotInitOptions {
   std::optional<std::filesystem::path> srdf;
   std::vector<std::filesystem::path> packages;
   std::filesystem::path out;
-  double fit_seconds = 60;  ///< for the search of the gait's numbers
+  double fit_seconds = 90;  ///< for the search of the gait's numbers
   bool json = false;
 };
 

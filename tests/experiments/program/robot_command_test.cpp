@@ -1,0 +1,88 @@
+// From a URDF to a verified walk in one command. Suites that end in "Long" take minutes.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "tests/experiments/program_run.h"
+#include "tests/models/two_legged_robot.h"
+
+namespace possibility::experiments {
+namespace {
+
+const std::string kHuboUrdf = POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.urdf";
+const std::string kHuboYaml = POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml";
+
+class RobotCommand : public testing::ProgramRun {
+ protected:
+  void Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+};
+class RobotCommandLong : public RobotCommand {};
+
+TEST_F(RobotCommand, BadInputIsNamedInOneLine) {
+  EXPECT_EQ(ExpectRefused("robot init " + kHuboUrdf), "robot init: expected --out DIR\n");
+  EXPECT_EQ(ExpectRefused("robot jump x --out y"), "robot: expected init or check, got 'jump'\n");
+  EXPECT_EQ(ExpectRefused("robot init none.urdf --out y"), "none.urdf: no such file\n");
+  EXPECT_EQ(ExpectRefused("robot init " + kHuboUrdf + " --packages none --out y"),
+            "--packages: 'none' is not a folder\n");
+  Write("short.urdf", models::TwoLeggedUrdf());
+  EXPECT_EQ(
+      ExpectRefused("robot init short.urdf --out y"),
+      "short.urdf: the legs that end in 'l_slide' and 'r_slide' have 3 and 3 joints, expected "
+      "6 each: fewer cannot place a foot in every direction\n");
+  Write("bad.srdf", "<robot>");
+  EXPECT_EQ(ExpectRefused("robot init " + kHuboUrdf + " --srdf bad.srdf --out y"),
+            "bad.srdf:1: not a valid SRDF: no XML (XML_ERROR_MISMATCHED_ELEMENT)\n");
+}
+
+TEST_F(RobotCommand, SpoiltUrdfsGiveOneLine) {
+  const std::string urdf = testing::ReadText(kHuboUrdf);
+  std::mt19937 random(71);
+  for (int trial = 0; trial < 30; ++trial) {
+    std::string text = urdf;
+    for (int i = 0; i < 40; ++i) text[random() % text.size()] = static_cast<char>(random() % 128);
+    Write("spoilt.urdf", text);
+    const Outcome outcome = Run("robot init spoilt.urdf --out y --fit-seconds 0.001");
+    EXPECT_TRUE(outcome.code == 1 || outcome.code == 2 || outcome.code == 0) << outcome.err;
+    if (outcome.code == 1) {
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+  }
+}
+
+TEST_F(RobotCommandLong, DrcHubo1WalksFromItsUrdfAlone) {
+  const Outcome outcome = Run("robot init " + kHuboUrdf + " --out hubo --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(report["verified"]);
+  EXPECT_GT(report["speed"], report["expected_speed"]);
+  for (const std::string file : {"robot.yaml", "drchubo1.urdf", "flat.yaml", "plan.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "hubo" / file)) << file;
+  }
+  // The folder is all that the verifier needs.
+  EXPECT_EQ(Run("verify hubo").code, 0) << Errors();
+  const Outcome check = Run("robot check hubo --json");
+  EXPECT_EQ(check.code, 0) << check.out;
+}
+
+TEST_F(RobotCommandLong, TheReportHasAllFindings) {
+  const Outcome outcome = Run("robot check " + kHuboYaml + " --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  std::set<std::string> subjects;
+  for (const auto& finding : report["findings"]) subjects.insert(finding["subject"]);
+  for (const std::string gait : {"walk", "crawl"}) {
+    for (const std::string what : {"balance", "joints", "torque", "strides", "speed"}) {
+      EXPECT_TRUE(subjects.contains(gait + ": " + what)) << gait << " " << what;
+    }
+  }
+  EXPECT_EQ(report["faults"], 0);
+}
+
+}  // namespace
+}  // namespace possibility::experiments
