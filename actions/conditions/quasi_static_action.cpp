@@ -162,7 +162,7 @@ bool QuasiStaticAction::CN(const graph::Point& vertex) const {
   return pelvis_.IsFree(X_WR) && EveryLimbReachesGround(X_WR);
 }
 
-/// On the way limbs may swing, but one always bears.
+/// On the way limbs may swing, and a transition ends where other limbs bear; but one always bears.
 bool QuasiStaticAction::CN(const graph::Edge& edge) const {
   const Isometry3d from = ToPose(edge.from);
   const Isometry3d to = ToPose(edge.to);
@@ -170,9 +170,7 @@ bool QuasiStaticAction::CN(const graph::Edge& edge) const {
   const int samples = 1 + static_cast<int>(length / kNecessarySpacing);
   for (int i = 0; i <= samples; ++i) {
     const Isometry3d X_WR = Interpolate(from, to, static_cast<double>(i) / samples);
-    const bool is_end = i == 0 || i == samples;
-    if (!pelvis_.IsFree(X_WR)) return false;
-    if (!(is_end ? EveryLimbReachesGround(X_WR) : SomeLimbReachesGround(X_WR))) return false;
+    if (!pelvis_.IsFree(X_WR) || !SomeLimbReachesGround(X_WR)) return false;
   }
   return true;
 }

@@ -124,8 +124,9 @@ TEST(ContactForces, EveryPointHasTheFrictionOfItsOwnGround) {
   block.settings.friction_margin = 1;
   block.settings.cone_edges = 32;
   std::vector<ContactPoint> points = Rectangle(0, -0.5, 0.5, -0.5, 0.5, -1e-3);
-  points[0].friction = points[1].friction = 0.1;  // half the weight, as the push has no lever
-  points[2].friction = 7;
+  // On both sides of the push alike, so that the block does not turn.
+  points[0].friction = points[2].friction = 0.1;
+  points[1].friction = 7;
   const double most = kGravity * (0.1 + 0.5) / 2;
   VectorXd a = VectorXd::Zero(6);
   a[3] = 0.97 * most;
