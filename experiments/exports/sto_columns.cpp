@@ -72,7 +72,7 @@ StoTable::StoTable(const models::RobotModel& robot) : robot_(robot), kinematics_
   labels_ = {"time"};
   for (const char* quantity : {"value", "speed"}) {
     for (const char* coordinate : {"rx", "ry", "rz", "tx", "ty", "tz"}) {
-      labels_.push_back(fmt::format("/jointset/root/root_{}/{}", coordinate, quantity));
+      labels_.push_back(fmt::format("/jointset/root_joint/root_{}/{}", coordinate, quantity));
     }
     for (const models::Joint& joint : robot.joints) {
       labels_.push_back(fmt::format("/jointset/{0}/{0}/{1}", joint.name, quantity));

@@ -24,6 +24,16 @@ bool IncludesAction(const PlanResult& result, const std::string& action) {
                      [&](const Segment& segment) { return segment.action == action; });
 }
 
+void Add(const std::string& name, const Eigen::Vector3d& size, const Eigen::Vector3d& position,
+         bool is_ground, models::Environment* environment) {
+  models::Obstacle obstacle;
+  obstacle.name = name;
+  obstacle.shape = models::Shape::Box(size);
+  obstacle.X_WO.translation() = position;
+  obstacle.is_ground = is_ground;
+  environment->obstacles.push_back(obstacle);
+}
+
 /// Two ways lead from the start to the goal's side, each across a crack and under a bar. The first
 /// ends on a slab close to the goal, behind a gap that nothing crosses.
 ///
@@ -38,16 +48,11 @@ models::Scenario ASlabThatLeadsNowhere() {
   models::Scenario scenario = ShippedScenario("sill");
   scenario.actions = {"walk", "crawl"};
   models::Environment& environment = scenario.environment;
-  const auto add = [&](const std::string& name, const Eigen::AlignedBox3d& box, bool is_ground) {
-    models::Obstacle obstacle;
-    obstacle.name = name;
-    obstacle.shape = models::Shape::Box(box.sizes());
-    obstacle.X_WO.translation() = box.center();
-    obstacle.is_ground = is_ground;
-    environment.obstacles.push_back(obstacle);
-  };
   const auto box = [](double x0, double x1, double y0, double y1, double z0, double z1) {
     return Eigen::AlignedBox3d(Eigen::Vector3d(x0, y0, z0), Eigen::Vector3d(x1, y1, z1));
+  };
+  const auto add = [&](const std::string& name, const Eigen::AlignedBox3d& place, bool is_ground) {
+    Add(name, place.sizes(), place.center(), is_ground, &environment);
   };
   environment.obstacles.clear();
   environment.bounds = {Eigen::Vector2d(-2, -3.1), Eigen::Vector2d(8, 1)};
@@ -88,21 +93,12 @@ models::Scenario SillsAndABar() {
   models::Scenario scenario = ShippedScenario("sill");
   scenario.actions = {"walk", "crawl"};
   models::Environment& environment = scenario.environment;
-  const auto add = [&](const std::string& name, const Eigen::Vector3d& size,
-                       const Eigen::Vector3d& position, bool is_ground) {
-    models::Obstacle obstacle;
-    obstacle.name = name;
-    obstacle.shape = models::Shape::Box(size);
-    obstacle.X_WO.translation() = position;
-    obstacle.is_ground = is_ground;
-    environment.obstacles.push_back(obstacle);
-  };
   environment.obstacles.clear();
   environment.bounds = {Eigen::Vector2d(-2.5, -1), Eigen::Vector2d(7.5, 1)};
-  add("floor", {11, 3, 0.5}, {2.5, 0, -0.25}, true);
-  add("first sill", {0.06, 3, 0.08}, {-0.5, 0, 0.04}, false);
-  add("bar", {0.1, 3, 1}, {2.4, 0, 1.6}, false);
-  add("second sill", {0.06, 3, 0.08}, {5.4, 0, 0.04}, false);
+  Add("floor", {11, 3, 0.5}, {2.5, 0, -0.25}, true, &environment);
+  Add("first sill", {0.06, 3, 0.08}, {-0.5, 0, 0.04}, false, &environment);
+  Add("bar", {0.1, 3, 1}, {2.4, 0, 1.6}, false, &environment);
+  Add("second sill", {0.06, 3, 0.08}, {5.4, 0, 0.04}, false, &environment);
   scenario.start.x = -1.5;
   scenario.start.y = 0;
   scenario.goals[0].x = 6.5;

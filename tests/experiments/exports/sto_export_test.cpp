@@ -102,7 +102,7 @@ TEST_F(StoExport, HeaderTellsRowsAndColumns) {
     const actions::Knot& knot = plan_.segments[row < 4 ? 0 : 1].phases[0].knots[2 * (row % 4)];
     if (row == 8) break;
     EXPECT_EQ(numbers[column("/jointset/hip/hip/value")], knot.q[7]);
-    EXPECT_EQ(numbers[column("/jointset/root/root_tz/speed")], knot.v[5]);
+    EXPECT_EQ(numbers[column("/jointset/root_joint/root_tz/speed")], knot.v[5]);
     EXPECT_EQ(numbers[column("/forceset/hip")], knot.tau[0]);
     EXPECT_NEAR(numbers[column("ground_force_sole_vz")], knot.forces.leftCols(4).row(2).sum(),
                 1e-9);
