@@ -126,7 +126,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
                                      const CancellationToken& cancellation,
                                      const std::filesystem::path& library,
-                                     const std::vector<GaitFactory>& further) {
+                                     const std::vector<GaitFactory>& further, int threads) {
   std::vector<std::string> names;
   for (const GaitFactory& factory : further) names.push_back(factory.name);
   models::CheckActionsOfRobot(actions, robot, robot.file.string(), names);
@@ -137,7 +137,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
   for (const std::string& action : actions) {
     if (IsJump(robot, action)) continue;
     std::unique_ptr<GaitEntry> entry = MakeEntry(robot, action, paces, further);
-    entry->volumes = SweepGait(robot, entry->stance, *entry->motion, cancellation);
+    entry->volumes = SweepGait(robot, entry->stance, *entry->motion, cancellation, threads);
     for (const models::GaitLimb& limb : entry->stance.gait->limbs) {
       entry->regions.push_back(regions.Of(limb.contact));
     }

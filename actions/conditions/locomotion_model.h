@@ -49,7 +49,7 @@ struct LocomotionModel {
 /// Solves the stances, the transitions and the swept volumes of the gaits named in `actions`: those
 /// of the robot's file and of `further`. Jumps in `actions` add nothing. Gaits of one stance get a
 /// transition that stands still. `robot` must outlive the result. `library`: folder of solved
-/// transitions and fitted paces, empty for none.
+/// transitions and fitted paces, empty for none. The result does not depend on `threads`.
 /// @throws InputError if an action does not exist, if a factory names no gait of the robot, is
 /// empty or makes nothing, or a gait's bounds allow a stride that the robot
 /// cannot execute (every extreme stride is generated and checked here); Cancelled.
@@ -57,7 +57,7 @@ LocomotionModel BuildLocomotionModel(const models::RobotModel& robot,
                                      const std::vector<std::string>& actions,
                                      const CancellationToken& cancellation = {},
                                      const std::filesystem::path& library = {},
-                                     const std::vector<GaitFactory>& further = {});
+                                     const std::vector<GaitFactory>& further = {}, int threads = 1);
 
 /// Upper bound, over all joint positions, of the distance from the root's origin to a point of
 /// `patch`, m.

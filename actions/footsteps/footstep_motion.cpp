@@ -47,10 +47,34 @@ double SwingDuration(const Footstep& step) {
   return kHighSwing + kSecondsPerMetreUp * (step.lift + step.ChangeOfHeight());
 }
 
+/// All limbs bear after a step: how long, before the next one.
+double DoubleSupport(const std::vector<Footstep>& steps, std::size_t step) {
+  const bool is_high = IsHigh(steps[step]) || (step + 1 < steps.size() && IsHigh(steps[step + 1]));
+  return is_high ? kHighDoubleSupport : kDoubleSupport;
+}
+
+/// A joint beyond its range in a swing is a matter of the posture at the nearer end of the step.
+FootstepError::Part PartOf(const MotionError& error) {
+  const bool swings = error.phase() % 2 == 1;
+  if (error.limit() != MotionError::Limit::kJointRange || !swings) {
+    return FootstepError::Part::kStep;
+  }
+  return error.share() < 0.5 ? FootstepError::Part::kFrom : FootstepError::Part::kTo;
+}
+
 }  // namespace
 
 FootstepMotion::FootstepMotion(const models::RobotModel& robot, const NominalStance& stance)
     : robot_(&robot), stance_(&stance), self_clearance_(robot, {stance.q}) {}
+
+double FootstepMotion::ExpectedDuration(const std::vector<Footstep>& steps) {
+  double duration = 2 * kStart;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    duration += SwingDuration(steps[i]);
+    if (i + 1 < steps.size()) duration += DoubleSupport(steps, i);
+  }
+  return duration;
+}
 
 int FootstepMotion::StepOfPhase(int phase, int steps) {
   // Phases alternate: all limbs bear, one swings, ...
@@ -74,9 +98,7 @@ models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& sl
     swing.duration = slowness[i] * SwingDuration(steps[i]);
     schedule.intervals.push_back(std::move(swing));
     standing.bearing[steps[i].limb] = PatchPoseOf(*stance_, steps[i].limb, steps[i].to);
-    const bool next_is_high = i + 1 < steps.size() && IsHigh(steps[i + 1]);
-    standing.duration =
-        slowness[i] * (IsHigh(steps[i]) || next_is_high ? kHighDoubleSupport : kDoubleSupport);
+    standing.duration = slowness[i] * DoubleSupport(steps, i);
     schedule.intervals.push_back(standing);
   }
   schedule.intervals.back().duration = kStart;
@@ -211,7 +233,7 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
       // A slower motion has much the same postures.
       const bool may_be_slower =
           error.limit() != MotionError::Limit::kJointRange && slowness[step] * kSlower <= kSlowest;
-      if (!may_be_slower) throw FootstepError(error.what(), step);
+      if (!may_be_slower) throw FootstepError(error.what(), step, false, PartOf(error));
       for (int i = std::max(0, step - 1); i <= std::min(step + 1, count - 1); ++i) {
         slowness[i] = std::min(kSlowest, slowness[i] * kSlower);
       }
@@ -247,21 +269,17 @@ std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  const std::vector<Footstep>& steps,
                                                  const CancellationToken& cancellation) const {
   const double tall = kTall * stance_->gait->posture.root_height;
-  std::string fault = "no steps";
-  int step = -1;
+  FootstepError fault("no steps", -1);
   for (const Style& style :
        {Style{tall, 0, 0.16, 0.95, kSelfDistance}, Style{tall, -0.1, 0.16, 0.95, kSelfDistance},
         Style{tall, -0.15, 0.14, 0.99, kLeastSelfDistance}}) {
     try {
       return BuildIn(style, start, steps, cancellation);
     } catch (const FootstepError& error) {
-      if (step < 0 || error.step() >= 0) {
-        fault = error.what();
-        step = error.step();
-      }
+      if (fault.step() < 0 || error.step() >= 0) fault = error;
     }
   }
-  throw FootstepError(fault, step);
+  throw FootstepError(fault);
 }
 
 }  // namespace possibility::actions

@@ -16,15 +16,20 @@ namespace possibility::actions {
 /// Thrown when a step of a sequence cannot be executed.
 class FootstepError : public MotionError {
  public:
+  /// What of the step is at fault: all of it, or the posture at one of its ends.
+  enum class Part { kStep, kFrom, kTo };
+
   /// `step`: index; -1 if it is not known which one. `is_hit`: the robot hits an obstacle.
-  FootstepError(const std::string& message, int step, bool is_hit = false)
-      : MotionError(message), step_(step), is_hit_(is_hit) {}
+  FootstepError(const std::string& message, int step, bool is_hit = false, Part part = Part::kStep)
+      : MotionError(message), step_(step), is_hit_(is_hit), part_(part) {}
   int step() const { return step_; }
   bool is_hit() const { return is_hit_; }
+  Part part() const { return part_; }
 
  private:
   int step_;
   bool is_hit_;
+  Part part_;
 };
 
 /// Motion of footsteps over ground of any heights, from rest to rest: pattern motion
@@ -40,6 +45,9 @@ class FootstepMotion {
   /// @throws FootstepError naming the limit that the robot would exceed; Cancelled.
   std::vector<Phase> Build(const Foothold& start, const std::vector<Footstep>& steps,
                            const CancellationToken& cancellation = {}) const;
+
+  /// Of the motion, if no step has to be slower, s.
+  static double ExpectedDuration(const std::vector<Footstep>& steps);
 
   /// Index of the step in which phase `phase` of such a motion swings, or that it follows or leads
   /// to.

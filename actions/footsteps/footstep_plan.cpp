@@ -94,17 +94,19 @@ struct FootstepSearch::Search {
   };
 
   Search(const LocomotionModel& model, int gait, const World& world, FootstepEnds ends,
-         const FootstepLimits& limits, const CancellationToken& cancellation)
+         const FootstepLimits& limits, std::shared_ptr<const StepGround> step_ground,
+         const CancellationToken& cancellation)
       : world(world),
+        known(std::move(step_ground)),
         starts(std::move(ends.starts)),
         start_times(std::move(ends.start_times)),
         goals{std::move(ends.goals), std::move(ends.goal_times)},
-        rules(model, gait, world, limits) {
+        rules(model, gait, world, *known, limits) {
     Begin(cancellation);
   }
 
   void Begin(const CancellationToken& cancellation) {
-    heuristic.emplace(rules, world, goals, is_relaxed);
+    heuristic.emplace(rules, *known, world, goals, starts, is_relaxed);
     for (std::size_t i = 0; i < starts.size(); ++i) {
       const int layer = heuristic->LayerUnder(0, {starts[i].pose, starts[i].z});
       if (layer < 0) continue;
@@ -357,6 +359,7 @@ struct FootstepSearch::Search {
   }
 
   const World& world;
+  std::shared_ptr<const StepGround> known;
   std::vector<GroundedStance> starts;
   std::vector<double> start_times;
   StepGoals goals;
@@ -377,13 +380,14 @@ FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const Wor
                                const std::vector<GroundedStance>& goals,
                                const FootstepLimits& limits, const CancellationToken& cancellation)
     : FootstepSearch(model, gait, world, FootstepEnds{{start}, goals, {}, {}}, limits,
-                     cancellation) {}
+                     std::make_shared<StepGround>(model, gait, world, limits), cancellation) {}
 
 FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
                                FootstepEnds ends, const FootstepLimits& limits,
+                               std::shared_ptr<const StepGround> known,
                                const CancellationToken& cancellation)
-    : search_(std::make_unique<Search>(model, gait, world, std::move(ends), limits, cancellation)) {
-}
+    : search_(std::make_unique<Search>(model, gait, world, std::move(ends), limits,
+                                       std::move(known), cancellation)) {}
 
 FootstepSearch::~FootstepSearch() = default;
 

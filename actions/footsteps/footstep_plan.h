@@ -9,6 +9,7 @@
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/footsteps/footstep.h"
+#include "actions/footsteps/step_ground.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::actions {
@@ -33,10 +34,12 @@ class FootstepSearch {
   /// Whether steps of the gait can be searched.
   static bool Knows(const models::Gait& gait);
 
-  /// References must outlive the search.
+  /// `known`: of this gait and world, and of such limits; shared by many searches. References must
+  /// outlive the search.
   FootstepSearch(const LocomotionModel& model, int gait, const World& world, FootstepEnds ends,
-                 const FootstepLimits& limits, const CancellationToken& cancellation = {});
-  /// From one start.
+                 const FootstepLimits& limits, std::shared_ptr<const StepGround> known,
+                 const CancellationToken& cancellation = {});
+  /// From one start, by itself.
   FootstepSearch(const LocomotionModel& model, int gait, const World& world,
                  const GroundedStance& start, const std::vector<GroundedStance>& goals,
                  const FootstepLimits& limits, const CancellationToken& cancellation = {});

@@ -61,6 +61,8 @@ bool PlannedSteps::CN(const graph::Edge& edge) const {
 }
 
 double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
+  const std::vector<Footstep> steps = SuggestedFor(KeyOf(edge));
+  if (!steps.empty()) return FootstepMotion::ExpectedDuration(steps);
   const Eigen::Vector3d way = (edge.to - edge.from).head<3>();
   return kToStartAndStop + kSecondsPerMetre * way.head<2>().norm() +
          kSecondsPerMetreRisen * std::abs(way.z());
@@ -92,6 +94,13 @@ std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vec
   }
 }
 
+std::shared_ptr<const StepGround> PlannedSteps::known_ground() const {
+  std::call_once(ground_is_known_, [this] {
+    known_ground_ = std::make_shared<StepGround>(model(), from(), world(), limits_);
+  });
+  return known_ground_;
+}
+
 PlannedSteps::EdgeKey PlannedSteps::KeyOf(const graph::Edge& edge) {
   EdgeKey key;
   for (const graph::Point* end : {&edge.from, &edge.to}) {
@@ -115,7 +124,8 @@ std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const Gro
                                            const FootstepLimits& limits,
                                            const StepRefusals& refusals,
                                            const CancellationToken& cancellation) const {
-  FootstepSearch search(model(), this->from(), world(), from, {to}, limits, cancellation);
+  FootstepSearch search(model(), this->from(), world(), FootstepEnds{{from}, {to}, {}, {}}, limits,
+                        known_ground(), cancellation);
   search.most_states = kStates;
   search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
     return refusals.Refuses(step, other);
@@ -159,7 +169,17 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
       }
       const Footstep& step = steps[error.step()];
       const Foothold other = OtherAt(from, steps, error.step());
-      refusals.Add(step, other);
+      switch (error.part()) {
+        case FootstepError::Part::kStep:
+          refusals.Add(step, other);
+          break;
+        case FootstepError::Part::kFrom:
+          refusals.AddEnd(step.from, other);
+          break;
+        case FootstepError::Part::kTo:
+          refusals.AddEnd(step.to, other);
+          break;
+      }
       const double root = reach_.HighestRoot(step, other).value_or(limits.lowest_root);
       if (root < upright && taller < kMostTaller) {
         ++taller;

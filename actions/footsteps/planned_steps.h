@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -56,6 +57,8 @@ class PlannedSteps final : public Manoeuvre {
   void Suggest(const graph::Edge& edge, std::vector<Footstep> steps) const;
 
   const FootstepLimits& limits() const { return limits_; }
+  /// Made when it is first asked for.
+  std::shared_ptr<const StepGround> known_ground() const;
 
  private:
   using EdgeKey = std::vector<std::int64_t>;  ///< both ends, rounded
@@ -84,6 +87,8 @@ class PlannedSteps final : public Manoeuvre {
   FootstepLimits limits_;
   StepReach reach_;
   FootstepMotion motion_;
+  mutable std::once_flag ground_is_known_;
+  mutable std::shared_ptr<const StepGround> known_ground_;
   mutable std::mutex mutex_;
   mutable std::map<EdgeKey, Outcome> outcomes_;
   mutable std::map<EdgeKey, std::vector<Footstep>> suggested_;

@@ -15,6 +15,8 @@ using Eigen::Vector2d;
 
 constexpr std::size_t kPosesPerQuestion = 1000;
 constexpr int kUnknownSpot = -2;
+/// Among more the search grows to all sides.
+constexpr std::size_t kMostStarts = 4;
 constexpr double kTurn = 2 * std::numbers::pi / PoseField::kHeadings;
 
 struct Move {
@@ -48,7 +50,8 @@ int Cell(double at, int count) {
 
 PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
                      const std::vector<Goal>& goals, const Paces& paces,
-                     std::function<bool(int, const PlanarPose&)> is_open, Ground ground)
+                     std::function<bool(int, const PlanarPose&)> is_open, Ground ground,
+                     const std::vector<Start>& starts)
     : bounds_(bounds),
       cell_(cell),
       first_heading_(first_heading),
@@ -59,14 +62,19 @@ PoseField::PoseField(const Eigen::AlignedBox2d& bounds, double cell, double firs
   columns_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().x() / cell)));
   rows_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().y() / cell)));
   numbers_.assign(static_cast<std::size_t>(columns_) * rows_ * ground_.layers, kUnknownSpot);
+  if (starts.size() <= kMostStarts) {
+    for (const Start& start : starts) {
+      const int spot = SpotAt(start.layer, start.pose);
+      if (spot >= 0) starts_.emplace_back(spot, HeadingOf(start.pose));
+    }
+  }
   for (const Goal& goal : goals) {
     const int spot = SpotAt(goal.layer, goal.pose);
     if (spot < 0) continue;
     const int heading = HeadingOf(goal.pose);
     spots_[spot].states[heading] = State::kOpen;
     if (goal.time >= spots_[spot].times[heading]) continue;
-    spots_[spot].times[heading] = goal.time;
-    queue_.push({goal.time, spot, heading});
+    Push(goal.time, spot, heading);
   }
 }
 
@@ -111,7 +119,8 @@ double PoseField::At(int layer, const PlanarPose& pose, const CancellationToken&
   const int spot = SpotAt(layer, pose);
   const int heading = HeadingOf(pose);
   if (spot < 0 || !IsOpen(spot, heading)) return std::numeric_limits<double>::infinity();
-  while (!queue_.empty() && queue_.top().time < spots_[spot].times[heading]) {
+  const double rest = Rest(spot, heading);
+  while (!queue_.empty() && queue_.top().value < spots_[spot].times[heading] + rest) {
     const Entry at = queue_.top();
     queue_.pop();
     if (at.time > spots_[at.spot].times[at.heading]) continue;
@@ -119,6 +128,28 @@ double PoseField::At(int layer, const PlanarPose& pose, const CancellationToken&
     Visit(at);
   }
   return spots_[spot].times[heading];
+}
+
+/// By the way through the air, and by what the ground alone knows. It never changes by more than a
+/// move takes, so that a pose's time is final when the search visits it.
+double PoseField::Rest(int spot, int heading) const {
+  if (starts_.empty()) return 0;
+  const Spot& at = spots_[spot];
+  const double pace = cell_ * std::min(paces_.ahead, paces_.aside);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [start, start_heading] : starts_) {
+    const Spot& there = spots_[start];
+    const int turns = std::abs(heading - start_heading);
+    const double way = pace * std::hypot(there.column - at.column, there.row - at.row) +
+                       paces_.turn * kTurn * std::min(turns, kHeadings - turns);
+    least = std::min(least, std::max(way, std::abs(there.ground_time - at.ground_time)));
+  }
+  return least;
+}
+
+void PoseField::Push(double time, int spot, int heading) {
+  spots_[spot].times[heading] = time;
+  queue_.push({time + Rest(spot, heading), time, spot, heading});
 }
 
 void PoseField::Visit(const Entry& at) {
@@ -146,8 +177,7 @@ void PoseField::Offer(int from, int spot, int heading, double begin, double move
   if (change > ground_.most) return;
   const double time = begin + std::max(move, change);
   if (time >= known || !IsOpen(spot, heading)) return;
-  known = time;
-  queue_.push({time, spot, heading});
+  Push(time, spot, heading);
 }
 
 }  // namespace possibility::actions

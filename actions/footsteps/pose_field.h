@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "actions/motion/planar_pose.h"
@@ -12,10 +13,11 @@
 
 namespace possibility::actions {
 
-/// Times of the quickest ways to some goals among poses of a lattice in SE(2), by Dijkstra's
-/// algorithm, which runs as far as the questions need. There is a lattice for each layer of the
-/// ground. A pose has ten neighbours in its layer: eight cells around it, and a turn to either
-/// side; and itself in the other layers. One thread at a time.
+/// Times of the quickest ways to some goals among poses of a lattice in SE(2), by a search from the
+/// goals towards the poses that are asked for first, which goes on as far as the questions need
+/// (reverse resumable A*, Silver 2005). There is a lattice for each layer of the ground. A pose has
+/// ten neighbours in its layer: eight cells around it, and a turn to either side; and itself in the
+/// other layers. One thread at a time.
 class PoseField {
  public:
   struct Paces {
@@ -38,14 +40,20 @@ class PoseField {
     int layer = 0;
     double time = 0;  ///< what its times begin with, s
   };
+  /// A pose that will be asked for.
+  struct Start {
+    PlanarPose pose;
+    int layer = 0;
+  };
   static constexpr int kHeadings = 16;
 
   /// `bounds`, `cell`: m. `first_heading`: rad, one of the lattice's headings. `is_open`: of a pose
   /// of the lattice; asked once per pose, and only where a way or a question leads. The poses
-  /// nearest to goals are open.
+  /// nearest to goals are open. `starts`: the search grows towards them; they change no time.
   PoseField(const Eigen::AlignedBox2d& bounds, double cell, double first_heading,
             const std::vector<Goal>& goals, const Paces& paces,
-            std::function<bool(int layer, const PlanarPose&)> is_open, Ground ground);
+            std::function<bool(int layer, const PlanarPose&)> is_open, Ground ground,
+            const std::vector<Start>& starts = {});
 
   /// From the nearest pose of the lattice, s. Infinite if that is not open or no way leads from
   /// there. @throws Cancelled.
@@ -59,17 +67,19 @@ class PoseField {
   struct Spot {
     int layer = 0;
     int column = 0, row = 0;
-    double ground_time = 0;               ///< s
-    std::array<double, kHeadings> times;  ///< final up to the time of the queue's first entry
+    double ground_time = 0;  ///< s
+    /// Final where time and Rest are at most the value of the queue's first entry.
+    std::array<double, kHeadings> times;
     std::array<State, kHeadings> states;
   };
   /// A pose that a way leads to, with its time.
   struct Entry {
+    double value = 0;  ///< time and Rest, s
     double time = 0;
     int spot = 0;
     int heading = 0;
     bool operator>(const Entry& other) const {
-      if (time != other.time) return time > other.time;
+      if (value != other.value) return value > other.value;
       return spot != other.spot ? spot > other.spot : heading > other.heading;
     }
   };
@@ -80,6 +90,9 @@ class PoseField {
   int SpotAt(int layer, int column, int row);
   int SpotAt(int layer, const PlanarPose& pose);
   int HeadingOf(const PlanarPose& pose) const;
+  /// At least, from a pose to the nearest start, s.
+  double Rest(int spot, int heading) const;
+  void Push(double time, int spot, int heading);
   void Visit(const Entry& at);
   void Offer(int from, int spot, int heading, double begin, double move);
 
@@ -93,6 +106,7 @@ class PoseField {
   std::array<std::array<double, kMovesOfAPose>, kHeadings> times_of_moves_;  ///< by heading, s
   std::vector<int> numbers_;  ///< of spots, by layer and cell; kUnknownSpot: not asked yet
   std::vector<Spot> spots_;
+  std::vector<std::pair<int, int>> starts_;  ///< spot and heading; empty: grows to all sides
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
   std::size_t visited_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "actions/footsteps/sole_disc.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -41,6 +42,12 @@ SoleDisc::SoleDisc(const NominalStance& stance)
 bool SoleDisc::Hits(const models::PreparedShape& solid, const Eigen::Isometry3d& X_WC,
                     const Vector2d& p, double z) const {
   const Eigen::Isometry3d X_WD(Eigen::Translation3d(p.x(), p.y(), z + kAboveSole));
+  if (solid.core_is_box()) {
+    const Eigen::Vector3d away = (X_WC.inverse() * X_WD.translation()).cwiseAbs();
+    const double distance = (away - solid.half_extents()).cwiseMax(0).norm() - solid.radius();
+    if (distance <= 0) return true;
+    if (distance > std::hypot(std::max(radius_, kThickness), kThickness)) return false;
+  }
   return models::SignedDistance(disc_, X_WD, solid, X_WC, 0) <= 0;
 }
 

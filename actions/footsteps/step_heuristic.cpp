@@ -12,21 +12,18 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Of the field of poses, m.
-constexpr double kCell = 0.06;
-constexpr double kMostPoseCells = 100e3;  // seen from above; in larger places cells are larger
-
 /// Expected by the field of footholds, s/m: high steps, low roots, a second foot that follows.
 constexpr double kSecondsPerMetreClimbed = 12;
 
 }  // namespace
 
-StepHeuristic::StepHeuristic(const StepRules& rules, const World& world, const StepGoals& goals,
+StepHeuristic::StepHeuristic(const StepRules& rules, const StepGround& known, const World& world,
+                             const StepGoals& goals, const std::vector<GroundedStance>& starts,
                              bool is_relaxed)
-    : rules_(rules), world_(world), goals_(goals), is_relaxed_(is_relaxed) {
-  footholds_.emplace(rules.stance(), world, rules.ground().planes(), rules.limits(), goals.stances,
-                     goals.times, TimesOfSteps());
-  poses_.emplace(PosesField());
+    : rules_(rules), known_(known), world_(world), goals_(goals), is_relaxed_(is_relaxed) {
+  footholds_.emplace(known.cells, rules.stance(), world, rules.limits(), goals.stances, goals.times,
+                     TimesOfSteps());
+  poses_.emplace(PosesField(starts));
 }
 
 bool StepHeuristic::IsBest(int goal) {
@@ -34,12 +31,17 @@ bool StepHeuristic::IsBest(int goal) {
   return goals_.TimeFrom(goal) <= At(LayerUnder(0, {stance.pose, stance.z}), stance.pose) + 1e-9;
 }
 
-PoseField StepHeuristic::PosesField() {
+PoseField StepHeuristic::PosesField(const std::vector<GroundedStance>& starts) {
   std::vector<PoseField::Goal> places;
   for (std::size_t i = 0; i < goals_.stances.size(); ++i) {
     const int layer = LayerUnder(0, {goals_.stances[i].pose, goals_.stances[i].z});
     if (layer >= 0)
       places.push_back({goals_.stances[i].pose, layer, goals_.TimeFrom(static_cast<int>(i))});
+  }
+  std::vector<PoseField::Start> asked;
+  for (const GroundedStance& start : starts) {
+    const int layer = LayerUnder(0, {start.pose, start.z});
+    if (layer >= 0) asked.push_back({start.pose, layer});
   }
   const PoseField::Paces paces{kLevelStep / rules_.limits().forward,
                                2 * kLevelStep / rules_.limits().lateral,
@@ -49,9 +51,8 @@ PoseField StepHeuristic::PosesField() {
   known.time = [this](int layer, const Vector2d& p) { return footholds_->Near(layer, p); };
   known.most = is_relaxed_ ? std::numeric_limits<double>::infinity() : footholds_->LongestStep();
   return PoseField(
-      world_.environment->bounds, CellSize(),
-      rules_.headings().empty() ? 0 : rules_.headings().front(), places, paces,
-      [this](int layer, const PlanarPose& pose) { return MayStandAt(layer, pose); }, known);
+      world_.environment->bounds, known_.room.cell(), known_.room.first_heading(), places, paces,
+      [this](int layer, const PlanarPose& pose) { return MayStandAt(layer, pose); }, known, asked);
 }
 
 int StepHeuristic::LayerUnder(int limb, const Foothold& place) const {
@@ -113,15 +114,10 @@ void StepHeuristic::AddStep(int limb, const PlanarPose& displacement, double ris
                                      StepRules::kSecondsPerSquat * std::max(*before, *after)));
 }
 
-double StepHeuristic::CellSize() const {
-  if (world_.environment->bounds.isEmpty()) return kCell;
-  return std::max(kCell, std::sqrt(world_.environment->bounds.sizes().prod() / kMostPoseCells));
-}
-
 bool StepHeuristic::MayStandAt(int layer, const PlanarPose& pose) {
   const models::GroundPlane& plane = world_.ground->planes()[rules_.ground().planes()[layer]];
-  return rules_.TrunkIsFree(pose, plane.HeightAt(pose.position())) &&
-         (is_relaxed_ || footholds_->Stands(layer, pose, StepRules::kPatchGap));
+  return (is_relaxed_ || known_.room.IsAt(layer, pose)) &&
+         rules_.TrunkIsFree(pose, plane.HeightAt(pose.position()));
 }
 
 }  // namespace possibility::actions

@@ -6,6 +6,7 @@
 #include "actions/conditions/quasi_static_action.h"
 #include "actions/footsteps/foothold_field.h"
 #include "actions/footsteps/pose_field.h"
+#include "actions/footsteps/step_ground.h"
 #include "actions/footsteps/step_rules.h"
 #include "common/cancellation_token.h"
 
@@ -23,9 +24,10 @@ struct StepGoals {
 /// field of poses.
 class StepHeuristic {
  public:
-  /// `is_relaxed`: rules out less, for a search that found nothing. References must outlive this.
-  StepHeuristic(const StepRules& rules, const World& world, const StepGoals& goals,
-                bool is_relaxed);
+  /// `starts`: where the search begins. `is_relaxed`: rules out less, for a search that found
+  /// nothing. References must outlive this.
+  StepHeuristic(const StepRules& rules, const StepGround& known, const World& world,
+                const StepGoals& goals, const std::vector<GroundedStance>& starts, bool is_relaxed);
   StepHeuristic(const StepHeuristic&) = delete;
   StepHeuristic& operator=(const StepHeuristic&) = delete;
 
@@ -44,11 +46,11 @@ class StepHeuristic {
   FootholdField::StepTimes TimesOfSteps() const;
   void AddStep(int limb, const PlanarPose& displacement, double rise,
                const FootholdField::StepTimes& steps, std::vector<double>* times) const;
-  PoseField PosesField();
-  double CellSize() const;
+  PoseField PosesField(const std::vector<GroundedStance>& starts);
   bool MayStandAt(int layer, const PlanarPose& pose);
 
   const StepRules& rules_;
+  const StepGround& known_;
   const World& world_;
   const StepGoals& goals_;
   bool is_relaxed_;

@@ -13,9 +13,21 @@ double TiltOf(const Foothold& place) {
   return std::atan2(place.normal.head<2>().norm(), place.normal.z());
 }
 
+template <typename Measures>
+bool IsAtLeast(const Measures& measures, const Measures& refused) {
+  return std::equal(measures.begin(), measures.end(), refused.begin(),
+                    [](double measure, double least) { return measure >= least - kSame; });
+}
+
+template <typename Measures>
+bool IsAtLeastOneOf(const Measures& measures, const std::vector<Measures>& refused) {
+  return std::any_of(refused.begin(), refused.end(),
+                     [&measures](const Measures& one) { return IsAtLeast(measures, one); });
+}
+
 }  // namespace
 
-StepRefusals::Measures StepRefusals::Of(const Footstep& step, const Foothold& other) {
+StepRefusals::StepMeasures StepRefusals::Of(const Footstep& step, const Foothold& other) {
   const auto distance = [&other](const Foothold& place) {
     return (place.stance.position() - other.stance.position()).norm();
   };
@@ -31,14 +43,21 @@ StepRefusals::Measures StepRefusals::Of(const Footstep& step, const Foothold& ot
           TiltOf(other)};
 }
 
+StepRefusals::EndMeasures StepRefusals::Of(const Foothold& place, const Foothold& other) {
+  const PlanarPose away = other.stance.Inverse() * place.stance;
+  return {std::abs(away.x),
+          std::abs(away.y),
+          std::max(0.0, place.z - other.z),
+          std::max(0.0, other.z - place.z),
+          std::abs(WrapAngle(away.yaw)),
+          TiltOf(place),
+          TiltOf(other)};
+}
+
 bool StepRefusals::Refuses(const Footstep& step, const Foothold& other) const {
-  const Measures measures = Of(step, other);
-  return std::any_of(refused_.begin(), refused_.end(), [&](const Measures& refused) {
-    for (std::size_t i = 0; i < measures.size(); ++i) {
-      if (measures[i] < refused[i] - kSame) return false;
-    }
-    return true;
-  });
+  if (IsAtLeastOneOf(Of(step, other), steps_)) return true;
+  if (ends_.empty()) return false;
+  return IsAtLeastOneOf(Of(step.from, other), ends_) || IsAtLeastOneOf(Of(step.to, other), ends_);
 }
 
 }  // namespace possibility::actions

@@ -11,17 +11,25 @@ namespace possibility::actions {
 /// respect as one that failed is refused, too.
 class StepRefusals {
  public:
-  /// `other`: where the other limb bears.
-  void Add(const Footstep& step, const Foothold& other) { refused_.push_back(Of(step, other)); }
+  /// A step as a whole. `other`: where the other limb bears.
+  void Add(const Footstep& step, const Foothold& other) { steps_.push_back(Of(step, other)); }
+  /// A posture in which one limb is about to leave its place or has just reached it while the other
+  /// one bears, whatever the rest of the step.
+  void AddEnd(const Foothold& place, const Foothold& other) { ends_.push_back(Of(place, other)); }
   bool Refuses(const Footstep& step, const Foothold& other) const;
 
  private:
   /// Distances and heights of both ends of the step from the other limb, and the lift, m; tilts of
   /// the three footholds, rad.
-  using Measures = std::array<double, 10>;
-  static Measures Of(const Footstep& step, const Foothold& other);
+  using StepMeasures = std::array<double, 10>;
+  /// Ahead or behind, aside, up and down from the other limb, m; turn from it and tilts of both
+  /// footholds, rad.
+  using EndMeasures = std::array<double, 7>;
+  static StepMeasures Of(const Footstep& step, const Foothold& other);
+  static EndMeasures Of(const Foothold& place, const Foothold& other);
 
-  std::vector<Measures> refused_;
+  std::vector<StepMeasures> steps_;
+  std::vector<EndMeasures> ends_;
 };
 
 }  // namespace possibility::actions

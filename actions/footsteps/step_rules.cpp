@@ -59,29 +59,10 @@ std::vector<Eigen::AlignedBox3d> Above(const std::vector<Eigen::AlignedBox3d>& b
   return above;
 }
 
-/// Headings square to the sides of boxes and surfaces: of corridors, doors and edges.
-std::vector<double> SquareHeadingsOf(const models::Environment& environment) {
-  std::vector<double> headings;
-  const auto add = [&headings](double yaw) {
-    const double heading = WrapAngle(4 * yaw) / 4;
-    const bool known = std::any_of(headings.begin(), headings.end(), [&](double other) {
-      return std::abs(WrapAngle(4 * (heading - other))) < 4e-3;
-    });
-    if (!known) headings.push_back(heading);
-  };
-  for (const models::Obstacle& obstacle : environment.obstacles) {
-    if (obstacle.surface < 0) add(std::atan2(obstacle.X_WO(1, 0), obstacle.X_WO(0, 0)));
-  }
-  for (const models::Surface& surface : environment.surfaces) {
-    for (const double heading : surface.headings) add(heading);
-  }
-  return headings;
-}
-
 }  // namespace
 
 StepRules::StepRules(const LocomotionModel& model, int gait, const World& world,
-                     const FootstepLimits& limits)
+                     const StepGround& known, const FootstepLimits& limits)
     : stance_(model.gaits[gait]->stance),
       limits_(limits),
       world_(world),
@@ -90,7 +71,7 @@ StepRules::StepRules(const LocomotionModel& model, int gait, const World& world,
       trunk_(Above(model.gaits[gait]->volumes.standing,
                    kTrunkFrom * stance_.gait->posture.root_height, limits.trunk_margin)),
       reach_(*model.robot, stance_),
-      headings_(SquareHeadingsOf(*world.environment)),
+      headings_(known.headings),
       displacements_({DisplacementsOf(0), DisplacementsOf(1)}) {}
 
 double StepRules::SideOf(int limb) const {
@@ -107,7 +88,8 @@ std::vector<PlanarPose> StepRules::DisplacementsOf(int limb) const {
         if (std::abs(ahead) + 0.6 * aside + 0.6 * std::abs(turn) > 1.3) continue;
         const PlanarPose displacement{ahead * limits_.forward, side * aside * limits_.lateral,
                                       turn * limits_.turn};
-        if (GapBetween(PatchAt(stance_, limb, displacement), other) < kPatchGap) continue;
+        if (GapBetween(PatchAt(stance_, limb, displacement), other) < StepGround::kPatchGap)
+          continue;
         result.push_back(displacement);
       }
     }
@@ -151,7 +133,7 @@ std::optional<double> StepRules::Squat(int limb, const Foothold& place,
 
 bool StepRules::KeepsOff(int limb, const Foothold& place, const Foothold& other) const {
   return GapBetween(PatchAt(stance_, limb, place.stance),
-                    PatchAt(stance_, 1 - limb, other.stance)) >= kPatchGap;
+                    PatchAt(stance_, 1 - limb, other.stance)) >= StepGround::kPatchGap;
 }
 
 bool StepRules::PassesOther(int limb, const Foothold& from, const Foothold& to,
@@ -160,7 +142,7 @@ bool StepRules::PassesOther(int limb, const Foothold& from, const Foothold& to,
   for (int i = 1; i < kPassingSamples; ++i) {
     const PlanarPose at =
         Interpolate(from.stance, to.stance, static_cast<double>(i) / kPassingSamples);
-    if (GapBetween(PatchAt(stance_, limb, at), bearing) < kPatchGap) return false;
+    if (GapBetween(PatchAt(stance_, limb, at), bearing) < StepGround::kPatchGap) return false;
   }
   return true;
 }

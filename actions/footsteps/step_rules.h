@@ -7,6 +7,7 @@
 #include "actions/conditions/locomotion_model.h"
 #include "actions/footsteps/foothold_ground.h"
 #include "actions/footsteps/footstep.h"
+#include "actions/footsteps/step_ground.h"
 #include "actions/footsteps/step_reach.h"
 #include "models/shapes/upright_boxes.h"
 #include "models/world/collision.h"
@@ -17,14 +18,12 @@ namespace possibility::actions {
 /// tests of a step against ground, obstacles and the robot itself, and its cost.
 class StepRules {
  public:
-  /// Patches keep this far from each other, m.
-  static constexpr double kPatchGap = 0.015;
   /// A low root needs torque. Steps that need one lower than a little below the nominal posture
   /// count as slower, s/m.
   static constexpr double kSecondsPerSquat = 60;
 
   /// References must outlive this.
-  StepRules(const LocomotionModel& model, int gait, const World& world,
+  StepRules(const LocomotionModel& model, int gait, const World& world, const StepGround& known,
             const FootstepLimits& limits);
 
   const NominalStance& stance() const { return stance_; }
@@ -40,7 +39,7 @@ class StepRules {
   int NumPlaces(int limb) const;
   /// One of these; none if it does not exist about `other`.
   std::optional<PlanarPose> PlaceAbout(int limb, const PlanarPose& other, int number) const;
-  /// Headings square to the sides of boxes and surfaces: of corridors, doors and edges.
+  /// StepGround
   const std::vector<double>& headings() const { return headings_; }
 
   /// How much lower than easy the root has to be for a limb to reach a place while the other one
@@ -79,7 +78,7 @@ class StepRules {
   models::CollisionChecker checker_;
   models::UprightBoxes trunk_;
   StepReach reach_;
-  std::vector<double> headings_;
+  const std::vector<double>& headings_;
   std::array<std::vector<PlanarPose>, 2> displacements_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/run_on_threads.h"
 #include "models/input/input_error.h"
 #include "models/world/collision.h"
 
@@ -198,16 +199,20 @@ AlignedBox3d SweptVolume::Grown(size_t slab, double margin) const {
 }
 
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
-                      const GaitMotion& gait, const CancellationToken& cancellation) {
+                      const GaitMotion& gait, const CancellationToken& cancellation, int threads) {
+  const std::vector<PlanarPose> extremes = ExtremeDisplacements(stance.gait->parameters);
+  std::vector<SweptVolume> swept(extremes.size());
+  ForEachOnThreads(threads, extremes.size(), [&](std::size_t i) {
+    swept[i] = SweepStrides(robot, stance, gait, extremes[i], 1, cancellation);
+    if (gait.Flows() && IsAlongOneAxis(extremes[i])) {
+      swept[i].Add(SweepStrides(robot, stance, gait, extremes[i], kStridesOnTheWay, cancellation));
+    }
+  });
   std::vector<SweptVolume> volumes(kStrideClasses.size() + 1);
   std::vector<double> margins(kStrideClasses.size(), SweptVolume::kSamplingMargin);
-  for (const PlanarPose& displacement : ExtremeDisplacements(stance.gait->parameters)) {
-    SweptVolume swept = SweepStrides(robot, stance, gait, displacement, 1, cancellation);
-    if (gait.Flows() && IsAlongOneAxis(displacement)) {
-      swept.Add(SweepStrides(robot, stance, gait, displacement, kStridesOnTheWay, cancellation));
-    }
+  for (size_t extreme = 0; extreme < extremes.size(); ++extreme) {
     for (size_t i = 0; i < kStrideClasses.size(); ++i) {
-      if (Includes(kStrideClasses[i], displacement)) volumes[i].Add(swept);
+      if (Includes(kStrideClasses[i], extremes[extreme])) volumes[i].Add(swept[extreme]);
     }
   }
   dynamics::TreeKinematics kinematics(robot);

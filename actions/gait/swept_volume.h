@@ -60,10 +60,11 @@ struct GaitVolumes {
   }
 };
 
-/// `motion`: of the gait that `stance` belongs to.
+/// `motion`: of the gait that `stance` belongs to. The result does not depend on `threads`.
 /// @throws InputError naming the stride if the robot cannot execute an extreme stride of the bounds
 /// within its limits and without self-collision; Cancelled.
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,
-                      const GaitMotion& motion, const CancellationToken& cancellation = {});
+                      const GaitMotion& motion, const CancellationToken& cancellation = {},
+                      int threads = 1);
 
 }  // namespace possibility::actions

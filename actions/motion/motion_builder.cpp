@@ -116,7 +116,7 @@ std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
       result.push_back(BuildPhase(phases[i], before, after, start, &q));
     } catch (const MotionError& error) {
       throw MotionError(std::string(error.what()) + PhaseText(*robot_, phases[i], before, after, i),
-                        static_cast<int>(i), error.limit());
+                        static_cast<int>(i), error.limit(), error.share());
     }
     start += phases[i].duration;
   }
@@ -147,7 +147,13 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
                static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
   const double spacing = phase.duration / intervals;
   for (int i = 0; i <= intervals; ++i) {
-    Knot knot = MakeKnot(phase, bearing, phase.duration * i / intervals, guess);
+    const double share = static_cast<double>(i) / intervals;
+    Knot knot;
+    try {
+      knot = MakeKnot(phase, bearing, phase.duration * share, guess);
+    } catch (const MotionError& error) {
+      throw MotionError(error.what(), -1, error.limit(), share);
+    }
     if (i < intervals) *guess = GuessAfter({knot.q, knot.v, knot.a}, spacing);
     knot.t += start;
     result.knots.push_back(std::move(knot));

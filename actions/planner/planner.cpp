@@ -91,7 +91,7 @@ class TraversalPlanner {
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
         model_(BuildLocomotionModel(robot, GaitNames(), CancellationToken(deadline_),
-                                    TransitionLibrary(), request.gaits)),
+                                    TransitionLibrary(), request.gaits, request.threads)),
         floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
                 CancellationToken(deadline_)) {
     if (ground_.levels().empty()) {

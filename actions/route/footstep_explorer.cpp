@@ -42,8 +42,9 @@ graph::Findings FootstepExplorer::Explore() {
   const CancellationToken cancellation(*deadline_);
   try {
     if (!search_) {
-      search_.emplace(*space_.model, start_.gait, gait().world(), start_, goals_, steps_.limits(),
-                      cancellation);
+      search_.emplace(*space_.model, start_.gait, gait().world(),
+                      FootstepEnds{{start_}, goals_, {}, {}}, steps_.limits(),
+                      steps_.known_ground(), cancellation);
     }
     const FootstepSearch::Status status = search_->Advance(kStatesPerTurn, cancellation);
     *states_ = search_->states();

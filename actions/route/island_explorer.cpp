@@ -135,7 +135,7 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   ends.goals = beyond_;
   for (const GroundedStance& stance : beyond_) ends.goal_times.push_back(TimeLeft(stance));
   crossing_.emplace(*lattice_.model, steps_.from(), gait().world(), std::move(ends),
-                    steps_.limits(), cancellation);
+                    steps_.limits(), steps_.known_ground(), cancellation);
   crossing_->most_states = kStates;
   return true;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 
@@ -29,12 +30,14 @@ class FootholdFieldTest : public ::testing::Test {
     const World& built = world->Built();
     planes_.clear();
     for (int i = 0; i < static_cast<int>(built.ground->planes().size()); ++i) planes_.push_back(i);
-    return FootholdField(WalkingHubo().gaits[0]->stance, built, planes_, limits_, {goal}, {},
-                         Steps());
+    const NominalStance& stance = WalkingHubo().gaits[0]->stance;
+    cells_.emplace_back(stance, built, planes_, limits_);
+    return FootholdField(cells_.back(), stance, built, limits_, {goal}, {}, Steps());
   }
 
   FootstepLimits limits_ = FootstepLimits::Of(DrcHubo1(), WalkingHubo().gaits[0]->stance);
   std::vector<int> planes_;
+  std::deque<FootholdCells> cells_;
 };
 
 TEST_F(FootholdFieldTest, OnGroundThatHangsTogetherTimeGrowsWithThePace) {
@@ -61,20 +64,6 @@ TEST_F(FootholdFieldTest, AGapLongerThanAStepIsNotCrossed) {
   wide.Ground(-3, 0, 0).Ground(0.6, 4, 0);
   EXPECT_TRUE(std::isfinite(FieldTo(&narrow, UnevenWorld::StanceAt(2)).At(0, {-1, 0, 0}, 0)));
   EXPECT_TRUE(std::isinf(FieldTo(&wide, UnevenWorld::StanceAt(2)).At(0, {-1, 0, 0}, 0)));
-}
-
-/// A bridge 0.3 m wide has room for one foot ahead of the other, but not for both beside each
-/// other unless one stands askew.
-TEST_F(FootholdFieldTest, OnANarrowBridgeOneStandsAskew) {
-  UnevenWorld world;
-  world.Ground(-3, 4, 0, 0.3);
-  FootholdField field = FieldTo(&world, UnevenWorld::StanceAt(2));
-  constexpr double kGap = 0.015;
-  EXPECT_FALSE(field.Stands(0, {0, 0, 0}, kGap));
-  EXPECT_TRUE(field.Stands(0, {0, 0, std::numbers::pi / 4}, kGap));
-  UnevenWorld broad;
-  broad.Ground(-3, 4, 0);
-  EXPECT_TRUE(FieldTo(&broad, UnevenWorld::StanceAt(2)).Stands(0, {0, 0, 0}, kGap));
 }
 
 }  // namespace

@@ -263,5 +263,21 @@ TEST(StepRefusalsTest, ALongerOrHigherStepThanOneThatFailedIsRefused) {
   EXPECT_FALSE(refusals.Refuses(step, other));
 }
 
+/// The posture at the beginning of a step is as bad at the end of another one.
+TEST(StepRefusalsTest, AnEndThatFailedIsRefusedInEveryStep) {
+  StepRefusals refusals;
+  const Foothold other{{1, 2, 0.5}, 0.1};
+  const auto at = [&other](double ahead, double aside, double turn, double z) {
+    return Foothold{other.stance * PlanarPose{ahead, aside, turn}, z};
+  };
+  refusals.AddEnd(at(0.2, 0.1, 0, 0.1), other);
+  const Foothold near = at(0, 0, 0, 0.1);
+  EXPECT_TRUE(refusals.Refuses({0, at(0.2, 0.1, 0, 0.1), near, 0}, other));
+  EXPECT_TRUE(refusals.Refuses({1, near, at(-0.25, -0.1, 0.2, 0.1), 0.1}, other));
+  EXPECT_FALSE(refusals.Refuses({0, near, near, 0.2}, other));
+  EXPECT_FALSE(refusals.Refuses({0, at(0.3, 0.05, 0, 0.1), near, 0}, other));
+  EXPECT_FALSE(refusals.Refuses({0, at(0.15, 0.15, 0, 0.1), near, 0}, other));
+}
+
 }  // namespace
 }  // namespace possibility::actions

@@ -119,6 +119,18 @@ TEST_F(SuggestedSteps, AreTaken) {
   EXPECT_LT(SwingsIn(StepsIn(&world).Motion(edge, {})), 10) << "a search takes longer strides";
 }
 
+TEST_F(SuggestedSteps, AreAsLongAsExpected) {
+  UnevenWorld world;
+  world.Ground(-3, 4, 0);
+  const PlannedSteps& steps = StepsIn(&world);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(0), UnevenWorld::StanceAt(0.9));
+  const double unknown = steps.ExpectedDuration(edge);
+  steps.Suggest(edge, Strides(9, 0.1));
+  const double duration = steps.Motion(edge, {}).back().knots.back().t;
+  EXPECT_NEAR(steps.ExpectedDuration(edge), duration, 1e-9);
+  EXPECT_NE(unknown, steps.ExpectedDuration(edge));
+}
+
 TEST_F(SuggestedSteps, BelongToEdgesWhoseEndsDifferByRounding) {
   UnevenWorld world;
   world.Ground(-3, 4, 0);

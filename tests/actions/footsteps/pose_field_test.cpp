@@ -118,5 +118,43 @@ TEST(PoseFieldTest, AnswersDoNotDependOnTheOrderOfQuestions) {
   for (std::size_t i = poses.size(); i-- > 0;) EXPECT_EQ(other.At(0, poses[i]), times[i]);
 }
 
+/// On ground of random speed, with random walls, in two layers.
+TEST(PoseFieldTest, StartsChangeNoTime) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  const auto pose = [&] {
+    return PlanarPose{4 * share(random), 3 * share(random), 6.28 * share(random)};
+  };
+  for (int world = 0; world < 20; ++world) {
+    const double shift = 6 * share(random);
+    const auto is_open = [shift](int layer, const PlanarPose& at) {
+      return std::abs(std::sin(2.3 * at.x + shift + layer) + std::cos(3.1 * at.y + at.yaw)) > 0.3;
+    };
+    PoseField::Ground ground;
+    ground.layers = 2;
+    ground.most = 3;
+    ground.time = [shift](int layer, const Eigen::Vector2d& p) {
+      return 4 * std::sin(p.x() + shift) + 2 * p.y() + layer;
+    };
+    const std::vector<PoseField::Goal> goals = {{pose(), 0}, {pose(), 1, 0.5}};
+    const std::vector<PoseField::Start> starts = {{pose(), 1}, {pose(), 0}};
+    const PoseField::Paces paces{1, 3, 0.7};
+    PoseField plain(kRoom, kFieldCell, 0.1, goals, paces, is_open, ground);
+    PoseField grown(kRoom, kFieldCell, 0.1, goals, paces, is_open, ground, starts);
+    for (const PoseField::Start& start : starts) {
+      EXPECT_EQ(grown.At(start.layer, start.pose), plain.At(start.layer, start.pose));
+    }
+    for (int i = 0; i < 200; ++i) {
+      const PlanarPose asked = pose();
+      const double expected = plain.At(i % 2, asked);
+      if (std::isinf(expected)) {
+        EXPECT_TRUE(std::isinf(grown.At(i % 2, asked)));
+      } else {
+        EXPECT_NEAR(grown.At(i % 2, asked), expected, 1e-9);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace possibility::actions

@@ -227,5 +227,19 @@ TEST(SweptVolumeTest, AStrideBeyondTheRobotsReachIsRefusedByGaitName) {
   }
 }
 
+TEST(SweptVolume, VolumesOfAGaitDoNotDependOnThreads) {
+  const FlowingGait& gait = DrcHubo1Flowing("walk");
+  const GaitVolumes one = SweepGait(DrcHubo1(), gait.stance(), gait.motion());
+  const GaitVolumes several = SweepGait(DrcHubo1(), gait.stance(), gait.motion(), {}, 3);
+  for (const StrideClass strides : kStrideClasses) {
+    const auto& boxes = one.sweep(strides);
+    ASSERT_EQ(boxes.size(), several.sweep(strides).size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      EXPECT_EQ(boxes[i].min(), several.sweep(strides)[i].min());
+      EXPECT_EQ(boxes[i].max(), several.sweep(strides)[i].max());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace possibility::actions
