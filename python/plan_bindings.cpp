@@ -95,7 +95,7 @@ py::dict TimingsOf(const LoadedPlan& loaded) {
 
 std::shared_ptr<LoadedPlan> Load(const std::string& path) {
   const py::gil_scoped_release release;
-  auto loaded = std::make_shared<LoadedPlan>(experiments::LoadPlan(path));
+  auto loaded = std::make_shared<LoadedPlan>(experiments::LoadPlanToVerify(path, {}));
   experiments::RequireFit(*loaded);
   return loaded;
 }

@@ -14,6 +14,7 @@
 #include "actions/verify/verification_report.h"
 #include "actions/verify/verifier.h"
 #include "common/cancellation_token.h"
+#include "common/stopwatch.h"
 #include "experiments/program/perturbation_option.h"
 #include "experiments/support/preset_names.h"
 #include "models/input/input_error.h"
@@ -38,12 +39,19 @@ class ProgressMail {
     const std::lock_guard lock(mutex_);
     progress_ = progress;
   }
+  /// A report of another stage, or one that is 0.1 s younger than the last one taken.
   std::optional<PlanProgress> Take() {
+    constexpr double kInterval = 0.1;  // s
     const std::lock_guard lock(mutex_);
+    if (!progress_ || (progress_->stage == stage_ && since_.Seconds() < kInterval)) return {};
+    stage_ = progress_->stage;
+    since_ = {};
     return std::exchange(progress_, std::nullopt);
   }
 
  private:
+  std::string stage_;  ///< of the report last taken
+  Stopwatch since_;    ///< it was taken
   std::mutex mutex_;
   std::optional<PlanProgress> progress_;
 };
@@ -59,6 +67,7 @@ struct PlanningTask {
 
 void PlanOnThisThread(PlanningTask* task, const CancellationToken& cancellation) {
   task->loaded->robot = models::LoadRobotModel(task->scenario->robot_file);
+  task->loaded->file = "the plan";
   task->loaded->scenario = *task->scenario;
   PlanRequest& request = task->request;
   if (request.library.empty()) request.library = task->loaded->robot.file.parent_path() / "jumps";
@@ -103,7 +112,6 @@ py::tuple PlanScenario(const SharedScenario& scenario, std::uint64_t seed, int t
   }
   RunInterruptibly([task](const CancellationToken& token) { PlanOnThisThread(task.get(), token); },
                    poll);
-  if (poll) poll();
   return py::make_tuple(actions::ToString(task->result.status), task->result.explanation,
                         task->loaded, actions::FormatJson(task->result.verification));
 }

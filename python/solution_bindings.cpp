@@ -29,13 +29,13 @@ using Array = py::array_t<double>;
 TranscriptionScheme SchemeNamed(const std::string& name, int nodes) {
   if (name == "trapezoidal") return collocation::Trapezoidal();
   if (name == "hermite_simpson") return collocation::HermiteSimpson();
-  if (name == "compressed_hermite_simpson") return collocation::CompressedHermiteSimpson();
+  if (name == "hermite_simpson_compressed") return collocation::CompressedHermiteSimpson();
   if (name == "gauss_lobatto") return collocation::GaussLobatto(nodes);
   if (name == "legendre_gauss") return collocation::LegendreGauss(nodes);
   if (name == "flipped_radau") return collocation::FlippedRadau(nodes);
   throw std::invalid_argument(
       "scheme: '" + name +
-      "', expected trapezoidal, hermite_simpson, compressed_hermite_simpson, gauss_lobatto, "
+      "', expected trapezoidal, hermite_simpson, hermite_simpson_compressed, gauss_lobatto, "
       "legendre_gauss or flipped_radau");
 }
 
