@@ -17,7 +17,7 @@ namespace possibility::python {
 namespace {
 
 constexpr std::chrono::milliseconds kPollInterval{10};
-constexpr std::chrono::milliseconds kPatience{30};  // with cancelled work
+constexpr std::chrono::milliseconds kPatience{10};  // with cancelled work
 
 /// Work on a thread of its own.
 class BackgroundWork {

@@ -10,7 +10,7 @@ namespace possibility::python {
 /// and every 10 ms asks Python for signals and calls `poll`, which may be empty.
 ///
 /// If a signal handler or `poll` raises, the work is cancelled and the exception passes on at once.
-/// Work that does not end within 30 ms is left to wind down by itself, so it must own what it uses,
+/// Work that does not end within 10 ms is left to wind down by itself, so it must own what it uses,
 /// and must not touch Python. @throws What the work throws.
 void RunInterruptibly(std::function<void(const CancellationToken&)> work,
                       const std::function<void()>& poll = {});

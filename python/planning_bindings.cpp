@@ -73,8 +73,8 @@ void PlanOnThisThread(PlanningTask* task, const CancellationToken& cancellation)
   if (request.library.empty()) request.library = task->loaded->robot.file.parent_path() / "jumps";
   request.progress = [task, cancellation](const PlanProgress& progress) {
     task->progress.Put(progress);
-    // Simulations, which report as verified, know no exceptions.
-    if (progress.stage != "verifying") cancellation.ThrowIfCancelled();
+    // Simulations, which report that all is verified, know no exceptions.
+    if (progress.stage != "verifying" || progress.fraction < 1) cancellation.ThrowIfCancelled();
   };
   task->result = actions::PlanTraversal(task->loaded->robot, *task->scenario, request);
   request.progress = {};

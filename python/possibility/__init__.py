@@ -1,6 +1,8 @@
 """possibility: a motion planner for humanoid robots (docs/python.md)."""
 
-from . import expressions
+import atexit
+
+from . import _possibility, expressions
 from ._possibility import InputError, Robot, Scenario
 from .expressions import Expression
 from .planning import (PlanResult, Rollout, Verification, load_robot, load_scenario, margins, plan,
@@ -14,3 +16,6 @@ __all__ = [
     "expressions", "load_plan", "load_robot", "load_scenario", "margins", "named_problem",
     "named_problems", "plan", "rollout", "scenario", "verify",
 ]
+
+# Cancelled work still uses the libraries for a moment.
+atexit.register(_possibility.await_abandoned_work)

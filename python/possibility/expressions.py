@@ -242,7 +242,7 @@ class Tape:
             expression = stack[-1]
             missing = [each for each in expression._operands if id(each) not in self._seen]
             if missing:
-                stack.extend(missing)
+                stack.extend(reversed(missing))
                 continue
             stack.pop()
             if id(expression) not in self._seen:
@@ -272,7 +272,7 @@ def evaluate(expression: Any, value_of: Callable[[Leaf], Any]) -> Any:
         each = stack[-1]
         missing = [operand for operand in each._operands if id(operand) not in values]
         if missing:
-            stack.extend(missing)
+            stack.extend(reversed(missing))
             continue
         stack.pop()
         values[id(each)] = _value(each, [values[id(operand)] for operand in each._operands],

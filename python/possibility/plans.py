@@ -174,7 +174,7 @@ class Plan(_Stretch):
         if name not in self._arrays:
             array = self._data.stacked(name)
             if name not in ("t", "forces"):
-                array = array.reshape(len(self), -1)
+                array = array.reshape(len(self), -1 if len(self) else 0)
             self._arrays[name] = array
         return self._arrays[name]
 

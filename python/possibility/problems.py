@@ -91,6 +91,7 @@ class ProblemPhase:
     def coordinate(self, name: str, bounds: Bounds = None, *, scale: Optional[float] = None,
                    order: Optional[int] = None) -> "Coordinate":
         """A coordinate with its derivatives up to its order (None: the phase's)."""
+        self._require_new(name)
         order = self._order if order is None else order
         variable = self._raw.add_coordinate(self._index, order, name, _interval(bounds, name),
                                             scale)
@@ -102,9 +103,14 @@ class ProblemPhase:
         return coordinate
 
     def control(self, name: str, bounds: Bounds = None, *, scale: Optional[float] = None) -> Leaf:
+        self._require_new(name)
         leaf = Leaf(self._raw.add_control(self._index, name, _interval(bounds, name), scale), name)
         self.variables[name] = leaf
         return leaf
+
+    def _require_new(self, name: str) -> None:
+        if name in self.variables:
+            raise ValueError(f"{self.name}: '{name}' exists")
 
     def set_duration(self, bounds: Bounds) -> None:
         """s: a number, or (lower, upper) for a free duration."""
