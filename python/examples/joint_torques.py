@@ -1,4 +1,5 @@
-"""Plans a walk through a room and draws the torques of the joints that work hardest."""
+"""Plans a walk through a room and draws the torques of the joints that work hardest,
+for the first 6 s."""
 
 import matplotlib
 
@@ -8,9 +9,9 @@ import possibility
 
 result = possibility.plan("experiments/scenarios/three_routes_a.yaml", actions=["walk"], seed=1)
 plan = result.plan
-hardest = abs(plan.tau).max(axis=0).argsort()[::-1][:4]
-for joint in hardest:
-    plt.plot(plan.t, plan.tau[:, joint], label=plan.joints[joint], linewidth=0.7)
+start = plan.t < 6
+for joint in abs(plan.tau).max(axis=0).argsort()[-4:]:
+    plt.plot(plan.t[start], plan.tau[start, joint], label=plan.joints[joint])
 plt.xlabel("time (s)")
 plt.ylabel("torque (N m)")
 plt.legend()

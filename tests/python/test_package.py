@@ -26,11 +26,12 @@ def workplace(plan, tmp_path, monkeypatch):
         (tmp_path / folder).symlink_to(ROOT / folder)
     plan.save(tmp_path / "plan")
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
     return tmp_path
 
 
 EXPECTED = {"block_move": "solved: 12 ", "van_der_pol": "solved: 2.8672",
-            "brachistochrone": "solved: 1.80160", "exports": "27)" , "scenario_in_code": "survives",
+            "brachistochrone": "solved: 1.80160", "exports": ", 34) ", "scenario_in_code": "survives",
             "joint_torques": "joint_torques.png"}
 
 
@@ -45,10 +46,7 @@ def test_every_example_runs(example, workplace):
     done = subprocess.run([sys.executable, str(example)], cwd=workplace, capture_output=True,
                           text=True)
     assert done.returncode == 0, done.stderr
-    if example.stem == "exports":
-        assert "(34,)" in done.stdout or ", 34)" in done.stdout
-    else:
-        assert EXPECTED[example.stem] in done.stdout
+    assert EXPECTED[example.stem] in done.stdout
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
