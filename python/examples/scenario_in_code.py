@@ -7,7 +7,8 @@ scenario = possibility.scenario({
     "start": {"action": "walk", "x": 1, "y": 1, "yaw_deg": 0},
     "goal": {"action": "walk", "x": 1.6, "y": 1, "yaw_deg": 0},
     "environment": {"bounds": {"x": [0, 3], "y": [0, 2]},
-                    "ground": [{"name": "floor", "size": [4, 3, 0.5], "position": [1.5, 1, -0.25]}]},
+                    "ground": [{"name": "floor", "size": [4, 3, 0.5],
+                                "position": [1.5, 1, -0.25]}]},
 })
 plan = possibility.plan(scenario, seed=1, time_limit=30).plan
 print(plan, possibility.verify(plan))

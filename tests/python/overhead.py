@@ -45,8 +45,9 @@ def main(program, scenario, pairs=7):
     # Whatever else runs on the machine only adds.
     alone = min(imports)
     for name, of in (("least", min), ("median", statistics.median)):
-        print(f"{name} of {len(ours)}: {100 * ((of(ours) - alone) / of(theirs) - 1):+.1f} % without "
-              f"{alone:.2f} s of Python and NumPy")
+        share = (of(ours) - alone) / of(theirs) - 1
+        print(f"{name} of {len(ours)}: {100 * share:+.1f} % without {alone:.2f} s of Python and "
+              "NumPy")
 
 
 main(*sys.argv[1:])

@@ -45,6 +45,6 @@ def test_ctrl_c_ends_work_at_once(work, delay):
     os.kill(child.pid, signal.SIGINT)
     word, at = child.stdout.readline().split()
     assert word == "interrupted"
-    # On an idle machine 10 ms (docs/python.md); here only that nothing is waited for.
+    # docs/python.md has the times; here only that the work itself is not waited for.
     assert float(at) - sent < 2
     assert child.wait(timeout=60) == 0

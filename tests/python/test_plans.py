@@ -23,23 +23,21 @@ def test_arrays_of_segments_and_phases_are_views(plan):
     for segment in plan.segments:
         for name in ("t", "q", "v", "a", "tau"):
             whole = getattr(plan, name)
-            assert getattr(plan, name) is not None
             assert np.shares_memory(getattr(segment, name), whole)
             assert np.shares_memory(getattr(segment.phases[0], name), whole)
     assert np.array_equal(np.concatenate([segment.q for segment in plan.segments]), plan.q)
 
 
 def test_stacked_arrays_are_made_once(plan):
-    address = plan.tau.__array_interface__["data"][0]
-    assert plan.tau.__array_interface__["data"][0] == address
-    assert plan.segments[0].tau.__array_interface__["data"][0] == address
+    first, second = plan.tau, plan.tau
+    assert first is not second and np.shares_memory(first, second)
 
 
 def test_knots_are_views_of_the_plans_memory(plan):
     knot = plan.segments[0].phases[0].knots[1]
     assert not knot.q.flags.owndata
-    assert np.shares_memory(knot.q, knot.q)
-    assert knot.q.__array_interface__["data"] == knot.q.__array_interface__["data"]
+    first, second = knot.q, knot.q  # two views of the same numbers
+    assert first is not second and np.shares_memory(first, second)
     assert np.array_equal(knot.q, plan.segments[0].q[1])
     assert np.array_equal(knot.tau, plan.segments[0].tau[1])
     assert knot.t == plan.segments[0].t[1]
@@ -117,10 +115,9 @@ def test_csv_holds_the_same_numbers(plan, tmp_path):
     plan.export(csv=tmp_path / "tables")
     with open(tmp_path / "tables/trajectory.csv") as file:
         rows = list(csv.reader(file))
-    column = rows[0].index("q[7]") if "q[7]" in rows[0] else 1
     assert len(rows) == 1 + len(plan)
     times = np.array([float(row[0]) for row in rows[1:]])
-    assert np.allclose(times, plan.t, atol=1e-9) and column > 0
+    assert np.allclose(times, plan.t, atol=1e-9)
 
 
 def test_period_sets_the_samples(plan, tmp_path):
