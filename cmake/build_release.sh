@@ -2,7 +2,8 @@
 # Installs what is missing, configures and builds the release preset: all of it, or the targets
 # named. Says nothing unless something fails, so that a program's output stays its own; only who
 # watches a terminal sees how far it is.
-#   build_release.sh [--with-tests] [TARGET...]   --with-tests: packages that only tests use, too
+#   build_release.sh [--with-tests | --with-python] [TARGET...]
+#     --with-tests: packages that only tests use, too; --with-python: those of `import possibility`
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -42,17 +43,18 @@ build() {
   fi
 }
 
-for_tests=""
-if [ "${1-}" = --with-tests ]; then
-  for_tests=$1
-  shift
-fi
+also=""
+case "${1-}" in
+  --with-*)
+    also=$1
+    shift ;;
+esac
 
 cd "$root"
 installed=""
 # Where packages cannot be asked about, say once what is needed.
 if [ ! -f build/release/build.ninja ] || command -v dpkg-query >/dev/null; then
-  installed=$(sh cmake/install_packages.sh $for_tests)
+  installed=$(sh cmake/install_packages.sh $also)
 fi
 # What has just been installed is found by configuring again.
 if [ ! -f build/release/build.ninja ] || [ -n "$installed" ]; then

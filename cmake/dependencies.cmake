@@ -25,3 +25,22 @@ find_library(SUNDIALS_CVODE_STATIC_LIBRARY libsundials_cvode.a REQUIRED)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
 endif()
+
+# Python and pybind11: only for `import possibility`, which is left out without them.
+set(POSSIBILITY_PYTHON_FOUND FALSE)
+if(POSSIBILITY_PYTHON AND POSSIBILITY_SANITIZE)
+  message(STATUS "The Python package is left out of builds with sanitizers: python3 has none")
+elseif(POSSIBILITY_PYTHON)
+  # Debian's, to which the packages belong, before others; -DPython_EXECUTABLE=... chooses.
+  find_program(Python_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    find_package(pybind11 QUIET)
+  endif()
+  if(Python_FOUND AND pybind11_FOUND)
+    set(POSSIBILITY_PYTHON_FOUND TRUE)
+  else()
+    message(STATUS "pybind11 or Python (pybind11-dev, python3-dev) is not installed: "
+                   "the Python package is left out")
+  endif()
+endif()

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs the system packages that the build needs, if any is missing (Debian 12), and says on
 # standard output which it has installed.
-#   --with-tests   also what tests are better off with: goes on without it if it cannot be had
+#   --with-tests    also what tests are better off with: goes on without it if it cannot be had
+#   --with-python   also what `import possibility` and its examples need
 set -eu
 
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev libsimbody-dev
@@ -9,10 +10,13 @@ coinor-libipopt-dev libsundials-dev libbullet-dev liburdfdom-dev libtinyxml2-dev
 libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libmuparser-dev
 libxxhash-dev libassimp-dev libpng-dev zlib1g-dev libzstd-dev libjs-three libopenblas0-serial"
 
+python="pybind11-dev python3-dev python3-numpy python3-matplotlib"
+
 case "${1-}" in
   "") optional="" ;;
-  --with-tests) optional="libdart-dev libompl-dev libnlopt-dev libmujoco-dev python3-dartpy python3-numpy python3-yaml" ;;
-  *) echo "usage: install_packages.sh [--with-tests]" >&2; exit 1 ;;
+  --with-python) packages="$packages $python"; optional="" ;;
+  --with-tests) optional="$python python3-pytest libdart-dev libompl-dev libnlopt-dev libmujoco-dev python3-dartpy python3-yaml" ;;
+  *) echo "usage: install_packages.sh [--with-tests | --with-python]" >&2; exit 1 ;;
 esac
 
 # Without dpkg nothing can be asked; configuring names what it does not find.

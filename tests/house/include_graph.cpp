@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const kFloors[] = {"common", "models",  "dynamics",   "collocation",
-                               "graph",  "actions", "experiments"};
+const char* const kFloors[] = {"common", "models",  "dynamics",    "collocation",
+                               "graph",  "actions", "experiments", "python"};
 
 std::string TextOf(const fs::path& file) {
   std::ostringstream text;

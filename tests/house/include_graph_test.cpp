@@ -38,6 +38,9 @@ TEST(IncludeGraphTest, FloorsIncludeFromTheSameFloorOrBelowOnly) {
       {"actions", {"common", "models", "dynamics", "collocation", "graph", "actions"}},
       {"experiments",
        {"common", "models", "dynamics", "collocation", "graph", "actions", "experiments"}},
+      {"python",
+       {"common", "models", "dynamics", "collocation", "graph", "actions", "experiments",
+        "python"}},
   };
   for (const auto& [room, used] : Sources()) {
     for (const std::string& other : used) {
