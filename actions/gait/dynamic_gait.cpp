@@ -45,11 +45,13 @@ constexpr double kRises[] = {0.14, 0.105, 0.07, 0.035, 0};
 constexpr double kSlowPace = 0.6;
 
 /// Family of paces of a gait, quickest first.
-std::vector<Pace> Candidates(const models::GaitParameters& parameters, double height) {
+std::vector<Pace> Candidates(const models::GaitParameters& parameters, double height,
+                             std::size_t groups) {
   std::vector<Pace> paces;
   for (const double length : kLengths) {
     for (const double swing : kSwings) {
       Pace pace;
+      pace.groups = static_cast<int>(groups);
       pace.bounds = {length * parameters.forward, parameters.lateral, parameters.turn};
       pace.timing.swing = swing * parameters.swing_time;
       pace.timing.swing_length = pace.bounds.forward;
@@ -106,7 +108,9 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
       quasi_static_(robot, stance),
       groups_(SwingGroups(stance)),
       reach_(Reach(stance)),
-      paces_(std::move(paces)) {}
+      paces_(std::move(paces)) {
+  for (Pace& pace : paces_) pace.groups = static_cast<int>(groups_.size());
+}
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
     : DynamicGait(robot, stance, {}) {
@@ -116,7 +120,7 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
 std::vector<Pace> DynamicGait::FittedPaces() const {
   std::vector<Pace> paces;
   for (const Pace& candidate :
-       Candidates(stance_->gait->parameters, stance_->gait->posture.root_height)) {
+       Candidates(stance_->gait->parameters, stance_->gait->posture.root_height, groups_.size())) {
     if (!paces.empty() && candidate.speed() > kSlowPace * paces.front().speed()) continue;
     const std::optional<Pace> pace = Fitted(candidate);
     if (!pace) continue;
@@ -358,8 +362,9 @@ double DynamicGait::DisplacementDuration(const models::GaitParameters& parameter
   // Ahead, groups pass each other. Aside and in turns, one makes a step and the other closes up.
   const StepBounds& bounds = paces_.front().bounds;
   const StepTiming& timing = paces_.front().timing;
-  const auto step = [&timing](double length) {
-    return SwingTime(timing, length) + timing.double_support;
+  const double each = paces_.front().StepsEach();
+  const auto step = [&](double length) {
+    return each * (SwingTime(timing, length) + timing.double_support);
   };
   return std::abs(displacement.x) / bounds.forward * step(bounds.forward) +
          2 * std::abs(displacement.y) / bounds.lateral * step(bounds.lateral) +
