@@ -16,6 +16,9 @@ namespace {
 
 /// Knots of dynamic motion: at most this far apart, s, and at least this many intervals in a phase.
 constexpr double kKnotSpacing = 0.02;
+/// Where limbs swing one by one, three points may bear: what is missing between knots falls on few
+/// forces, some of them small and near the edge of their cones.
+constexpr double kFineKnotSpacing = 0.01;
 constexpr int kLeastIntervals = 4;
 
 /// Fitted paces leave this share of joint speeds and torques, and this much more distance
@@ -130,11 +133,15 @@ std::vector<Pace> DynamicGait::FittedPaces() const {
   return paces;
 }
 
+double DynamicGait::KnotSpacing() const {
+  return groups_.size() > 2 ? kFineKnotSpacing : kKnotSpacing;
+}
+
 bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
   MotionSettings settings;
   settings.speed_margin = kFitMargin;
   settings.torque_margin = kFitMargin;
-  settings.knot_spacing = kKnotSpacing;
+  settings.knot_spacing = KnotSpacing();
   settings.minimum_intervals = kLeastIntervals;
   try {
     Demands demands = DemandsOf(settings, {});
@@ -284,7 +291,7 @@ std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strid
                                             const FlowEnd& end, double knot_spacing,
                                             const CancellationToken& cancellation) const {
   MotionSettings settings;
-  settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
+  settings.knot_spacing = std::min(knot_spacing, KnotSpacing());
   settings.minimum_intervals = kLeastIntervals;
   Demands demands = DemandsOf(settings, end);
   std::string fault = "no pace fits";
