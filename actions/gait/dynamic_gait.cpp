@@ -16,6 +16,9 @@ namespace {
 
 /// Knots of dynamic motion: at most this far apart, s, and at least this many intervals in a phase.
 constexpr double kKnotSpacing = 0.02;
+/// Where limbs swing one by one, three points may bear: what is missing between knots falls on few
+/// forces, some of them small and near the edge of their cones.
+constexpr double kFineKnotSpacing = 0.01;
 constexpr int kLeastIntervals = 4;
 
 /// Fitted paces leave this share of joint speeds and torques, and this much more distance
@@ -45,11 +48,13 @@ constexpr double kRises[] = {0.14, 0.105, 0.07, 0.035, 0};
 constexpr double kSlowPace = 0.6;
 
 /// Family of paces of a gait, quickest first.
-std::vector<Pace> Candidates(const models::GaitParameters& parameters, double height) {
+std::vector<Pace> Candidates(const models::GaitParameters& parameters, double height,
+                             std::size_t groups) {
   std::vector<Pace> paces;
   for (const double length : kLengths) {
     for (const double swing : kSwings) {
       Pace pace;
+      pace.groups = static_cast<int>(groups);
       pace.bounds = {length * parameters.forward, parameters.lateral, parameters.turn};
       pace.timing.swing = swing * parameters.swing_time;
       pace.timing.swing_length = pace.bounds.forward;
@@ -106,7 +111,9 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
       quasi_static_(robot, stance),
       groups_(SwingGroups(stance)),
       reach_(Reach(stance)),
-      paces_(std::move(paces)) {}
+      paces_(std::move(paces)) {
+  for (Pace& pace : paces_) pace.groups = static_cast<int>(groups_.size());
+}
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
     : DynamicGait(robot, stance, {}) {
@@ -116,7 +123,7 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
 std::vector<Pace> DynamicGait::FittedPaces() const {
   std::vector<Pace> paces;
   for (const Pace& candidate :
-       Candidates(stance_->gait->parameters, stance_->gait->posture.root_height)) {
+       Candidates(stance_->gait->parameters, stance_->gait->posture.root_height, groups_.size())) {
     if (!paces.empty() && candidate.speed() > kSlowPace * paces.front().speed()) continue;
     const std::optional<Pace> pace = Fitted(candidate);
     if (!pace) continue;
@@ -126,11 +133,15 @@ std::vector<Pace> DynamicGait::FittedPaces() const {
   return paces;
 }
 
+double DynamicGait::KnotSpacing() const {
+  return groups_.size() > 2 ? kFineKnotSpacing : kKnotSpacing;
+}
+
 bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
   MotionSettings settings;
   settings.speed_margin = kFitMargin;
   settings.torque_margin = kFitMargin;
-  settings.knot_spacing = kKnotSpacing;
+  settings.knot_spacing = KnotSpacing();
   settings.minimum_intervals = kLeastIntervals;
   try {
     Demands demands = DemandsOf(settings, {});
@@ -280,7 +291,7 @@ std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strid
                                             const FlowEnd& end, double knot_spacing,
                                             const CancellationToken& cancellation) const {
   MotionSettings settings;
-  settings.knot_spacing = std::min(knot_spacing, kKnotSpacing);
+  settings.knot_spacing = std::min(knot_spacing, KnotSpacing());
   settings.minimum_intervals = kLeastIntervals;
   Demands demands = DemandsOf(settings, end);
   std::string fault = "no pace fits";
@@ -358,8 +369,9 @@ double DynamicGait::DisplacementDuration(const models::GaitParameters& parameter
   // Ahead, groups pass each other. Aside and in turns, one makes a step and the other closes up.
   const StepBounds& bounds = paces_.front().bounds;
   const StepTiming& timing = paces_.front().timing;
-  const auto step = [&timing](double length) {
-    return SwingTime(timing, length) + timing.double_support;
+  const double each = paces_.front().StepsEach();
+  const auto step = [&](double length) {
+    return each * (SwingTime(timing, length) + timing.double_support);
   };
   return std::abs(displacement.x) / bounds.forward * step(bounds.forward) +
          2 * std::abs(displacement.y) / bounds.lateral * step(bounds.lateral) +

@@ -76,6 +76,7 @@ class DynamicGait final : public GaitMotion {
                               const CancellationToken& cancellation) const;
   std::vector<Phase> MotionOf(const Pace& pace, const SteppedWay& way, const Demands& demands,
                               const CancellationToken& cancellation) const;
+  double KnotSpacing() const;  ///< s, at most
   std::vector<Pace> FittedPaces() const;
   /// Whether the robot can repeat a step at this pace, with margins.
   bool Fits(const Pace& pace, const PlanarPose& step) const;

@@ -47,6 +47,13 @@ double MarginOfPair(const NominalStance& stance, int a, int b) {
   return SupportPolygon(points).Margin(stance.centre_of_mass);
 }
 
+/// Whether two limbs together bear on a line or less.
+bool BearOnALine(const NominalStance& stance, const std::vector<int>& limbs) {
+  std::size_t points = 0;
+  for (const int limb : limbs) points += stance.bearing_points[limb].size();
+  return points < 3;
+}
+
 /// A way of straight lines through stances, by a parameter from 0 to its number of lines.
 class Way {
  public:
@@ -190,7 +197,11 @@ std::vector<std::vector<int>> SwingGroups(const NominalStance& stance) {
       best = margin;
       groups = {{0, other}, rest};
     }
-    return groups;
+    const bool balances =
+        std::none_of(groups.begin(), groups.end(),
+                     [&](const std::vector<int>& pair) { return BearOnALine(stance, pair); });
+    if (balances) return groups;
+    groups.clear();
   }
   for (int limb = 0; limb < limbs; ++limb) groups.push_back({limb});
   return groups;

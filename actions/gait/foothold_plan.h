@@ -28,8 +28,8 @@ struct StepTiming {
 double SwingTime(const StepTiming& timing, double length);
 
 /// Groups of limbs that swing together, in turn. Of two limbs each is a group. Four limbs form two
-/// pairs: those whose supports, each on its own, hold the nominal centre of mass best. Otherwise
-/// every limb is a group.
+/// pairs: those whose supports, each on its own, hold the nominal centre of mass best. Otherwise,
+/// and where a pair bears on a line (point feet), every limb is a group.
 std::vector<std::vector<int>> SwingGroups(const NominalStance& stance);
 
 /// One swing: the group of limbs, and the stance that they reach.

@@ -3,6 +3,36 @@
 #include <algorithm>
 
 namespace possibility::actions {
+namespace {
+
+/// Sine of the angle between a joint's axis and the part that it turns, below which it twists that
+/// part and does not swing it.
+constexpr double kTwist = 0.3;
+
+/// Whether a joint twists the part from it to p, in the frame that it moves.
+bool Twists(const models::Joint& joint, const Eigen::Vector3d& p) {
+  return joint.type == models::JointType::kRevolute &&
+         joint.axis.cross(p).norm() < kTwist * p.norm();
+}
+
+/// The upper part begins at the last joint before the bend that swings it: hips may have their
+/// twist below.
+void FindUpperPart(const models::RobotModel& robot, const models::GaitLimb& limb, LimbBend* bend) {
+  const auto joint = [&](std::size_t k) -> const models::Joint& {
+    return robot.joints[limb.joints[k]];
+  };
+  std::size_t first = bend->joint - 1;
+  Eigen::Vector3d upper = joint(bend->joint).X_PJ.translation();
+  while (first > 0 && Twists(joint(first), upper) &&
+         joint(first).parent == limb.joints[first - 1] + 1) {
+    upper = joint(first).X_PJ * upper;
+    --first;
+  }
+  bend->before = limb.joints[first] + 1;
+  bend->length = upper.norm() + joint(bend->joint + 1).X_PJ.translation().norm();
+}
+
+}  // namespace
 
 std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::GaitLimb& limb) {
   std::optional<LimbBend> best;
@@ -22,6 +52,7 @@ std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::Ga
     best =
         LimbBend{joint(i).name, i, limb.joints[i - 1] + 1, limb.joints[i + 1] + 1, upper + lower};
   }
+  if (best) FindUpperPart(robot, limb, &*best);
   return best;
 }
 

@@ -12,8 +12,9 @@ namespace possibility::actions {
 struct LimbBend {
   std::string name;
   std::size_t joint = 0;  ///< index into GaitLimb::joints
-  int before = -1;        ///< link that begins at the joint before it; its origin is that joint
-  int after = -1;         ///< likewise at the joint after it
+  int before = -1;        ///< link that begins at the last joint before it that swings the upper
+                          ///< part and does not only twist it; its origin is that joint
+  int after = -1;         ///< link that begins at the joint after it
   double length = 0;      ///< m, from one to the other if stretched
 };
 

@@ -89,8 +89,10 @@ class WalkFit {
     }
     models::RobotModel robot = draft_.robot;
     std::vector<IgnoredPair> ignored = draft_.ignored;
-    for (const IgnoredPair& pair : TouchingPairs(draft_, standing->posture.joints)) {
-      ignored.push_back(pair);
+    if (!draft_.pairs_are_given) {
+      for (const IgnoredPair& pair : TouchingPairs(draft_, standing->posture.joints)) {
+        ignored.push_back(pair);
+      }
     }
     for (const IgnoredPair& pair : ignored) {
       robot.ignored_collisions.emplace_back(pair.link, pair.other);
@@ -231,6 +233,15 @@ class WalkFit {
 };
 
 }  // namespace
+
+std::string TextOf(const FitTrial& trial) {
+  const std::string what = trial.reason.empty()
+                               ? fmt::format("{:.2f} m/s (quicker: {})", trial.speed, trial.binding)
+                               : "no: " + trial.reason;
+  return fmt::format("hips at {:.2f}, feet at {:.2f}, balance {:.1f}, quickness {:.2f}: {}",
+                     trial.choice.extension, trial.choice.spread, trial.margin, trial.quickness,
+                     what);
+}
 
 std::vector<FittedGait> FitWalk(const RobotDraft& draft, double seconds, double enough,
                                 std::vector<FitTrial>* trials,

@@ -21,6 +21,9 @@ struct FitTrial {
   std::string binding;  ///< what forbids a quicker pace
 };
 
+/// In one line.
+std::string TextOf(const FitTrial& trial);
+
 /// A gait on two feet whose strides and paces the robot can make.
 struct FittedGait {
   models::Gait gait;

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 
+#include "actions/onboarding/leg_measures.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/facts/sole.h"
 #include "models/facts/zero_poses.h"
@@ -181,7 +182,9 @@ class Drafter {
                       sole.points.size(), 1e4 * sole.area, robot_.links[link].name,
                       sole.depth > 1e-6 ? fmt::format(" to {:.1f} mm", 1e3 * sole.depth) : ""));
     }
-    MeasureLegs(X_RL);
+    MeasureLegs(&draft_);
+    draft_.findings.push_back(
+        fmt::format("legs {:.3f} m long, {:.1f} kg in all", draft_.leg_length, robot_.TotalMass()));
   }
 
   /// `R_RL`: at zero; turned so that the sole is level if it is not there.
@@ -235,34 +238,6 @@ class Drafter {
         fmt::format("the sole of link '{}' is tilted by {:.1f} degrees with all "
                     "joints at 0",
                     link.name, tilt * 180 / std::numbers::pi));
-  }
-
-  void MeasureLegs(const std::vector<Eigen::Isometry3d>& X_RL) {
-    const models::ContactPatch& left = robot_.contacts[0];
-    const Vector3d sole = X_RL[left.link] * left.Centre();
-    const Vector3d hip = X_RL[draft_.left_leg.front() + 1].translation();
-    draft_.leg_length = hip.z() - sole.z();
-    if (!(draft_.leg_length > 0.02)) Fail("the soles are not below the hips with all joints at 0");
-    const Eigen::Matrix3d level =
-        Eigen::Quaterniond::FromTwoVectors(X_RL[left.link].linear() * left.normal_L,
-                                           -Vector3d::UnitZ()) *
-        X_RL[left.link].linear();
-    const auto extent = [&](double angle) {
-      const Vector3d direction(std::cos(angle), std::sin(angle), 0);
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (const Vector3d& p : left.points) {
-        low = std::min(low, direction.dot(level * p));
-        high = std::max(high, direction.dot(level * p));
-      }
-      return high - low;
-    };
-    draft_.sole_breadth = extent(std::numbers::pi / 2);
-    draft_.sole_width = draft_.sole_breadth;
-    for (int i = 0; i < 36; ++i) {
-      draft_.sole_width = std::min(draft_.sole_width, extent(i * std::numbers::pi / 36));
-    }
-    draft_.findings.push_back(
-        fmt::format("legs {:.3f} m long, {:.1f} kg in all", draft_.leg_length, robot_.TotalMass()));
   }
 
   /// C_N tests the shapes of one link that the root carries.

@@ -38,6 +38,9 @@ struct RobotDraft {
   std::vector<AssumedLimit> efforts, speeds;
   std::vector<std::string> positions;  ///< joints whose limits of position are assumed
   std::vector<IgnoredPair> ignored;
+  bool pairs_are_given = false;  ///< `ignored` is complete: postures add none
+  /// Of joints outside the legs, which then stay; none: 0, and arms are placed.
+  std::optional<Eigen::VectorXd> rest;
   double leg_length = 0;              ///< m: height of the hips above the soles at zero
   double sole_width = 0;              ///< m: least width of the left sole
   double sole_breadth = 0;            ///< m: its extent aside

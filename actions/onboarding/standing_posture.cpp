@@ -44,7 +44,7 @@ class Stander {
   bool Stand(std::string* reason) {
     for (int round = 0; round < kRounds; ++round) {
       if (!PlaceFeet(round == 0, reason)) return false;
-      if (round == 0) joints_ = PostureWithArms(draft_, joints_);
+      if (round == 0 && !draft_.rest) joints_ = PostureWithArms(draft_, joints_);
       VectorXd q(7 + joints_.size());
       q << 1, 0, 0, 0, 0, 0, 0, joints_;
       kinematics_.SetPosition(q);
@@ -61,8 +61,9 @@ class Stander {
   double sole_distance() const { return 2 * half_; }
 
  private:
-  /// All joints at 0, or as near as their limits allow.
+  /// The joints that are given, otherwise 0, or as near as their limits allow.
   VectorXd Rest() const {
+    if (draft_.rest) return *draft_.rest;
     VectorXd rest(draft_.robot.num_joints());
     for (int i = 0; i < rest.size(); ++i) {
       const models::Joint& joint = draft_.robot.joints[i];

@@ -40,10 +40,11 @@ struct ExportFile {
   void (*write)(const ExportSubject&, const ExportSampling&, const std::filesystem::path&);
 };
 
-constexpr ExportFile kFiles[] = {{"--npz", &ExportOptions::npz, "Arrays for NumPy", &WriteNpz},
-                                 {"--mujoco", &ExportOptions::mujoco,
-                                  "Model for MuJoCo with the motion as keyframes", &WriteMujoco},
-                                 {"--sto", &ExportOptions::sto, "Storage for OpenSim", &WriteSto},
+constexpr ExportFile kFiles[] = {
+    {"--npz", &ExportOptions::npz, "Arrays for NumPy", &WriteNpz},
+    {"--mujoco", &ExportOptions::mujoco, "Model for MuJoCo with the motion as keyframes",
+     &WriteMujoco},
+    {"--sto", &ExportOptions::sto, "Storage for OpenSim", &WriteSto},
     {"--mcap", &ExportOptions::mcap, "Recording for Foxglove", &WriteMcap}};
 
 /// Writes every file that is asked for, and prints its name.

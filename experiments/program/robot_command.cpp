@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "actions/onboarding/robot_report.h"
+#include "experiments/program/robot_abilities.h"
+#include "experiments/program/robot_fit.h"
 #include "experiments/program/robot_init.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/standard_streams.h"
@@ -23,7 +25,9 @@ struct RobotOptions {
   std::string srdf;
   std::vector<std::string> packages;
   std::string out;
+  std::string gait = "walk";
   std::string fit_seconds = "90";
+  bool abilities = false;
   bool json = false;
 };
 
@@ -50,8 +54,14 @@ std::filesystem::path RobotFileOf(const std::filesystem::path& path) {
 }
 
 ExitCode RunCheck(const RobotOptions& options) {
-  const models::RobotModel robot = models::LoadRobotModel(RobotFileOf(options.path));
-  const std::vector<actions::RobotFinding> findings = actions::ReportOn(robot);
+  const std::filesystem::path file = RobotFileOf(options.path);
+  const models::RobotModel robot = models::LoadRobotModel(file);
+  std::vector<actions::RobotFinding> findings = actions::ReportOn(robot);
+  if (options.abilities) {
+    const std::vector<actions::RobotFinding> more =
+        AbilitiesOf(robot, file.parent_path() / "jumps");
+    findings.insert(findings.end(), more.begin(), more.end());
+  }
   int faults = 0;
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const actions::RobotFinding& finding : findings) {
@@ -68,26 +78,41 @@ ExitCode RunCheck(const RobotOptions& options) {
   return faults == 0 ? kDone : kVerificationFailed;
 }
 
+ExitCode RunFit(const RobotOptions& options) {
+  RobotFitOptions fit;
+  fit.robot = RobotFileOf(options.path);
+  fit.gait = options.gait;
+  fit.fit_seconds = ParseSeconds("--fit-seconds", options.fit_seconds);
+  fit.json = options.json;
+  return FitRobot(fit);
+}
+
 ExitCode RunRobot(const RobotOptions& options) {
   if (options.what == "init") return RunInit(options);
   if (options.what == "check") return RunCheck(options);
-  throw InputError(fmt::format("robot: expected init or check, got '{}'", options.what));
+  if (options.what == "fit") return RunFit(options);
+  throw InputError(fmt::format("robot: expected init, check or fit, got '{}'", options.what));
 }
 
 }  // namespace
 
 Command AddRobotCommand(CLI::App& program) {
-  CommandOptions command(
-      program, "robot",
-      "Makes a robot of a URDF (init X.urdf --out DIR), reports on one (check DIR).");
+  CommandOptions command(program, "robot",
+                         "Makes a robot of a URDF (init X.urdf --out DIR), reports on one (check "
+                         "DIR), fits its gait's "
+                         "numbers again (fit DIR).");
   auto options = std::make_shared<RobotOptions>();
-  command.AddRequired("WHAT", &options->what, "init or check");
-  command.AddRequired("PATH", &options->path, "URDF; for check: a robot's YAML or its folder");
+  command.AddRequired("WHAT", &options->what, "init, check or fit");
+  command.AddRequired("PATH", &options->path,
+                      "URDF; for check and fit: a robot's YAML or its folder");
   command.AddOptional("--srdf", &options->srdf, "SRDF: disabled collision pairs");
   command.AddOptional("--packages", &options->packages,
                       "Folder in which package:// is looked for as well");
   command.AddOptional("--out", &options->out, "Folder for the robot");
+  command.AddOptional("--gait", &options->gait, "For fit: the gait on two feet");
   command.AddOptional("--fit-seconds", &options->fit_seconds, "s, for the gait's numbers");
+  command.AddFlag("--abilities", &options->abilities,
+                  "For check: plans walks, steps and a crack of the robot's size");
   command.AddFlag("--json", &options->json, "Print one JSON object");
   return {command, [options] { return RunRobot(*options); }};
 }

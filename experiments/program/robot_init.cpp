@@ -32,15 +32,6 @@ constexpr double kWay = 8;         // lengths of the leg
 constexpr double kEnough = 1.15;   // times the expected speed: the fit stops there
 constexpr double kTimeLimit = 20;  // s, to plan
 
-std::string TrialText(const FitTrial& trial) {
-  const std::string what = trial.reason.empty()
-                               ? fmt::format("{:.2f} m/s (quicker: {})", trial.speed, trial.binding)
-                               : "no: " + trial.reason;
-  return fmt::format("hips at {:.2f}, feet at {:.2f}, balance {:.1f}, quickness {:.2f}: {}",
-                     trial.choice.extension, trial.choice.spread, trial.margin, trial.quickness,
-                     what);
-}
-
 /// The robot's name, safe as a file name.
 std::string SafeName(const fs::path& urdf) {
   std::string name = urdf.stem().string();
@@ -75,8 +66,9 @@ class Init {
   }
 
   std::vector<actions::FittedGait> Fit() {
-    return actions::FitWalk(draft_, options_.fit_seconds, kEnough, &trials_,
-                            [](const FitTrial& trial) { PrintError("{}\n", TrialText(trial)); });
+    return actions::FitWalk(
+        draft_, options_.fit_seconds, kEnough, &trials_,
+        [](const FitTrial& trial) { PrintError("{}\n", actions::TextOf(trial)); });
   }
 
   ExitCode ReportNoWalk() const {

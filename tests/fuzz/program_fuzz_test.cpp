@@ -13,6 +13,7 @@
 #include "models/input/file_contents.h"
 #include "tests/experiments/program_run.h"
 #include "tests/fuzz/case_runner.h"
+#include "tests/fuzz/onboarding_subjects.h"
 #include "tests/fuzz/subjects.h"
 #include "tests/replaced.h"
 
@@ -27,6 +28,7 @@ struct Kind {
   /// Arguments of the program. SPOILT is the file, SOURCE the project's folder.
   std::vector<std::string> commands;
   std::string before = {};  ///< shell commands to run before
+  int many = 100;           ///< cases of the long test
 };
 
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
@@ -56,6 +58,17 @@ const Kind kKinds[] = {
       "--library library"},
      "for f in library/*; do cp spoilt.json $f/reach.json; cp spoilt.json $f/paces_walk.json; "
      "done;"},
+    {"InitUrdf", &InitUrdfSubject, {"robot init SPOILT --out out --fit-seconds 1"}, "", 200},
+    {"InitSrdf",
+     &InitSrdfSubject,
+     {"robot init 'SOURCE/models/t1/t1.urdf' --srdf SPOILT --out out --fit-seconds 1"},
+     "",
+     200},
+    {"InitMesh",
+     &InitMeshSubject,
+     {"robot init whole/robot.urdf --out out --fit-seconds 1"},
+     "cp spoilt.mesh whole/foot.stl;",
+     200},
 };
 
 class ProgramFuzz : public experiments::testing::ProgramRun,
@@ -123,7 +136,7 @@ TEST_P(ProgramFuzz, SpoiltFilesEndWithADocumentedExitCode) { RunCases(20000, 4);
 
 class ProgramFuzzLong : public ProgramFuzz {};
 
-TEST_P(ProgramFuzzLong, SpoiltFilesEndWithADocumentedExitCode) { RunCases(21000, 100); }
+TEST_P(ProgramFuzzLong, SpoiltFilesEndWithADocumentedExitCode) { RunCases(21000, GetParam().many); }
 
 std::string NameOf(const ::testing::TestParamInfo<Kind>& info) { return info.param.name; }
 

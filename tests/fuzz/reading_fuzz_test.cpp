@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "tests/fuzz/case_runner.h"
+#include "tests/fuzz/onboarding_subjects.h"
 #include "tests/fuzz/subjects.h"
 #include "tests/models/temporary_folder.h"
 
@@ -29,7 +30,10 @@ const ReadingKind kReadingKinds[] = {{"Scenario", &ScenarioSubject},
                                      {"Library", &LibrarySubject},
                                      {"Mesh", &MeshSubject},
                                      {"HeightMap", &HeightMapSubject},
-                                     {"Trajectory", &TrajectorySubject}};
+                                     {"Trajectory", &TrajectorySubject},
+                                     {"InitUrdf", &InitUrdfSubject},
+                                     {"InitSrdf", &InitSrdfSubject},
+                                     {"InitMesh", &InitMeshSubject}};
 
 class ReadingFuzz : public ::testing::TestWithParam<ReadingKind> {};
 

@@ -44,6 +44,7 @@ inline const std::vector<CommandRule>& CommandRules() {
       {"docs/python.md", "cmake --install", kExempt, "installs"},
       {"docs/robots.md", "./run robot init", kLong, "fits a gait"},
       {"docs/robots.md", "./run robot check", kLong, "reports on what the command before makes"},
+      {"docs/robots.md", "./run robot fit", kLong, "fits a gait"},
       {"docs/tutorial.md", "./run plan experiments/scenarios/my_room.yaml --seed 7", kExempt,
        "walks only once the reader has raised the bars"},
       {"docs/tutorial_new_action.md", "cmake", kExempt, "builds"},

@@ -5,6 +5,7 @@
 #include "actions/motion/limb_bend.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/drchubo1.h"
+#include "tests/actions/shipped_robots.h"
 
 namespace possibility::actions {
 namespace {
@@ -31,6 +32,30 @@ TEST(LimbReachTest, TheRootIsHighestOverAStraightLeg) {
   const auto highest = reaches[0]->HighestRoot({}, centre, Eigen::Matrix3d::Identity());
   ASSERT_TRUE(highest);
   EXPECT_NEAR(*highest, q[6], 1e-3);  // the knee is a little off the line from hip to ankle
+}
+
+/// T1's hips have their twist below, in the thigh: it begins at the joint above.
+TEST(LimbReachTest, AThighBeginsAboveItsTwist) {
+  const models::RobotModel& robot = RobotNamed("t1").robot();
+  const models::GaitLimb& leg = robot.GaitNamed("walk").limbs[0];
+  const std::optional<LimbBend> bend = BendOf(robot, leg);
+  ASSERT_TRUE(bend);
+  EXPECT_EQ(bend->name, "Left_Knee_Pitch");
+  EXPECT_EQ(robot.joints[bend->before - 1].name, "Left_Hip_Roll");
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(robot.nq());
+  q[0] = 1;
+  dynamics::TreeKinematics kinematics(robot);
+  for (const double twist : {0.0, 0.8}) {
+    q[7 + robot.JointIndex("Left_Hip_Yaw")] = twist;
+    kinematics.SetPosition(q);
+    const auto origin = [&](int link) -> Eigen::Vector3d {
+      return kinematics.X_WL()[link].translation();
+    };
+    const int knee = leg.joints[bend->joint] + 1;
+    EXPECT_NEAR(
+        (origin(knee) - origin(bend->before)).norm() + (origin(bend->after) - origin(knee)).norm(),
+        bend->length, 1e-6);
+  }
 }
 
 TEST(LimbReachTest, WhatIsFartherAwayThanTheLimbIsLongIsOutOfReach) {

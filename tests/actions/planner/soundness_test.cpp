@@ -1,27 +1,15 @@
 // Soundness of C_S (conservative) and C_N (optimistic), against generated motion and the verifier.
 
+#include "tests/actions/planner/soundness.h"
+
 #include <gtest/gtest.h>
 
-#include <random>
-#include <set>
+#include <utility>
 
-#include "actions/verify/verification_report.h"
 #include "tests/actions/drchubo1.h"
-#include "tests/actions/planner/leg_scene.h"
-#include "tests/actions/random_scene.h"
 
 namespace possibility::actions {
 namespace {
-
-RouteLeg RandomExtension(std::mt19937* generator, int gait) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  RouteLeg leg;
-  leg.gait = gait;
-  leg.from = RandomStance(generator, 2.5);
-  leg.to = leg.from *
-           PlanarPose{0.5 * unit(*generator), 0.25 * unit(*generator), 0.5 * unit(*generator)};
-  return leg;
-}
 
 RouteLeg RandomTransition(std::mt19937* generator) {
   RouteLeg leg;
@@ -33,108 +21,46 @@ RouteLeg RandomTransition(std::mt19937* generator) {
   return leg;
 }
 
-/// Turns `count` random legs that meet C_S into motion. Each must verify and meet C_N.
-template <typename MakeLeg>
-void ExpectSufficientLegsVerify(int count, unsigned seed, const MakeLeg& make_leg) {
-  const LocomotionModel& model = DrcHubo1Locomotion();
-  std::mt19937 generator(seed);
-  int verified = 0;
-  while (verified < count) {
-    const LegScene scene(model, RandomEnvironment(&generator, 12));
-    for (int attempt = 0; attempt < 200 && verified < count; ++attempt) {
-      const RouteLeg leg = make_leg(&generator);
-      const QuasiStaticAction& action = scene.action(EndGait(model, leg));
-      const graph::Edge edge = LegEdge(model, leg);
-      if (!action.CS(edge)) continue;
-      EXPECT_TRUE(action.CN(edge));
-      const VerificationReport report = scene.VerifyLeg(leg);
-      ASSERT_TRUE(report.accepted()) << FormatText(report);
-      ++verified;
-    }
-  }
-}
-
-/// Random routes of one gait, each of two to five legs end to end that meet C_S. The robot flows
-/// through bends, where it may leave the volumes of the legs. Each route must have a motion, and it
-/// must verify.
-void ExpectSufficientRoutesVerify(int count, unsigned seed, int gait) {
-  const LocomotionModel& model = DrcHubo1Locomotion();
-  std::mt19937 generator(seed);
-  int verified = 0;
-  while (verified < count) {
-    const LegScene scene(model, RandomEnvironment(&generator, 12));
-    for (int attempt = 0; attempt < 50 && verified < count; ++attempt) {
-      const std::size_t legs = 2 + generator() % 4;
-      Route route;
-      for (int i = 0; i < 40 && route.size() < legs; ++i) {
-        RouteLeg leg = RandomExtension(&generator, gait);
-        if (!route.empty()) {
-          const PlanarPose way = leg.from.Inverse() * leg.to;
-          leg.from = route.back().to;
-          leg.to = leg.from * way;
-        }
-        if (scene.action(gait).CS(LegEdge(model, leg))) route.push_back(leg);
-      }
-      if (route.size() < legs) continue;
-      const VerificationReport report = scene.VerifyRoute(route);
-      ASSERT_TRUE(report.accepted()) << FormatText(report);
-      ++verified;
-    }
-  }
-}
-
-/// Random legs, whether or not they meet C_S. Those that verify must meet C_N. Obstacles are close,
-/// so that C_S often refuses what is possible.
-void ExpectVerifiedLegsMeetNecessaryConditions(int count, unsigned seed) {
-  const LocomotionModel& model = DrcHubo1Locomotion();
-  std::mt19937 generator(seed);
-  int verified = 0, beyond_sufficient = 0;
-  while (verified < count || beyond_sufficient == 0) {
-    const LegScene scene(model, RandomEnvironment(&generator, 40));
-    for (int attempt = 0; attempt < 20; ++attempt) {
-      const RouteLeg leg = RandomExtension(&generator, attempt % 2);
-      if (!scene.VerifyLeg(leg).accepted()) continue;
-      ++verified;
-      const QuasiStaticAction& action = scene.action(EndGait(model, leg));
-      const graph::Edge edge = LegEdge(model, leg);
-      EXPECT_TRUE(action.CN(edge));
-      EXPECT_TRUE(action.CN(edge.from));
-      EXPECT_TRUE(action.CN(edge.to));
-      beyond_sufficient += !action.CS(edge);
-    }
-  }
-}
-
 TEST(SoundnessTest, SufficientWalkingVerifies) {
-  ExpectSufficientLegsVerify(10, 1, [](auto* g) { return RandomExtension(g, 0); });
+  ExpectSufficientLegsVerify(DrcHubo1Locomotion(), 10, 1,
+                             [](auto* g) { return RandomExtension(g, 0); });
 }
 TEST(SoundnessTest, SufficientCrawlingVerifies) {
-  ExpectSufficientLegsVerify(10, 2, [](auto* g) { return RandomExtension(g, 1); });
+  ExpectSufficientLegsVerify(DrcHubo1Locomotion(), 10, 2,
+                             [](auto* g) { return RandomExtension(g, 1); });
 }
 TEST(SoundnessTest, SufficientTransitionsVerify) {
-  ExpectSufficientLegsVerify(6, 3, [](auto* g) { return RandomTransition(g); });
+  ExpectSufficientLegsVerify(DrcHubo1Locomotion(), 6, 3,
+                             [](auto* g) { return RandomTransition(g); });
 }
 TEST(SoundnessTest, RoutesOfSufficientLegsVerify) {
-  ExpectSufficientRoutesVerify(4, 5, 0);
-  ExpectSufficientRoutesVerify(4, 6, 1);
+  ExpectSufficientRoutesVerify(DrcHubo1Locomotion(), 4, 5, 0);
+  ExpectSufficientRoutesVerify(DrcHubo1Locomotion(), 4, 6, 1);
 }
 TEST(SoundnessTest, VerifiedLegsMeetNecessaryConditions) {
-  ExpectVerifiedLegsMeetNecessaryConditions(5, 4);
+  ExpectVerifiedLegsMeetNecessaryConditions(DrcHubo1Locomotion(), 5, 4);
 }
 
 TEST(SoundnessLong, FiveHundredSufficientWalkingEdgesVerify) {
-  ExpectSufficientLegsVerify(500, 11, [](auto* g) { return RandomExtension(g, 0); });
+  ExpectSufficientLegsVerify(DrcHubo1Locomotion(), 500, 11,
+                             [](auto* g) { return RandomExtension(g, 0); });
 }
 TEST(SoundnessLong, FiveHundredSufficientCrawlingEdgesVerify) {
-  ExpectSufficientLegsVerify(500, 12, [](auto* g) { return RandomExtension(g, 1); });
+  ExpectSufficientLegsVerify(DrcHubo1Locomotion(), 500, 12,
+                             [](auto* g) { return RandomExtension(g, 1); });
 }
 TEST(SoundnessLong, FiveHundredSufficientTransitionsVerify) {
-  ExpectSufficientLegsVerify(500, 13, [](auto* g) { return RandomTransition(g); });
+  ExpectSufficientLegsVerify(DrcHubo1Locomotion(), 500, 13,
+                             [](auto* g) { return RandomTransition(g); });
 }
-TEST(SoundnessLong, FiveHundredWalkingRoutesVerify) { ExpectSufficientRoutesVerify(500, 15, 0); }
-TEST(SoundnessLong, FiveHundredCrawlingRoutesVerify) { ExpectSufficientRoutesVerify(500, 16, 1); }
+TEST(SoundnessLong, FiveHundredWalkingRoutesVerify) {
+  ExpectSufficientRoutesVerify(DrcHubo1Locomotion(), 500, 15, 0);
+}
+TEST(SoundnessLong, FiveHundredCrawlingRoutesVerify) {
+  ExpectSufficientRoutesVerify(DrcHubo1Locomotion(), 500, 16, 1);
+}
 TEST(SoundnessLong, VerifiedLegsMeetNecessaryConditions) {
-  ExpectVerifiedLegsMeetNecessaryConditions(200, 14);
+  ExpectVerifiedLegsMeetNecessaryConditions(DrcHubo1Locomotion(), 200, 14);
 }
 
 }  // namespace

@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "actions/verify/verification_report.h"
 #include "tests/actions/plan_mutations.h"
+#include "tests/actions/shipped_robots.h"
 #include "tests/actions/standing_plan.h"
 #include "tests/actions/verify/walk_and_crawl.h"
 
@@ -31,11 +36,36 @@ TEST_P(Sabotage, AMutationOfAWalkingAndCrawlingPlanIsFound) {
   ExpectFound(WalkAndCrawl(), GetParam());
 }
 
+/// Of another robot, on all its feet.
+const VerifierSubject& StandingOf(const std::string& robot) {
+  static std::map<std::string, VerifierSubject> subjects;
+  const auto known = subjects.find(robot);
+  if (known != subjects.end()) return known->second;
+  return subjects[robot] = testing::StandingPlan(RobotNamed(robot).robot().file.string());
+}
+
+/// Point feet have neither corners nor headings, and no other robot than DRC-HUBO1 crawls.
+bool IsPossible(const std::string& mutation, const std::string& robot) {
+  if (mutation == "StartByOtherGait") return false;
+  const bool is_of_soles = mutation == "CornersPull" || mutation == "ScheduleOfOtherHeadings";
+  return !is_of_soles || RobotNamed(robot).robot().contacts.front().points.size() == 4;
+}
+
+TEST_P(Sabotage, AMutationOfEveryRobotsStandingPlanIsFound) {
+  for (const std::string& robot : ShippedRobotNames()) {
+    SCOPED_TRACE(robot);
+    if (!IsPossible(GetParam().name, robot)) continue;
+    ExpectFound(StandingOf(robot), GetParam());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Mutations, Sabotage, ::testing::ValuesIn(PlanMutations()),
                          [](const auto& info) { return info.param.name; });
 
 TEST(SabotageBaseline, TheUntouchedPlansAreAccepted) {
-  for (VerifierSubject subject : {ValidSubject(), WalkAndCrawl()}) {
+  std::vector<VerifierSubject> subjects = {ValidSubject(), WalkAndCrawl()};
+  for (const std::string& robot : ShippedRobotNames()) subjects.push_back(StandingOf(robot));
+  for (VerifierSubject& subject : subjects) {
     subject.plan.schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
     const VerificationReport report = Verify(subject.plan, subject.robot, subject.scenario);
     EXPECT_TRUE(report.accepted()) << FormatText(report);

@@ -9,6 +9,7 @@
 
 #include "tests/experiments/program_run.h"
 #include "tests/models/two_legged_robot.h"
+#include "tests/replaced.h"
 
 namespace possibility::experiments {
 namespace {
@@ -26,7 +27,8 @@ class RobotCommandLong : public RobotCommand {};
 
 TEST_F(RobotCommand, BadInputIsNamedInOneLine) {
   EXPECT_EQ(ExpectRefused("robot init " + kHuboUrdf), "robot init: expected --out DIR\n");
-  EXPECT_EQ(ExpectRefused("robot jump x --out y"), "robot: expected init or check, got 'jump'\n");
+  EXPECT_EQ(ExpectRefused("robot jump x --out y"),
+            "robot: expected init, check or fit, got 'jump'\n");
   EXPECT_EQ(ExpectRefused("robot init none.urdf --out y"), "none.urdf: no such file\n");
   EXPECT_EQ(ExpectRefused("robot init " + kHuboUrdf + " --packages none --out y"),
             "--packages: 'none' is not a folder\n");
@@ -68,6 +70,40 @@ TEST_F(RobotCommandLong, DrcHubo1WalksFromItsUrdfAlone) {
   EXPECT_EQ(Run("verify hubo").code, 0) << Errors();
   const Outcome check = Run("robot check hubo --json");
   EXPECT_EQ(check.code, 0) << check.out;
+}
+
+TEST_F(RobotCommand, FitNamesWhatItCannotFit) {
+  const std::string a1 = POSSIBILITY_SOURCE_DIR "/models/a1/a1.yaml";
+  EXPECT_EQ(ExpectRefused("robot fit " + a1),
+            a1 + ": gaits: 'walk': limbs: expected 2 feet, got 4 limbs\n");
+  EXPECT_NE(ExpectRefused("robot fit " + kHuboYaml + " --gait run").find("'run'"),
+            std::string::npos);
+  EXPECT_EQ(ExpectRefused("robot fit nowhere"), "nowhere: no such file\n");
+}
+
+/// A gait made slow by hand is fitted; comments and everything else stay.
+TEST_F(RobotCommandLong, FitMakesASlowWalkQuick) {
+  const std::string models = POSSIBILITY_SOURCE_DIR "/models/h1_2/";
+  const std::string text = testing::ReadText(models + "h1_2.yaml");
+  const std::string slow = ReplacedEverywhere(text, "swing_time: 0.5197", "swing_time: 1.4");
+  ASSERT_NE(slow, text);
+  std::filesystem::create_directory(folder_ / "robot");
+  Write("robot/robot.yaml", slow);
+  Write("robot/h1_2.urdf", testing::ReadText(models + "h1_2.urdf"));
+  const Outcome outcome = Run("robot fit robot --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(report["written"]);
+  EXPECT_GT(report["speed_fitted"], 1.5 * report["speed_before"].get<double>());
+  const std::string fitted = testing::ReadText(folder_ / "robot/robot.yaml");
+  const std::string head = text.substr(0, text.find("gaits:"));
+  EXPECT_EQ(fitted.substr(0, head.size()), head);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "robot/robot.fitted.yaml"));
+  EXPECT_EQ(Run("robot check robot").code, 0) << Errors();
+  // The numbers are as good as they get.
+  const Outcome again = Run("robot fit robot --json");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_FALSE(nlohmann::json::parse(again.out)["written"]);
 }
 
 TEST_F(RobotCommandLong, TheReportHasAllFindings) {
