@@ -71,13 +71,11 @@ void PlanOnThisThread(PlanningTask* task, const CancellationToken& cancellation)
   task->loaded->scenario = *task->scenario;
   PlanRequest& request = task->request;
   if (request.library.empty()) request.library = task->loaded->robot.file.parent_path() / "jumps";
-  request.progress = [task, cancellation](const PlanProgress& progress) {
-    task->progress.Put(progress);
-    // Simulations, which report that all is verified, know no exceptions.
-    if (progress.stage != "verifying" || progress.fraction < 1) cancellation.ThrowIfCancelled();
-  };
+  request.cancellation = cancellation;
+  request.progress = [task](const PlanProgress& progress) { task->progress.Put(progress); };
   task->result = actions::PlanTraversal(task->loaded->robot, *task->scenario, request);
   request.progress = {};
+  request.cancellation = {};
   task->loaded->plan = std::move(task->result.plan);
 }
 

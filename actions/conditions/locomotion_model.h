@@ -49,7 +49,8 @@ struct LocomotionModel {
 /// Solves the stances, the transitions and the swept volumes of the gaits named in `actions`: those
 /// of the robot's file and of `further`. Jumps in `actions` add nothing. Gaits of one stance get a
 /// transition that stands still. `robot` must outlive the result. `library`: folder of solved
-/// transitions and fitted paces, empty for none. The result does not depend on `threads`.
+/// transitions and fitted paces, empty for none. The result does not depend on `threads`,
+/// all of which ask `cancellation`.
 /// @throws InputError if an action does not exist, if a factory names no gait of the robot, is
 /// empty or makes nothing, or a gait's bounds allow a stride that the robot
 /// cannot execute (every extreme stride is generated and checked here); Cancelled.

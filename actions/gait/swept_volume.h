@@ -60,7 +60,8 @@ struct GaitVolumes {
   }
 };
 
-/// `motion`: of the gait that `stance` belongs to. The result does not depend on `threads`.
+/// `motion`: of the gait that `stance` belongs to. The result does not depend on `threads`,
+/// all of which ask `cancellation`.
 /// @throws InputError naming the stride if the robot cannot execute an extreme stride of the bounds
 /// within its limits and without self-collision; Cancelled.
 GaitVolumes SweepGait(const models::RobotModel& robot, const NominalStance& stance,

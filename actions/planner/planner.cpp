@@ -90,10 +90,9 @@ class TraversalPlanner {
         ground_(scenario.environment, robot.friction),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
-        model_(BuildLocomotionModel(robot, GaitNames(), CancellationToken(deadline_),
-                                    TransitionLibrary(), request.gaits, request.threads)),
-        floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution,
-                CancellationToken(deadline_)) {
+        model_(BuildLocomotionModel(robot, GaitNames(), Until(deadline_), TransitionLibrary(),
+                                    request.gaits, request.threads)),
+        floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution, Until(deadline_)) {
     if (ground_.levels().empty()) {
       throw InputError(fmt::format("{}: environment: there is no level ground to stand on",
                                    scenario_.file.string()));
@@ -136,6 +135,7 @@ class TraversalPlanner {
       try {
         if (Realise(path, &result)) return result;
       } catch (const Cancelled&) {
+        request_.cancellation.ThrowIfCancelled();
         DropMotion(&result.plan);
         SayNo(PlanStatus::kTimeLimit,
               fmt::format("a route was found in {:.2f} s, but time ran out before its motion was "
@@ -149,6 +149,13 @@ class TraversalPlanner {
   }
 
  private:
+  /// Cancels at the deadline, or when the request does.
+  CancellationToken Until(const Deadline& deadline) const {
+    return CancellationToken([deadline, cancellation = request_.cancellation] {
+      return !deadline.Passed() && cancellation.Proceed();
+    });
+  }
+
   /// The factories of the robot's file come first.
   std::vector<ManoeuvreFactory> AllFactories() const {
     std::vector<ManoeuvreFactory> factories =
@@ -188,7 +195,7 @@ class TraversalPlanner {
     context.settings = scenario_.planner;
     context.library = request_.library;
     context.solved_motions = switches_.solved_motions;
-    context.cancellation = CancellationToken(deadline_);
+    context.cancellation = Until(deadline_);
     const std::string where = scenario_.file.string() + ": actions";
     manoeuvres_ = MakeManoeuvres(factories_, ActionNames(), context, where);
     for (const auto& manoeuvre : manoeuvres_) {
@@ -344,11 +351,11 @@ class TraversalPlanner {
     settings.confirmation_threads = std::max(0, request_.threads - 1);
     settings.ask_oracle_after = scenario_.planner.flood_after_cycles;
     if (switches_.improvement) settings.improvement_share = scenario_.planner.improvement_share;
-    if (request_.progress) {
-      settings.progress = [this](const graph::FindPathProgress& progress) {
-        request_.progress({"exploring", progress, 0});
-      };
-    }
+    // Called on this thread: an exception ends the search.
+    settings.progress = [this](const graph::FindPathProgress& progress) {
+      request_.cancellation.ThrowIfCancelled();
+      if (request_.progress) request_.progress({"exploring", progress, 0});
+    };
     return settings;
   }
 
@@ -476,7 +483,7 @@ class TraversalPlanner {
   bool Generate(const Route& route, actions::Plan* plan) {
     try {
       plan->segments = GenerateMotion(
-          model_, scenario_.environment, route, request_.threads, CancellationToken(last_deadline_),
+          model_, scenario_.environment, route, request_.threads, Until(last_deadline_),
           [this](double fraction) { Report("generating motion", fraction); });
       RoundToPlanDigits(plan);
       return true;
@@ -492,7 +499,7 @@ class TraversalPlanner {
   bool IsVerified(const Route& route, PlanResult* result) {
     VerifierSettings settings;
     settings.threads = request_.threads;
-    settings.cancellation = CancellationToken(last_deadline_);
+    settings.cancellation = Until(last_deadline_);
     settings.progress = [this](double fraction) { Report("verifying", fraction); };
     result->verification = Verify(result->plan, robot_, scenario_, settings);
     result->plan.timings.verification_s += result->verification.seconds;
@@ -621,6 +628,7 @@ PlanResult PlanTraversal(const models::RobotModel& robot, const models::Scenario
   try {
     return TraversalPlanner(robot, asked, full).Plan();
   } catch (const Cancelled&) {
+    request.cancellation.ThrowIfCancelled();
     PlanResult result;
     FillHeader(robot, scenario, request, &result.plan);
     SayNo(PlanStatus::kTimeLimit, "time ran out while the robot's swept volumes were computed.",

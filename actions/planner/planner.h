@@ -10,6 +10,7 @@
 #include "actions/plan/plan.h"
 #include "actions/planner/planner_switches.h"
 #include "actions/verify/verifier.h"
+#include "common/cancellation_token.h"
 #include "graph/search/find_path.h"
 #include "models/robot/robot_model.h"
 #include "models/world/scenario.h"
@@ -43,6 +44,8 @@ struct PlanRequest {
   PlannerPreset preset = PlannerPreset::kDefault;
   std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers) unless empty
   std::function<void(const PlanProgress&)> progress;
+  /// Asked from any thread; once it cancels, PlanTraversal throws Cancelled.
+  CancellationToken cancellation;
 };
 
 struct PlanResult {

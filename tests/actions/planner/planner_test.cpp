@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "actions/plan/plan_rounding.h"
@@ -261,6 +263,30 @@ TEST(PlannerLong, OneSeedAndOneThreadGiveTheSameBytesWithJumps) {
     EXPECT_TRUE(first == second);
   }
   std::filesystem::remove(file);
+}
+
+/// From preparation to verification, in one thread and in three.
+TEST(PlannerCancellation, WhereverItComesTheRequestThrows) {
+  const models::Scenario scenario = ShippedScenario("crack");
+  std::int64_t asked = 0;
+  const auto plan = [&](int threads, std::int64_t last) {
+    std::atomic<std::int64_t> questions = 0;
+    PlanRequest request = Request(1, {"walk"});
+    request.threads = threads;
+    request.cancellation = CancellationToken([&questions, last] { return ++questions <= last; });
+    const PlanStatus status = PlanTraversal(DrcHubo1(), scenario, request).status;
+    asked = questions;
+    return status;
+  };
+  ASSERT_EQ(plan(1, std::numeric_limits<std::int64_t>::max()), PlanStatus::kFound);
+  const std::int64_t all = asked;
+  ASSERT_GT(all, 100);
+  for (const int threads : {1, 3}) {
+    for (const double share : {0.0, 0.1, 0.3, 0.5, 0.7}) {
+      const auto last = static_cast<std::int64_t>(share * static_cast<double>(all));
+      EXPECT_THROW(plan(threads, last), Cancelled) << threads << " threads, " << share;
+    }
+  }
 }
 
 }  // namespace
