@@ -37,6 +37,10 @@ constexpr double kRoughness = 0.3e-3;
 constexpr double kSelfDistance = 0.003;
 constexpr double kLeastSelfDistance = 0.001;
 
+/// Of every bearing point, as a share of the weight. On steep ground it costs friction: what a
+/// point bears at least has no part in balance.
+constexpr double kLeastLoad = 0.01;
+
 /// The root as high as the legs reach: more than that above the stance, as a share of its height.
 constexpr double kTall = 0.21;
 
@@ -207,6 +211,7 @@ std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, 
   MotionSettings settings;
   settings.knot_spacing = kKnotSpacing;
   settings.torque_margin = style.torque_margin;
+  settings.normal_reserve = style.least_load;
   settings.minimum_intervals = kLeastIntervals;
   std::vector<Phase> motion =
       MotionBuilder(*robot_, settings)
@@ -270,9 +275,9 @@ std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  const CancellationToken& cancellation) const {
   const double tall = kTall * stance_->gait->posture.root_height;
   FootstepError fault("no steps", -1);
-  for (const Style& style :
-       {Style{tall, 0, 0.16, 0.95, kSelfDistance}, Style{tall, -0.1, 0.16, 0.95, kSelfDistance},
-        Style{tall, -0.15, 0.14, 0.99, kLeastSelfDistance}}) {
+  for (const Style& style : {Style{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad},
+                             Style{tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad},
+                             Style{tall, -0.15, 0.14, 0.99, kLeastSelfDistance, kLeastLoad / 4}}) {
     try {
       return BuildIn(style, start, steps, cancellation);
     } catch (const FootstepError& error) {

@@ -61,6 +61,7 @@ class FootstepMotion {
     double spacing = 0;        ///< PatternSettings::height_spacing
     double torque_margin = 0;  ///< MotionSettings
     double self_distance = 0;  ///< m, between links
+    double least_load = 0;     ///< MotionSettings::normal_reserve
   };
 
   std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,

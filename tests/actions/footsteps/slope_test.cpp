@@ -141,22 +141,33 @@ TEST(Slope, TheWholeMotionMeetsTheNecessaryConditions) {
 }
 
 /// The plan of steps over the ridge, as the verifier reads it.
-testing::VerifierSubject SharedPlan() {
-  const OverARidge& ridge = SharedRidge();
+testing::VerifierSubject PlanOver(const OverARidge& ridge, const std::vector<Phase>& motion) {
   testing::VerifierSubject subject = testing::PlanWithoutMotion(DrcHubo1().file.string());
   subject.scenario.environment = ridge.world().environment;
   subject.scenario.start.x = ridge.start().pose.x;
   subject.scenario.goals[0].x = 3.2;
-  subject.plan.segments.push_back({"walk", SharedMotion()});
+  subject.plan.segments.push_back({"walk", motion});
   subject.plan.schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
   return subject;
 }
 
-TEST(Slope, TheVerifierAcceptsTheMotion) {
-  for (const Violation& violation : testing::Verified(SharedPlan()).violations) {
+testing::VerifierSubject SharedPlan() { return PlanOver(SharedRidge(), SharedMotion()); }
+
+void ExpectAccepted(const testing::VerifierSubject& subject) {
+  for (const Violation& violation : testing::Verified(subject).violations) {
     ADD_FAILURE() << ToString(violation.kind) << ": " << violation.quantity << ", "
                   << violation.value << " (limit " << violation.limit << ") at " << violation.time;
   }
+}
+
+TEST(Slope, TheVerifierAcceptsTheMotion) { ExpectAccepted(SharedPlan()); }
+
+/// The steepest one: the loads that every point bears at least leave too little friction to balance
+/// with, unless they are less than elsewhere.
+TEST(Slope, OneOfTwentyFiveDegreesIsCrossed) {
+  const OverARidge ridge(25);
+  ASSERT_TRUE(ridge.is_found());
+  ExpectAccepted(PlanOver(ridge, ridge.Motion()));
 }
 
 TEST(Slope, TheVerifierWantsFrictionAlongTheSlope) {
