@@ -48,9 +48,13 @@ ExitCode RunInit(const RobotOptions& options) {
   return InitRobot(init);
 }
 
-/// robot.yaml in a folder, or the file itself.
+/// In a folder robot.yaml, or else the YAML that bears the folder's name; or the file itself.
 std::filesystem::path RobotFileOf(const std::filesystem::path& path) {
-  return std::filesystem::is_directory(path) ? path / "robot.yaml" : path;
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(path)) return path;
+  const fs::path named = path / (fs::canonical(path).filename().string() + ".yaml");
+  const fs::path usual = path / "robot.yaml";
+  return !fs::exists(usual) && fs::exists(named) ? named : usual;
 }
 
 ExitCode RunCheck(const RobotOptions& options) {

@@ -76,6 +76,9 @@ TEST_F(RobotCommand, FitNamesWhatItCannotFit) {
   const std::string a1 = POSSIBILITY_SOURCE_DIR "/models/a1/a1.yaml";
   EXPECT_EQ(ExpectRefused("robot fit " + a1),
             a1 + ": gaits: 'walk': limbs: expected 2 feet, got 4 limbs\n");
+  EXPECT_EQ(ExpectRefused("robot fit " POSSIBILITY_SOURCE_DIR "/models/a1"),
+            ExpectRefused("robot fit " + a1))
+      << "the folder's only robot";
   EXPECT_NE(ExpectRefused("robot fit " + kHuboYaml + " --gait run").find("'run'"),
             std::string::npos);
   EXPECT_EQ(ExpectRefused("robot fit nowhere"), "nowhere: no such file\n");
