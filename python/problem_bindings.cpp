@@ -61,6 +61,7 @@ Bounds ToBounds(const Interval& interval) { return {interval.first, interval.sec
 
 std::vector<Bounds> ToBounds(const std::vector<Interval>& intervals) {
   std::vector<Bounds> bounds;
+  bounds.reserve(intervals.size());
   for (const Interval& interval : intervals) bounds.push_back(ToBounds(interval));
   return bounds;
 }

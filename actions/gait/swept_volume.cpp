@@ -129,6 +129,7 @@ void SweptVolume::Add(const models::RobotModel& robot, const std::vector<Eigen::
                       const std::vector<PlanarPose>& frames,
                       const std::vector<Eigen::Isometry3d>& nominal_X_FL) {
   std::vector<Eigen::Isometry3d> X_FW;
+  X_FW.reserve(frames.size());
   for (const PlanarPose& frame : frames) X_FW.push_back(frame.At(0).inverse());
   for (int link = 0; link < robot.num_links(); ++link) {
     for (const models::PosedShape& posed : robot.links[link].shapes) {

@@ -89,6 +89,7 @@ std::string WithYamlEdits(const std::string& text, const std::filesystem::path& 
   }
   const Editor editor(text, file);
   std::vector<Replacement> replacements;
+  replacements.reserve(edits.size());
   for (const YamlEdit& edit : edits) replacements.push_back(editor.Of(root, edit));
   std::stable_sort(replacements.begin(), replacements.end(),
                    [](const Replacement& a, const Replacement& b) { return a.begin > b.begin; });
