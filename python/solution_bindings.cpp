@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collocation/problem/optimal_control_problem.h"
+#include "collocation/solver/status_name.h"
 #include "collocation/study/optimal_control.h"
 #include "python/bindings.h"
 #include "python/interruptible.h"
@@ -20,7 +21,6 @@ namespace py = pybind11;
 using collocation::OptimalControlOptions;
 using collocation::OptimalControlProblem;
 using collocation::OptimalControlResult;
-using collocation::SolverStatus;
 using collocation::TranscriptionScheme;
 using collocation::Variable;
 
@@ -37,32 +37,6 @@ TranscriptionScheme SchemeNamed(const std::string& name, int nodes) {
       "scheme: '" + name +
       "', expected trapezoidal, hermite_simpson, hermite_simpson_compressed, gauss_lobatto, "
       "legendre_gauss or flipped_radau");
-}
-
-const char* ToWord(SolverStatus status) {
-  switch (status) {
-    case SolverStatus::kSolved:
-      return "solved";
-    case SolverStatus::kAcceptable:
-      return "acceptable";
-    case SolverStatus::kInfeasible:
-      return "infeasible";
-    case SolverStatus::kUnbounded:
-      return "unbounded";
-    case SolverStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolverStatus::kTimeLimit:
-      return "time_limit";
-    case SolverStatus::kCancelled:
-      return "cancelled";
-    case SolverStatus::kInvalidNumber:
-      return "invalid_number";
-    case SolverStatus::kWrongDerivative:
-      return "wrong_derivative";
-    case SolverStatus::kFailed:
-      break;
-  }
-  return "failed";
 }
 
 OptimalControlOptions OptionsOf(const py::dict& given) {
@@ -112,8 +86,10 @@ Array TimesOf(const OptimalControlResult& solution, std::size_t index) {
 
 void BindSolutions(py::module_& module) {
   py::class_<OptimalControlResult, std::shared_ptr<OptimalControlResult>>(module, "SolutionData")
-      .def_property_readonly(
-          "status", [](const OptimalControlResult& solution) { return ToWord(solution.status); })
+      .def_property_readonly("status",
+                             [](const OptimalControlResult& solution) {
+                               return collocation::StatusName(solution.status);
+                             })
       .def_property_readonly("succeeded", &OptimalControlResult::succeeded)
       .def_readonly("message", &OptimalControlResult::message)
       .def_readonly("objective", &OptimalControlResult::objective)

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 
+#include "collocation/solver/status_name.h"
 #include "experiments/regression/work_precision.h"
 
 namespace possibility::experiments {
@@ -39,7 +40,7 @@ void LookUp(const RegressionProblem& problem, RegressionRecord* record) {
 }
 
 void CopyResult(const OptimalControlResult& result, RegressionRecord* record) {
-  record->status = StatusName(result.status);
+  record->status = collocation::StatusName(result.status);
   record->message = result.message;
   record->objective = result.objective;
   record->iterations = result.iterations;
@@ -78,32 +79,6 @@ std::string Line(const RegressionRecord& record) {
 }
 
 }  // namespace
-
-std::string StatusName(SolverStatus status) {
-  switch (status) {
-    case SolverStatus::kSolved:
-      return "solved";
-    case SolverStatus::kAcceptable:
-      return "acceptable";
-    case SolverStatus::kInfeasible:
-      return "infeasible";
-    case SolverStatus::kUnbounded:
-      return "unbounded";
-    case SolverStatus::kIterationLimit:
-      return "iteration_limit";
-    case SolverStatus::kTimeLimit:
-      return "time_limit";
-    case SolverStatus::kCancelled:
-      return "cancelled";
-    case SolverStatus::kInvalidNumber:
-      return "invalid_number";
-    case SolverStatus::kWrongDerivative:
-      return "wrong_derivative";
-    case SolverStatus::kFailed:
-      break;
-  }
-  return "failed";
-}
 
 ordered_json RegressionOptions::Json() const {
   const bool ldlt = linear_solver == collocation::LinearSolver::kSparseLdlt;

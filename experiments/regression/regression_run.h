@@ -78,8 +78,6 @@ struct RegressionReport {
   std::string Text() const;
 };
 
-std::string StatusName(collocation::SolverStatus status);
-
 /// Solves one problem from its stated guess and compares with its known optima. Exceptions of the
 /// problem are recorded.
 RegressionRecord RunProblem(const RegressionProblem& problem, const RegressionOptions& options);
