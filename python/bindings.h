@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "experiments/program/loaded_plan.h"
+#include "experiments/command/loaded_plan.h"
 
 namespace possibility::python {
 

@@ -15,7 +15,7 @@
 #include "actions/verify/verifier.h"
 #include "common/cancellation_token.h"
 #include "common/stopwatch.h"
-#include "experiments/program/perturbation_option.h"
+#include "experiments/command/perturbation_option.h"
 #include "experiments/support/preset_names.h"
 #include "models/input/input_error.h"
 #include "models/robot/robot_yaml.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 
 namespace possibility::actions {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/wholebody/motion_error.h"
 #include "models/shapes/shape.h"
 
 namespace possibility::actions {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "actions/conditions/manoeuvre.h"
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 
 namespace possibility::actions {
 

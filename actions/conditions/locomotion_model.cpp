@@ -11,9 +11,9 @@
 #include "actions/gait/dynamic_gait.h"
 #include "actions/gait/pace_library.h"
 #include "actions/gait/quasi_static_gait.h"
-#include "actions/motion/motion_builder.h"
 #include "actions/transition/transition_motion.h"
 #include "actions/transition/transition_volume.h"
+#include "actions/wholebody/motion_builder.h"
 #include "models/input/input_error.h"
 #include "models/world/scenario.h"
 

@@ -9,8 +9,8 @@
 #include "actions/conditions/reachable_region.h"
 #include "actions/gait/gait_motion.h"
 #include "actions/gait/swept_volume.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/plan/plan.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

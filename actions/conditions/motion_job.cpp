@@ -2,7 +2,8 @@
 
 #include <utility>
 
-#include "actions/motion/motion_collision.h"
+#include "actions/wholebody/motion_collision.h"
+#include "actions/wholebody/motion_error.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::actions {

@@ -2,9 +2,10 @@
 
 #include <exception>
 
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/motion_collision.h"
 #include "actions/motion/motion_folder.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_collision.h"
+#include "actions/wholebody/motion_error.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "collocation/study/stored_solution_writer.h"
 #include "models/world/collision.h"

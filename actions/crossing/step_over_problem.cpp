@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "actions/motion/limb_bend.h"
 #include "actions/spatial/separating_planes.h"
+#include "actions/wholebody/limb_bend.h"
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 

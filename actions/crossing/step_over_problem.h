@@ -5,8 +5,8 @@
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/gait/foothold_plan.h"
-#include "actions/motion/planar_pose.h"
 #include "actions/spatial/spatial_solver.h"
+#include "actions/wholebody/planar_pose.h"
 #include "collocation/robot/contact_sequence.h"
 #include "models/robot/contact_schedule.h"
 #include "models/robot/robot_model.h"

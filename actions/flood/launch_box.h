@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "actions/conditions/locomotion_model.h"
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 #include "models/world/ground_map.h"
 
 namespace possibility::actions {

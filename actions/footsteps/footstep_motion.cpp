@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "actions/motion/pattern_motion.h"
+#include "actions/wholebody/motion_error.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {

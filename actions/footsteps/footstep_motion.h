@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "actions/footsteps/footstep.h"
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/self_clearance.h"
+#include "actions/footholds/footstep.h"
 #include "actions/plan/plan.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/self_clearance.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 

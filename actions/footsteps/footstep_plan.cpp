@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "actions/footsteps/foothold_flood.h"
+#include "actions/footholds/foothold_flood.h"
 #include "actions/footsteps/step_heuristic.h"
 #include "actions/footsteps/step_rules.h"
 

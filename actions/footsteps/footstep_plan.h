@@ -8,8 +8,8 @@
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/quasi_static_action.h"
-#include "actions/footsteps/footstep.h"
-#include "actions/footsteps/step_ground.h"
+#include "actions/footholds/footstep.h"
+#include "actions/footholds/step_ground.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::actions {

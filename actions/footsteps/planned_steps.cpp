@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actions/motion/motion_collision.h"
+#include "actions/wholebody/motion_collision.h"
+#include "actions/wholebody/motion_error.h"
 
 namespace possibility::actions {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "actions/footsteps/foothold_flood.h"
+#include "actions/footholds/foothold_flood.h"
 
 namespace possibility::actions {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "actions/conditions/quasi_static_action.h"
-#include "actions/footsteps/foothold_field.h"
-#include "actions/footsteps/pose_field.h"
-#include "actions/footsteps/step_ground.h"
+#include "actions/footholds/foothold_field.h"
+#include "actions/footholds/pose_field.h"
+#include "actions/footholds/step_ground.h"
 #include "actions/footsteps/step_rules.h"
 #include "common/cancellation_token.h"
 

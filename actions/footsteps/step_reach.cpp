@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/support_polygon.h"
 
 namespace possibility::actions {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "actions/footsteps/footstep.h"
-#include "actions/motion/limb_reach.h"
-#include "actions/motion/nominal_stance.h"
+#include "actions/footholds/footstep.h"
+#include "actions/wholebody/limb_reach.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "actions/footsteps/footstep.h"
+#include "actions/footholds/footstep.h"
 
 namespace possibility::actions {
 

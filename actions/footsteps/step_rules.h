@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "actions/conditions/locomotion_model.h"
-#include "actions/footsteps/foothold_ground.h"
-#include "actions/footsteps/footstep.h"
-#include "actions/footsteps/step_ground.h"
+#include "actions/footholds/foothold_ground.h"
+#include "actions/footholds/footstep.h"
+#include "actions/footholds/step_ground.h"
 #include "actions/footsteps/step_reach.h"
 #include "models/shapes/upright_boxes.h"
 #include "models/world/collision.h"

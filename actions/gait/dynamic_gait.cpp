@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "actions/motion/phase_sequence.h"
+#include "actions/wholebody/motion_error.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {

@@ -8,9 +8,9 @@
 #include "actions/gait/pace.h"
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/gait/stepped_way.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/motion/pattern_motion.h"
-#include "actions/motion/self_clearance.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/self_clearance.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

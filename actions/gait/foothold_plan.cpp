@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/support_polygon.h"
 
 namespace possibility::actions {
 namespace {

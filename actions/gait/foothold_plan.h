@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/planar_pose.h"
 #include "models/robot/contact_schedule.h"
 
 namespace possibility::actions {

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "actions/gait/stride.h"
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/planar_pose.h"
 #include "actions/plan/plan.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/planar_pose.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 

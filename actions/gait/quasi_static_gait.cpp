@@ -5,7 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/support_polygon.h"
 
 namespace possibility::actions {
 namespace {

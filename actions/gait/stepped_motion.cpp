@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "actions/gait/stride.h"
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/support_polygon.h"
 
 namespace possibility::actions {
 

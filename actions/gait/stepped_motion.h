@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "actions/gait/quasi_static_gait.h"
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/planar_pose.h"
 #include "actions/plan/plan.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/planar_pose.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 

@@ -6,7 +6,8 @@
 #include <map>
 #include <set>
 
-#include "actions/motion/whole_body_task.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/whole_body_task.h"
 
 namespace possibility::actions {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "actions/gait/foothold_plan.h"
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/planar_pose.h"
 
 namespace possibility::actions {
 

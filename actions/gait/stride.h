@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

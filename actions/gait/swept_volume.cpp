@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actions/wholebody/motion_error.h"
 #include "common/run_on_threads.h"
 #include "models/input/input_error.h"
 #include "models/world/collision.h"

@@ -6,7 +6,7 @@
 
 #include "actions/gait/gait_motion.h"
 #include "actions/gait/stride.h"
-#include "actions/motion/motion_builder.h"
+#include "actions/wholebody/motion_builder.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 

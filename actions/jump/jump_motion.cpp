@@ -11,6 +11,7 @@
 #include "actions/motion/free_flight.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/motion/toe_roll.h"
+#include "actions/wholebody/motion_error.h"
 #include "dynamics/contact/contact_feasibility.h"
 #include "dynamics/forward/forward_dynamics.h"
 

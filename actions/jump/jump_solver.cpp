@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "actions/sagittal/bare_ground.h"
+#include "actions/wholebody/motion_error.h"
 #include "collocation/study/optimal_control.h"
 #include "common/stopwatch.h"
 

@@ -7,6 +7,7 @@
 #include "actions/jump/jump_reach.h"
 #include "actions/jump/shared_jump_solve.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/wholebody/motion_error.h"
 
 namespace possibility::actions {
 namespace {

@@ -10,7 +10,7 @@
 #include "actions/conditions/pelvis_clearance.h"
 #include "actions/jump/jump_library.h"
 #include "actions/jump/jump_solver.h"
-#include "actions/motion/motion_collision.h"
+#include "actions/wholebody/motion_collision.h"
 #include "models/world/collision.h"
 
 namespace possibility::actions {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "actions/motion/signal.h"
 #include "actions/plan/plan.h"
+#include "actions/wholebody/signal.h"
 #include "dynamics/tree/multibody_dynamics.h"
 #include "dynamics/tree/tree_kinematics.h"
 

@@ -10,15 +10,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "actions/motion/limb_reach.h"
-#include "actions/motion/limb_tilt.h"
 #include "actions/motion/pendulum_spline.h"
-#include "actions/motion/planar_pose.h"
-#include "actions/motion/required_zero_moment_point.h"
 #include "actions/motion/smooth_under.h"
-#include "actions/motion/support_polygon.h"
 #include "actions/motion/swing_path.h"
-#include "actions/motion/whole_body_task.h"
+#include "actions/wholebody/limb_reach.h"
+#include "actions/wholebody/limb_tilt.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/planar_pose.h"
+#include "actions/wholebody/required_zero_moment_point.h"
+#include "actions/wholebody/support_polygon.h"
+#include "actions/wholebody/whole_body_task.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
 namespace possibility::actions {

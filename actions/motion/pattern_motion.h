@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "common/cancellation_token.h"
 #include "models/robot/contact_schedule.h"
 #include "models/robot/robot_model.h"

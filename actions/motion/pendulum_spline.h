@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "actions/motion/signal.h"
+#include "actions/wholebody/signal.h"
 
 namespace possibility::actions {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "actions/motion/planar_pose.h"
 #include "actions/plan/plan.h"
+#include "actions/wholebody/planar_pose.h"
 
 namespace possibility::actions {
 

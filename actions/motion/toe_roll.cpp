@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "actions/motion/force_fault.h"
+#include "actions/wholebody/force_fault.h"
+#include "actions/wholebody/motion_error.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "actions/motion/free_flight.h"
-#include "actions/motion/motion_builder.h"
+#include "actions/wholebody/motion_builder.h"
 #include "dynamics/contact/contact_forces.h"
 #include "dynamics/tree/multibody_dynamics.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "actions/motion/limb_bend.h"
+#include "actions/wholebody/limb_bend.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/facts/zero_poses.h"
 #include "models/robot/rotation_vector.h"

@@ -6,10 +6,11 @@
 
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/gait/swept_volume.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/onboarding/gait_numbers.h"
 #include "actions/onboarding/pace_limits.h"
 #include "actions/onboarding/touching_pairs.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "common/stopwatch.h"
 #include "models/input/input_error.h"
 

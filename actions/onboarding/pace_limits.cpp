@@ -6,7 +6,8 @@
 #include <iterator>
 #include <utility>
 
-#include "actions/motion/motion_builder.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_error.h"
 
 namespace possibility::actions {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "actions/gait/dynamic_gait.h"
 #include "actions/gait/pace.h"
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/planar_pose.h"
-#include "actions/motion/self_clearance.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/planar_pose.h"
+#include "actions/wholebody/self_clearance.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {

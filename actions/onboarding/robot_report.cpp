@@ -10,10 +10,10 @@
 
 #include "actions/gait/dynamic_gait.h"
 #include "actions/gait/swept_volume.h"
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/support_polygon.h"
 #include "actions/onboarding/pace_limits.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/support_polygon.h"
 #include "dynamics/contact/contact_forces.h"
 #include "dynamics/tree/multibody_dynamics.h"
 #include "dynamics/tree/tree_kinematics.h"

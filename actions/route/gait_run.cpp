@@ -7,6 +7,7 @@
 
 #include "actions/gait/stride.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/wholebody/motion_error.h"
 
 namespace possibility::actions {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/footsteps/foothold_flood.h"
+#include "actions/footholds/foothold_flood.h"
 #include "actions/footsteps/footstep_plan.h"
 #include "actions/footsteps/planned_steps.h"
 #include "actions/route/lattice_search.h"

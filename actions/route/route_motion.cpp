@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "actions/gait/quasi_static_gait.h"
-#include "actions/motion/motion_collision.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/route/gait_run.h"
+#include "actions/wholebody/motion_collision.h"
 #include "common/cancellation_token.h"
 #include "models/world/collision.h"
 

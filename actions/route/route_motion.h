@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "actions/motion/motion_builder.h"
 #include "actions/plan/plan.h"
 #include "actions/route/route.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_error.h"
 #include "common/cancellation_token.h"
 #include "models/world/environment.h"
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "actions/motion/motion_collision.h"
 #include "actions/plan/plan.h"
 #include "actions/sagittal/sagittal_model.h"
+#include "actions/wholebody/motion_collision.h"
 #include "models/world/environment.h"
 
 namespace possibility::actions {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/self_clearance.h"
 #include "actions/sagittal/natural_units.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/self_clearance.h"
 #include "dynamics/sagittal/sagittal_reduction.h"
 #include "dynamics/tree/contact_point.h"
 #include "models/robot/robot_model.h"

@@ -8,8 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "actions/motion/motion_collision.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/wholebody/motion_collision.h"
+#include "actions/wholebody/motion_error.h"
 #include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
@@ -26,7 +27,7 @@ constexpr double kPreparation = 1.0;  // s
 constexpr double kPreparationSpeed = 0.9;
 constexpr double kKnotSpacing = 0.01;         // s
 constexpr double kPreparationSpacing = 0.02;  // s: the root rests
-constexpr double kUnbounded = 20;                  // m
+constexpr double kUnbounded = 20;             // m
 constexpr double kCorrection = 0.5;    // s, time until the motion is as planned, if there is time
 constexpr double kTurningSpeed = 0.6;  // of a joint's speed limit, while it turns to the plan
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/plan/plan.h"
 #include "actions/sagittal/sagittal_model.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "collocation/transcription/transcription.h"
 
 namespace possibility::actions {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "actions/motion/limb_bend.h"
 #include "actions/spatial/core_corners.h"
+#include "actions/wholebody/limb_bend.h"
 #include "collocation/problem/function.h"
 #include "collocation/robot/turning_plane.h"
 #include "dynamics/tree/base_joints.h"

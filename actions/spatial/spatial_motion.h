@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "actions/motion/motion_builder.h"
+#include "actions/wholebody/motion_builder.h"
 #include "collocation/robot/multibody_functions.h"
 #include "collocation/transcription/trajectory.h"
 #include "models/robot/contact_schedule.h"

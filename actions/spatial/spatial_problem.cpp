@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "actions/motion/limb_bend.h"
+#include "actions/wholebody/limb_bend.h"
 #include "collocation/problem/function.h"
 #include "collocation/robot/point_functions.h"
 #include "dynamics/tree/base_joints.h"

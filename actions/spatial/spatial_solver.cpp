@@ -9,9 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "actions/motion/self_clearance.h"
 #include "actions/spatial/separating_planes.h"
 #include "actions/spatial/spatial_motion.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/self_clearance.h"
 
 namespace possibility::actions {
 namespace {

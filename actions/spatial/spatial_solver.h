@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/plan/plan.h"
 #include "actions/spatial/spatial_problem.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "collocation/study/optimal_control.h"
 #include "collocation/study/stored_solution.h"
 #include "common/cancellation_token.h"

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "actions/motion/motion_builder.h"
 #include "actions/motion/motion_folder.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_error.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "collocation/study/stored_solution_writer.h"
 #include "models/input/input_error.h"

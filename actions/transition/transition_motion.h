@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "actions/motion/nominal_stance.h"
-#include "actions/motion/planar_pose.h"
 #include "actions/transition/transition_solver.h"
+#include "actions/wholebody/nominal_stance.h"
+#include "actions/wholebody/planar_pose.h"
 #include "common/cancellation_token.h"
 #include "models/robot/robot_model.h"
 

@@ -1,9 +1,10 @@
 #include "actions/transition/transition_solver.h"
 
-#include "actions/motion/motion_builder.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/sagittal/bare_ground.h"
 #include "actions/sagittal/stance_motion.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/motion_error.h"
 #include "collocation/study/optimal_control.h"
 #include "common/cancellation_token.h"
 

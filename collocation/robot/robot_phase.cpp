@@ -17,7 +17,7 @@ using dynamics::MultibodyModel;
 
 // Typical sizes. The accuracy of a row of the KKT system depends on its scaling.
 constexpr double kSpeed = 5;
-constexpr double kAcceleration = 50;
+constexpr double kAccelerationScale = 50;
 constexpr double kForce = 400;
 constexpr double kTorque = 100;
 
@@ -51,7 +51,7 @@ void AddCoordinates(const MultibodyModel& model, const RobotLimits& limits, Robo
     robot->v.push_back(robot->phase->Rate(robot->q.back()));
     robot->a.push_back(robot->phase->Rate(robot->q.back(), 2));
     robot->phase->SetScale(robot->v.back(), kSpeed);
-    robot->phase->SetScale(robot->a.back(), kAcceleration);
+    robot->phase->SetScale(robot->a.back(), kAccelerationScale);
     robot->phase->Bound(robot->v.back(), {-speed, speed});
     robot->phase->Bound(robot->a.back(), {-acceleration, acceleration});
   }

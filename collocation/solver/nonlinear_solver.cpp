@@ -3,7 +3,7 @@
 namespace possibility::collocation {
 namespace {
 
-class Ipopt : public NonlinearSolver {
+class WrappedIpopt : public NonlinearSolver {
  public:
   std::string name() const override { return "ipopt"; }
   bool has_multipliers() const override { return true; }
@@ -17,7 +17,7 @@ class Ipopt : public NonlinearSolver {
 }  // namespace
 
 const NonlinearSolver& IpoptSolver() {
-  static const Ipopt solver;
+  static const WrappedIpopt solver;
   return solver;
 }
 

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr int kMostColumns = 6;
 
 /// Directions below this fraction of the largest count as rounding.
-constexpr double kRank = 1e-9;
+constexpr double kRigidRank = 1e-9;
 
 bool SamePoint(const ContactPoint& a, const ContactPoint& b) {
   return a.link == b.link && a.p_L == b.p_L;
@@ -44,7 +44,7 @@ MatrixXd OrthonormalBasis(const std::vector<Vector3d>& points) {
     rows.rightCols<3>() = size > 0 ? Cross(-arm / size) : Matrix3d(Matrix3d::Zero());
   }
   Eigen::ColPivHouseholderQR<MatrixXd> factors;
-  factors.setThreshold(kRank);
+  factors.setThreshold(kRigidRank);
   factors.compute(velocities);
   return factors.householderQ() * MatrixXd::Identity(velocities.rows(), factors.rank());
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kPitch = 1;  // index into a tree's velocity: angular about +y
+constexpr int kPitchRate = 1;  // index into a tree's velocity: angular about +y
 constexpr int kX = 3;
 constexpr int kZ = 5;
 
@@ -94,7 +94,7 @@ void MultibodyModel::CoupleBase() {
                        {5, Eigen::Vector3d::UnitZ()}};
       break;
     case Base::kPlanar:
-      couplings_[kPitch].independent = 0;
+      couplings_[kPitchRate].independent = 0;
       couplings_[kX].independent = 1;
       couplings_[kZ].independent = 2;
       translations_ = {{1, Eigen::Vector3d::UnitX()}, {2, Eigen::Vector3d::UnitZ()}};

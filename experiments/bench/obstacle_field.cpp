@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 #include "graph/action/random.h"
 
 namespace possibility::experiments {

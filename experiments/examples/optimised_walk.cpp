@@ -7,8 +7,8 @@
 #include "actions/gait/foothold_plan.h"
 #include "actions/motion/motion_schedule.h"
 #include "actions/motion/phase_sequence.h"
-#include "actions/motion/planar_pose.h"
 #include "actions/spatial/spatial_solver.h"
+#include "actions/wholebody/planar_pose.h"
 #include "models/input/input_error.h"
 
 namespace possibility::actions {

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include "actions/motion/whole_body_task.h"
 #include "actions/plan/plan_writer.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/whole_body_task.h"
 #include "experiments/examples/optimised_walk.h"
 #include "models/input/input_error.h"
 #include "models/robot/robot_yaml.h"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "experiments/exports/csv_tables.h"
-#include "experiments/exports/sample_margins.h"
+#include "experiments/samples/sample_margins.h"
 #include "models/input/atomic_file.h"
 
 namespace possibility::experiments {

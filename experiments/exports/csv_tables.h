@@ -6,8 +6,8 @@
 #include "actions/plan/plan.h"
 #include "actions/verify/plan_margins.h"
 #include "dynamics/tree/tree_kinematics.h"
-#include "experiments/exports/plan_samples.h"
-#include "experiments/exports/quantities.h"
+#include "experiments/samples/plan_samples.h"
+#include "experiments/samples/quantities.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::experiments {

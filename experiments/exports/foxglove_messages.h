@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/exports/plan_samples.h"
+#include "experiments/samples/plan_samples.h"
 #include "models/robot/robot_model.h"
 #include "models/world/environment.h"
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "experiments/exports/export_subject.h"
+#include "experiments/samples/export_subject.h"
 
 namespace possibility::experiments {
 

@@ -10,7 +10,7 @@
 
 #include "dynamics/tree/tree_kinematics.h"
 #include "experiments/exports/mujoco_tree.h"
-#include "experiments/exports/quantities.h"
+#include "experiments/samples/quantities.h"
 #include "models/input/atomic_file.h"
 
 namespace possibility::experiments {

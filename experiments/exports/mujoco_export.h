@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/exports/export_subject.h"
+#include "experiments/samples/export_subject.h"
 
 namespace possibility::experiments {
 

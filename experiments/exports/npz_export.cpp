@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "dynamics/tree/tree_kinematics.h"
-#include "experiments/exports/little_endian.h"
-#include "experiments/exports/quantities.h"
-#include "experiments/exports/sample_margins.h"
-#include "experiments/exports/zip_file.h"
+#include "experiments/formats/little_endian.h"
+#include "experiments/formats/zip_file.h"
+#include "experiments/samples/quantities.h"
+#include "experiments/samples/sample_margins.h"
 
 namespace possibility::experiments {
 namespace {

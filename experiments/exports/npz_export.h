@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "experiments/exports/export_subject.h"
-#include "experiments/exports/npy_array.h"
+#include "experiments/formats/npy_array.h"
+#include "experiments/samples/export_subject.h"
 
 namespace possibility::experiments {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/tree/tree_kinematics.h"
-#include "experiments/exports/plan_samples.h"
+#include "experiments/samples/plan_samples.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::experiments {

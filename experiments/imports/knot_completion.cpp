@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-#include "actions/motion/motion_builder.h"
+#include "actions/wholebody/motion_builder.h"
 #include "dynamics/contact/contact_feasibility.h"
 #include "dynamics/contact/contact_forces.h"
 #include "dynamics/tree/tree_kinematics.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "actions/plan/contact_name.h"
-#include "experiments/exports/quantities.h"
 #include "experiments/imports/knot_completion.h"
 #include "experiments/imports/sample_rates.h"
+#include "experiments/samples/quantities.h"
 #include "models/input/input_error.h"
 
 namespace possibility::experiments {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/exports/quantities.h"
 #include "experiments/imports/csv_records.h"
+#include "experiments/samples/quantities.h"
 #include "models/input/input_error.h"
 #include "models/input/nearest_name.h"
 

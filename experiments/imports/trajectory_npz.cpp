@@ -6,9 +6,9 @@
 #include <map>
 #include <vector>
 
-#include "experiments/exports/npy_array.h"
-#include "experiments/exports/quantities.h"
-#include "experiments/exports/zip_file.h"
+#include "experiments/formats/npy_array.h"
+#include "experiments/formats/zip_file.h"
+#include "experiments/samples/quantities.h"
 #include "models/input/input_error.h"
 #include "models/input/nearest_name.h"
 

@@ -1,8 +1,8 @@
 #include "experiments/legged/walk_from_rest.h"
 
 #include "actions/gait/foothold_plan.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/spatial/spatial_solver.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "experiments/legged/walking_step.h"
 
 namespace possibility::experiments {

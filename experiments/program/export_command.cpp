@@ -6,12 +6,12 @@
 #include <memory>
 #include <string>
 
+#include "experiments/command/loaded_plan.h"
 #include "experiments/exports/csv_export.h"
 #include "experiments/exports/mcap_export.h"
 #include "experiments/exports/mujoco_export.h"
 #include "experiments/exports/npz_export.h"
 #include "experiments/exports/sto_export.h"
-#include "experiments/program/loaded_plan.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/program/report_output.h"
+#include "experiments/command/report_output.h"
 #include "experiments/support/output_file.h"
 #include "experiments/trials/merge.h"
 #include "experiments/trials/results_file.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/program/command.h"
+#include "experiments/command/command.h"
 
 namespace possibility::experiments {
 

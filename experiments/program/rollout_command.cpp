@@ -9,8 +9,8 @@
 
 #include "actions/rollout/perturbed_rollouts.h"
 #include "actions/verify/verifier.h"
-#include "experiments/program/loaded_plan.h"
-#include "experiments/program/perturbation_option.h"
+#include "experiments/command/loaded_plan.h"
+#include "experiments/command/perturbation_option.h"
 #include "experiments/report/rollout_table.h"
 #include "experiments/support/count_line.h"
 #include "experiments/support/hardware_threads.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "actions/crossing/step_over.h"
-#include "experiments/program/report_output.h"
+#include "experiments/command/report_output.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
 #include "experiments/trials/experiment_run.h"

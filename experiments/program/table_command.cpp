@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/program/report_output.h"
+#include "experiments/command/report_output.h"
 #include "experiments/trials/experiment_run.h"
 #include "experiments/trials/row_robots.h"
 #include "experiments/trials/table_report.h"

@@ -7,7 +7,7 @@
 
 #include "actions/verify/verification_report.h"
 #include "actions/verify/verifier.h"
-#include "experiments/program/loaded_plan.h"
+#include "experiments/command/loaded_plan.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/standard_streams.h"
 

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "actions/plan/plan.h"
-#include "experiments/program/loaded_plan.h"
+#include "experiments/command/loaded_plan.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
 #include "experiments/viewer/jump_page.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "actions/jump/jump_library.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/plan/contact_name.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "collocation/study/stored_solution.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "dynamics/tree/tree_kinematics.h"

@@ -11,6 +11,7 @@
 
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
+#include "models/mesh/file_error.h"
 #include "models/mesh/png_heights.h"
 
 namespace possibility::models {
@@ -31,10 +32,6 @@ std::string Printable(std::string_view text) {
     if (const auto u = static_cast<unsigned char>(c); u < 0x20 || u >= 0x7f) c = ' ';
   }
   return shown;
-}
-
-[[noreturn]] void FailAt(const std::filesystem::path& file, const std::string& what) {
-  throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
 void CheckSize(std::size_t rows, std::size_t columns, const std::filesystem::path& file) {

@@ -23,6 +23,7 @@
 
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
+#include "models/mesh/file_error.h"
 #include "models/mesh/separate_process.h"
 #include "models/mesh/triangulation.h"
 
@@ -39,10 +40,6 @@ constexpr unsigned kMostSeconds = 5;
 
 /// Corners of a polygon: the time to cut it grows with their square or faster.
 constexpr unsigned kMostCorners = 1000;
-
-[[noreturn]] void FailAt(const std::filesystem::path& file, const std::string& what) {
-  throw InputError(fmt::format("{}: {}", file.string(), what));
-}
 
 /// The ending of the file's name in lower case, without the dot.
 std::string EndingOf(const std::filesystem::path& file) {

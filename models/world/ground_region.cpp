@@ -12,7 +12,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Every face grows by this on all sides, so that abutting faces overlap; distances then shrink by
 /// it again. Twice this exceeds the gap allowed between abutting faces.
@@ -99,7 +99,7 @@ GroundRegion::Face::Face(const std::vector<Vector2d>& polygon) {
 bool GroundRegion::Face::Contains(const Vector2d& p) const { return Depth(p) >= 0; }
 
 double GroundRegion::Face::Depth(const Vector2d& p) const {
-  double depth = kInfinity;
+  double depth = kUnbounded;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double own = offsets[i] - normals[i].dot(p);
     if (!(own >= depth)) depth = own;
@@ -197,7 +197,7 @@ double GroundRegion::DistanceToBoundary(const Vector2d& p, double at_most) const
 }
 
 double GroundRegion::Clearance(const Vector2d& p) const {
-  const double distance = DistanceToBoundary(p, kInfinity);
+  const double distance = DistanceToBoundary(p, kUnbounded);
   return (IsInside(p) ? distance : -distance) - kGrowth;
 }
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 #include "models/world/scenario.h"
 #include "tests/actions/drchubo1.h"
 

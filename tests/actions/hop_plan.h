@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "actions/motion/free_flight.h"
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
 #include "actions/motion/phase_sequence.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "dynamics/contact/contact_feasibility.h"
 #include "dynamics/forward/forward_dynamics.h"
 #include "models/robot/rotation_vector.h"

@@ -11,7 +11,7 @@
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/conditions/manoeuvre.h"
-#include "actions/motion/signal.h"
+#include "actions/wholebody/signal.h"
 #include "models/world/ground_map.h"
 #include "models/world/scenario.h"
 #include "tests/actions/drchubo1.h"

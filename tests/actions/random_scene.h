@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "actions/motion/planar_pose.h"
+#include "actions/wholebody/planar_pose.h"
 #include "models/world/scenario.h"
 
 namespace possibility::actions {

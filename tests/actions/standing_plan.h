@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "actions/motion/motion_builder.h"
-#include "actions/motion/nominal_stance.h"
+#include "actions/wholebody/motion_builder.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "models/robot/robot_model.h"
 #include "models/robot/robot_yaml.h"
 #include "tests/actions/plan_mutations.h"

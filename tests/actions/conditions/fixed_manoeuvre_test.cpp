@@ -9,6 +9,7 @@
 #include <random>
 
 #include "actions/conditions/exploration_pose.h"
+#include "actions/wholebody/motion_error.h"
 #include "models/world/ground_map.h"
 #include "tests/actions/drchubo1.h"
 

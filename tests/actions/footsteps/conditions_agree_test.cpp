@@ -7,6 +7,7 @@
 
 #include "actions/footsteps/footstep_plan.h"
 #include "actions/footsteps/planned_steps.h"
+#include "actions/wholebody/motion_error.h"
 #include "tests/actions/footsteps/random_terrain.h"
 
 namespace possibility::actions {

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "actions/motion/motion_collision.h"
 #include "actions/planner/planner.h"
+#include "actions/wholebody/motion_collision.h"
+#include "actions/wholebody/motion_error.h"
 #include "tests/actions/footsteps/uneven_world.h"
 
 namespace possibility::actions {

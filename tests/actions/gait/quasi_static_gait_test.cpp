@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/support_polygon.h"
 #include "tests/actions/drchubo1.h"
 
 namespace possibility::actions {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "actions/wholebody/motion_error.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/drchubo1.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actions/gait/stride.h"
+#include "actions/wholebody/motion_error.h"
 #include "tests/actions/drchubo1.h"
 
 namespace possibility::actions {

@@ -11,7 +11,8 @@
 
 #include "actions/gait/foothold_plan.h"
 #include "actions/motion/motion_schedule.h"
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/support_polygon.h"
 #include "dynamics/simbody/simbody_dynamics.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/message_of.h"

@@ -3,10 +3,10 @@
 
 #include <ostream>
 
-#include "actions/motion/motion_builder.h"
 #include "actions/motion/motion_schedule.h"
 #include "actions/motion/pattern_motion.h"
 #include "actions/verify/verifier.h"
+#include "actions/wholebody/motion_builder.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/standing_plan.h"
 

@@ -4,13 +4,13 @@
 
 #include <random>
 
-#include "actions/motion/nominal_stance.h"
 #include "actions/onboarding/foot_placement.h"
 #include "actions/onboarding/gait_numbers.h"
 #include "actions/onboarding/robot_draft.h"
 #include "actions/onboarding/robot_yaml_writer.h"
 #include "actions/onboarding/standing_posture.h"
 #include "actions/onboarding/touching_pairs.h"
+#include "actions/wholebody/nominal_stance.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/facts/zero_poses.h"
 #include "models/input/file_contents.h"

@@ -12,6 +12,7 @@
 #include "actions/planner/planner.h"
 #include "actions/route/route_motion.h"
 #include "actions/verify/verification_report.h"
+#include "actions/wholebody/motion_error.h"
 #include "models/input/input_error.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/leap.h"

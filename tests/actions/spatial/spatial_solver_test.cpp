@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "actions/motion/self_clearance.h"
 #include "actions/verify/verifier.h"
+#include "actions/wholebody/motion_error.h"
+#include "actions/wholebody/self_clearance.h"
 #include "common/cancellation_token.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/plan_mutations.h"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "actions/motion/support_polygon.h"
 #include "actions/verify/verification_report.h"
+#include "actions/wholebody/support_polygon.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/verify/walk_and_crawl.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "actions/motion/support_polygon.h"
+#include "actions/wholebody/support_polygon.h"
 
 namespace possibility::actions {
 namespace {

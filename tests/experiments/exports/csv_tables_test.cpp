@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/exports/plan_samples.h"
+#include "experiments/samples/plan_samples.h"
 #include "tests/experiments/sample_plan.h"
 
 namespace possibility::experiments {

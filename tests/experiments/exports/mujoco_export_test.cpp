@@ -12,7 +12,7 @@
 
 #include "dynamics/tree/tree_motion.h"
 #include "experiments/exports/mujoco_tree.h"
-#include "experiments/exports/quantities.h"
+#include "experiments/samples/quantities.h"
 #include "models/robot/robot_yaml.h"
 #include "tests/experiments/sample_plan.h"
 

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "experiments/exports/zip_file.h"
+#include "experiments/formats/zip_file.h"
 #include "tests/experiments/exports/python_run.h"
 #include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_plan.h"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/exports/npy_array.h"
-#include "experiments/exports/zip_file.h"
+#include "experiments/formats/npy_array.h"
+#include "experiments/formats/zip_file.h"
 #include "tests/experiments/program_run.h"
 #include "tests/experiments/standing_plan.h"
 

@@ -7,7 +7,7 @@
 
 #include "experiments/exports/csv_tables.h"
 #include "experiments/exports/npz_export.h"
-#include "experiments/exports/zip_file.h"
+#include "experiments/formats/zip_file.h"
 #include "models/input/input_error.h"
 #include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_plan.h"

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cmath>
+
+#include "actions/footholds/foothold_ground.h"
+
+namespace possibility::actions {
+
+/// One limb moves to its next place.
+struct Footstep {
+  int limb = 0;
+  Foothold from;
+  Foothold to;
+  double lift = 0;  ///< m, of the swing (SwingPath)
+
+  /// Up or down to another level or slope, m.
+  double ChangeOfHeight() const { return AreOnOneSlope(from, to) ? 0 : std::abs(to.z - from.z); }
+};
+
+/// The family of steps that a search chooses from.
+struct FootstepLimits {
+  double forward = 0.34;    ///< m: stance of one limb ahead of the other's
+  double lateral = 0.16;    ///< m: aside, outwards
+  double turn = 0.35;       ///< rad
+  double rise = 0.16;       ///< m, up or down
+  double lift = 0.27;       ///< m
+  double margin = 0.01;     ///< m, of bearing points from the edge of their ground
+  double clearance = 0.03;  ///< m, of swings
+  double lowest_root = 0;   ///< m, above the ground of the limb that bears alone
+  double trunk_margin = 0;  ///< m, of the trunk from obstacles, seen from above
+
+  /// Shares of the robot's size.
+  static FootstepLimits Of(const models::RobotModel& robot, const NominalStance& stance);
+};
+
+/// Expected duration of a step, s.
+double ExpectedDuration(const Footstep& step);
+/// Of one on level ground, s.
+inline constexpr double kLevelStep = 0.65;
+
+}  // namespace possibility::actions

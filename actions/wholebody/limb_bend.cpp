@@ -1,0 +1,59 @@
+#include "actions/wholebody/limb_bend.h"
+
+#include <algorithm>
+
+namespace possibility::actions {
+namespace {
+
+/// Sine of the angle between a joint's axis and the part that it turns, below which it twists that
+/// part and does not swing it.
+constexpr double kTwist = 0.3;
+
+/// Whether a joint twists the part from it to p, in the frame that it moves.
+bool Twists(const models::Joint& joint, const Eigen::Vector3d& p) {
+  return joint.type == models::JointType::kRevolute &&
+         joint.axis.cross(p).norm() < kTwist * p.norm();
+}
+
+/// The upper part begins at the last joint before the bend that swings it: hips may have their
+/// twist below.
+void FindUpperPart(const models::RobotModel& robot, const models::GaitLimb& limb, LimbBend* bend) {
+  const auto joint = [&](std::size_t k) -> const models::Joint& {
+    return robot.joints[limb.joints[k]];
+  };
+  std::size_t first = bend->joint - 1;
+  Eigen::Vector3d upper = joint(bend->joint).X_PJ.translation();
+  while (first > 0 && Twists(joint(first), upper) &&
+         joint(first).parent == limb.joints[first - 1] + 1) {
+    upper = joint(first).X_PJ * upper;
+    --first;
+  }
+  bend->before = limb.joints[first] + 1;
+  bend->length = upper.norm() + joint(bend->joint + 1).X_PJ.translation().norm();
+}
+
+}  // namespace
+
+std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::GaitLimb& limb) {
+  std::optional<LimbBend> best;
+  double shorter = 0;
+  for (std::size_t i = 1; i + 1 < limb.joints.size(); ++i) {
+    const auto joint = [&](std::size_t k) -> const models::Joint& {
+      return robot.joints[limb.joints[k]];
+    };
+    // In a chain each joint stands on the link of the one before.
+    if (joint(i).parent != limb.joints[i - 1] + 1 || joint(i + 1).parent != limb.joints[i] + 1) {
+      continue;
+    }
+    const double upper = joint(i).X_PJ.translation().norm();
+    const double lower = joint(i + 1).X_PJ.translation().norm();
+    if (std::min(upper, lower) <= shorter) continue;
+    shorter = std::min(upper, lower);
+    best =
+        LimbBend{joint(i).name, i, limb.joints[i - 1] + 1, limb.joints[i + 1] + 1, upper + lower};
+  }
+  if (best) FindUpperPart(robot, limb, &*best);
+  return best;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,226 @@
+#include "actions/wholebody/motion_builder.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "actions/wholebody/force_fault.h"
+#include "actions/wholebody/motion_error.h"
+
+namespace possibility::actions {
+namespace {
+
+/// Share of the forces (contact_forces.h) of a patch that is about to lift, or has just come down.
+constexpr double kLeastShare = 0.05;
+
+/// On slopes much of the friction bears the weight, and on slippery ground there is little: of a
+/// cone with 8 edges 8 % would be missing.
+constexpr int kManyEdges = 16;
+
+bool Contains(const MotionPhase* phase, int contact) {
+  return phase == nullptr || std::find(phase->contacts.begin(), phase->contacts.end(), contact) !=
+                                 phase->contacts.end();
+}
+
+/// " of phase 3, in which right_sole swings".
+std::string PhaseText(const models::RobotModel& robot, const MotionPhase& phase,
+                      const MotionPhase* before, const MotionPhase* after, std::size_t index) {
+  std::set<std::string> swinging;
+  for (const MotionPhase* neighbour : {before, after}) {
+    if (neighbour == nullptr) continue;
+    for (const int contact : neighbour->contacts) {
+      if (!Contains(&phase, contact)) swinging.insert(robot.contacts[contact].name);
+    }
+  }
+  std::string text = fmt::format(" of phase {}", index);
+  if (swinging.empty()) return text;
+  return fmt::format("{}, in which {} swing{}", text, fmt::join(swinging, " and "),
+                     swinging.size() == 1 ? "s" : "");
+}
+
+}  // namespace
+
+/// The points that bear in a phase, and how their loads change.
+struct MotionBuilder::Bearing {
+  std::vector<dynamics::ContactPoint> points;
+  std::vector<bool> comes_down;  ///< by point: did not bear in the phase before
+  std::vector<bool> lifts;       ///< by point: will not bear in the phase after
+
+  bool IsTilted() const {
+    return std::any_of(points.begin(), points.end(), [](const dynamics::ContactPoint& point) {
+      return point.normal_W != Eigen::Vector3d::UnitZ();
+    });
+  }
+
+  bool IsSlippery(double robots_friction) const {
+    return std::any_of(points.begin(), points.end(), [&](const dynamics::ContactPoint& point) {
+      return point.friction < robots_friction;
+    });
+  }
+
+  /// `s`: part of the phase that has passed.
+  std::vector<double> Shares(double s) const {
+    const double passed = std::clamp(RestToRest(s, 1).value, 0.0, 1.0);
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double share = 1;
+      if (comes_down[i]) share = passed;
+      if (lifts[i]) share *= 1 - passed;
+      shares.push_back(std::max(share, kLeastShare));
+    }
+    return shares;
+  }
+};
+
+std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotModel robot) {
+  for (models::Joint& joint : robot.joints) joint.mimic.reset();
+  return dynamics::MultibodyModel::Spatial(robot);
+}
+
+void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
+                        const Eigen::VectorXd& v, double speed_margin, double t) {
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const models::Joint& joint = robot.joints[j];
+    const double position = q[7 + j];
+    if (position < joint.lower || position > joint.upper) {
+      throw MotionError(fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s",
+                                    joint.name, position, joint.lower, joint.upper, t),
+                        -1, MotionError::Limit::kJointRange);
+    }
+    const double rate = v[6 + j];
+    if (std::abs(rate) > speed_margin * joint.velocity) {
+      throw MotionError(fmt::format("{} at {:.3f}/s is faster than {:.3f}/s at {:.2f} s",
+                                    joint.name, rate, speed_margin * joint.velocity, t));
+    }
+  }
+}
+
+MotionBuilder::MotionBuilder(const models::RobotModel& robot, const MotionSettings& settings)
+    : robot_(&robot), settings_(settings), solver_(robot), dynamics_(UncoupledModel(robot)) {}
+
+std::vector<Phase> MotionBuilder::Build(const std::vector<MotionPhase>& phases,
+                                        const Eigen::VectorXd& guess,
+                                        const CancellationToken& cancellation) {
+  std::vector<Phase> result;
+  Eigen::VectorXd q = guess;
+  double start = 0;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    cancellation.ThrowIfCancelled();
+    const MotionPhase* before = i > 0 ? &phases[i - 1] : nullptr;
+    const MotionPhase* after = i + 1 < phases.size() ? &phases[i + 1] : nullptr;
+    try {
+      result.push_back(BuildPhase(phases[i], before, after, start, &q));
+    } catch (const MotionError& error) {
+      throw MotionError(std::string(error.what()) + PhaseText(*robot_, phases[i], before, after, i),
+                        static_cast<int>(i), error.limit(), error.share());
+    }
+    start += phases[i].duration;
+  }
+  return result;
+}
+
+Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* before,
+                                const MotionPhase* after, double start, Eigen::VectorXd* guess) {
+  Phase result;
+  Bearing bearing;
+  for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
+    const int contact = phase.contacts[i];
+    const models::ContactPatch& patch = robot_->contacts[contact];
+    const Eigen::Vector3d normal =
+        phase.normals.empty() ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : phase.normals[i];
+    const double friction = phase.friction.empty() ? robot_->friction : phase.friction[i];
+    result.contacts.push_back(patch.name);
+    for (const Eigen::Vector3d& p : patch.points) {
+      bearing.points.push_back({patch.link, p, normal, friction});
+      const auto& down = phase.coming_down;
+      bearing.comes_down.push_back(!Contains(before, contact) ||
+                                   std::find(down.begin(), down.end(), contact) != down.end());
+      bearing.lifts.push_back(!Contains(after, contact));
+    }
+  }
+  const int intervals =
+      std::max(settings_.minimum_intervals,
+               static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
+  const double spacing = phase.duration / intervals;
+  for (int i = 0; i <= intervals; ++i) {
+    const double share = static_cast<double>(i) / intervals;
+    Knot knot;
+    try {
+      knot = MakeKnot(phase, bearing, phase.duration * share, guess);
+    } catch (const MotionError& error) {
+      throw MotionError(error.what(), -1, error.limit(), share);
+    }
+    if (i < intervals) *guess = GuessAfter({knot.q, knot.v, knot.a}, spacing);
+    knot.t += start;
+    result.knots.push_back(std::move(knot));
+  }
+  return result;
+}
+
+Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, double t,
+                             Eigen::VectorXd* guess) {
+  const WholeBodyState state = solver_.Solve(phase.task(t), *guess);
+  *guess = state.q;
+  RequireJointLimits(*robot_, state.q, state.v, settings_.speed_margin, t);
+  dynamics::ContactForceSettings force_settings;
+  force_settings.friction = robot_->friction;
+  force_settings.friction_margin = settings_.friction_margin;
+  force_settings.normal_reserve =
+      settings_.normal_reserve * robot_->TotalMass() * dynamics::kGravity;
+  force_settings.torque_margin = settings_.torque_margin;
+  if (bearing.IsTilted() || bearing.IsSlippery(robot_->friction)) {
+    force_settings.cone_edges = kManyEdges;
+  }
+  force_settings.shares = bearing.Shares(t / phase.duration);
+  dynamics_.SetState(state.q, state.v, state.a);
+  const std::optional<dynamics::ContactForces> forces =
+      dynamics::DistributeContactForces(&dynamics_, bearing.points, force_settings);
+  if (!forces) {
+    const std::string fault = ForceFault(&dynamics_, bearing.points, force_settings);
+    throw MotionError(fmt::format("{} at {:.2f} s", fault, t));
+  }
+  CheckCoupledTorques(forces->torques, t);
+  Knot knot;
+  knot.t = t;
+  knot.q = state.q;
+  knot.v = state.v;
+  knot.a = state.a;
+  knot.tau = forces->torques;
+  knot.forces = forces->forces;
+  return knot;
+}
+
+void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const {
+  Eigen::VectorXd borne = torques;
+  for (int j = 0; j < robot_->num_joints(); ++j) {
+    const auto& mimic = robot_->joints[j].mimic;
+    if (mimic) borne[mimic->joint] += mimic->multiplier * torques[j];
+  }
+  for (int j = 0; j < robot_->num_joints(); ++j) {
+    const models::Joint& joint = robot_->joints[j];
+    if (joint.mimic || std::abs(borne[j]) <= settings_.torque_margin * joint.effort) continue;
+    throw MotionError(fmt::format("{} and its mimics need {:.1f}, more than {:.1f}, at {:.2f} s",
+                                  joint.name, borne[j], settings_.torque_margin * joint.effort, t));
+  }
+}
+
+std::vector<Phase> Reversed(const std::vector<Phase>& phases) {
+  std::vector<Phase> result(phases.rbegin(), phases.rend());
+  if (result.empty()) return result;
+  const double end = phases.back().knots.back().t;
+  for (Phase& phase : result) {
+    std::reverse(phase.knots.begin(), phase.knots.end());
+    for (Knot& knot : phase.knots) {
+      knot.t = end - knot.t;
+      knot.v = -knot.v;
+    }
+  }
+  return result;
+}
+
+}  // namespace possibility::actions

@@ -1,0 +1,181 @@
+#include "experiments/robots/robot_init.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "actions/gait/pace_library.h"
+#include "actions/onboarding/gait_fit.h"
+#include "actions/onboarding/gait_numbers.h"
+#include "actions/onboarding/robot_draft.h"
+#include "actions/onboarding/robot_yaml_writer.h"
+#include "actions/plan/plan_writer.h"
+#include "actions/planner/planner.h"
+#include "experiments/support/hardware_threads.h"
+#include "experiments/support/output_file.h"
+#include "experiments/support/standard_streams.h"
+#include "experiments/viewer/viewer_page.h"
+#include "models/input/file_contents.h"
+#include "models/input/input_error.h"
+#include "models/input/json_text.h"
+#include "models/robot/robot_yaml.h"
+#include "models/world/scenario.h"
+
+namespace possibility::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using actions::FitTrial;
+
+constexpr double kWay = 8;         // lengths of the leg
+constexpr double kEnough = 1.15;   // times the expected speed: the fit stops there
+constexpr double kTimeLimit = 20;  // s, to plan
+
+/// The robot's name, safe as a file name.
+std::string SafeName(const fs::path& urdf) {
+  std::string name = urdf.stem().string();
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
+  }
+  return name.empty() ? "robot" : name;
+}
+
+class Init {
+ public:
+  explicit Init(const RobotInitOptions& options) : options_(options) {}
+
+  ExitCode Run() {
+    PrepareOutputFolder("--out", options_.out);
+    draft_ = actions::DraftRobot(options_.urdf, options_.packages, options_.srdf);
+    draft_.robot.name = SafeName(options_.urdf);
+    if (!options_.json) PrintFindings();
+    std::vector<actions::FittedGait> fits = Fit();
+    if (fits.empty()) return ReportNoWalk();
+    // The quickest gait may be refused by the verifier.
+    for (std::size_t i = 0; i + 1 < fits.size(); ++i) {
+      if (Plan(fits[i])) return Report(true);
+    }
+    return Report(Plan(fits.back()));
+  }
+
+ private:
+  void PrintFindings() const {
+    for (const std::string& finding : draft_.findings) PrintOut("{}\n", finding);
+    for (const std::string& warning : draft_.warnings) PrintOut("warning: {}\n", warning);
+  }
+
+  std::vector<actions::FittedGait> Fit() {
+    return actions::FitWalk(
+        draft_, options_.fit_seconds, kEnough, &trials_,
+        [](const FitTrial& trial) { PrintError("{}\n", actions::TextOf(trial)); });
+  }
+
+  ExitCode ReportNoWalk() const {
+    const std::string reason = trials_.empty() ? "nothing tried" : trials_.front().reason;
+    if (options_.json) {
+      PrintOut("{}\n", models::JsonText(nlohmann::ordered_json{
+                           {"status", "no_walk"}, {"trials", trials_.size()}, {"reason", reason}}));
+    }
+    PrintError("no walk: {} postures tried; the first: {}\n", trials_.size(), reason);
+    return kNoPlan;
+  }
+
+  /// Writes the robot with this gait and plans its walk. Whether that is found and verified.
+  bool Plan(const actions::FittedGait& fitted) {
+    gait_findings_ = FindingsOf(fitted);
+    WriteFiles(fitted);
+    const models::RobotModel robot = models::LoadRobotModel(RobotFile());
+    const fs::path library = options_.out / "jumps";
+    actions::PaceLibrary(robot, library).Save(robot.gaits.front(), fitted.paces);
+    const models::Scenario scenario = models::LoadScenario(ScenarioFile());
+    actions::PlanRequest request;
+    request.threads = HardwareThreads();
+    request.time_limit = kTimeLimit;
+    request.library = library;
+    result_ = actions::PlanTraversal(robot, scenario, request);
+    if (result_.status != actions::PlanStatus::kFound || !result_.verification.accepted()) {
+      PrintError("refused: {}\n", result_.explanation);
+      return false;
+    }
+    actions::WritePlan(result_.plan, options_.out / "plan.json");
+    WriteOutput(options_.out / "plan.html", ViewerPage(result_.plan, robot, scenario));
+    return true;
+  }
+
+  void WriteFiles(const actions::FittedGait& fitted) {
+    actions::RobotDraft draft = draft_;
+    draft.robot.gaits = {fitted.gait};
+    draft.ignored = fitted.ignored;
+    draft.findings.insert(draft.findings.end(), gait_findings_.begin(), gait_findings_.end());
+    const std::string urdf = draft.robot.name + ".urdf";
+    WriteOutput(options_.out / urdf, models::ReadFileContents(options_.urdf));
+    WriteOutput(RobotFile(), actions::RobotYaml(draft, urdf));
+    WriteOutput(ScenarioFile(),
+                actions::FlatScenarioYaml(draft.robot.name + "_flat", "robot.yaml",
+                                          kWay * draft.leg_length, 2 * draft.leg_length));
+  }
+
+  std::vector<std::string> FindingsOf(const actions::FittedGait& fitted) const {
+    const FitTrial& trial = fitted.trial;
+    return {
+        fmt::format(
+            "stands with its hips at {:.2f} of the leg's length, soles {:.3f} m apart; '{}' "
+            "bears {:.0f} % of its torque limit with the weight on one foot",
+            trial.choice.extension, fitted.standing.sole_distance, fitted.standing.torque_joint,
+            100 * fitted.standing.torque),
+        fmt::format("{} pairs of links are not tested against each other: see ignored_collisions",
+                    fitted.ignored.size()),
+        fmt::format(
+            "gait: scaled by the leg's length, quickness {:.2f}, one of {} trials; a quicker "
+            "pace: {}",
+            trial.quickness, trials_.size(), trial.binding)};
+  }
+
+  ExitCode Report(bool found) const {
+    const double distance = kWay * draft_.leg_length;
+    const double speed = found ? distance / result_.plan.duration() : 0;
+    const double expected = actions::ExpectedSpeed(draft_);
+    std::vector<std::string> findings = draft_.findings;
+    findings.insert(findings.end(), gait_findings_.begin(), gait_findings_.end());
+    if (options_.json) {
+      PrintOut("{}\n", models::JsonText(
+                           nlohmann::ordered_json{{"status", actions::ToString(result_.status)},
+                                                  {"verified", found},
+                                                  {"robot", RobotFile().string()},
+                                                  {"scenario", ScenarioFile().string()},
+                                                  {"leg_length", draft_.leg_length},
+                                                  {"distance", distance},
+                                                  {"speed", speed},
+                                                  {"expected_speed", expected},
+                                                  {"findings", findings},
+                                                  {"warnings", draft_.warnings}}));
+    }
+    if (!found) {
+      PrintError("no plan: {}: {}\n", actions::ToString(result_.status), result_.explanation);
+      return kNoPlan;
+    }
+    if (options_.json) return kDone;
+    for (const std::string& finding : gait_findings_) PrintOut("{}\n", finding);
+    PrintOut(
+        "walks {:.2f} m in {:.1f} s, verified: {:.2f} m/s (0.15 sqrt(g l) is {:.2f})\n{}\n{}\n",
+        distance, result_.plan.duration(), speed, expected, RobotFile().string(),
+        (options_.out / "plan.html").string());
+    return kDone;
+  }
+
+  fs::path RobotFile() const { return options_.out / "robot.yaml"; }
+  fs::path ScenarioFile() const { return options_.out / "flat.yaml"; }
+
+  const RobotInitOptions& options_;
+  actions::RobotDraft draft_;
+  std::vector<FitTrial> trials_;
+  std::vector<std::string> gait_findings_;  ///< of the gait planned with last
+  actions::PlanResult result_;
+};
+
+}  // namespace
+
+ExitCode InitRobot(const RobotInitOptions& options) { return Init(options).Run(); }
+
+}  // namespace possibility::experiments

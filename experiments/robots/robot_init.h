@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "experiments/command/command.h"
+
+namespace possibility::experiments {
+
+struct RobotInitOptions {
+  std::filesystem::path urdf;
+  std::optional<std::filesystem::path> srdf;
+  std::vector<std::filesystem::path> packages;
+  std::filesystem::path out;
+  double fit_seconds = 90;  ///< for the search of the gait's numbers
+  bool json = false;
+};
+
+/// Derives a robot from a URDF, writes its folder (a copy of the URDF, robot.yaml, flat.yaml, the
+/// paces in jumps/), plans and verifies a walk on a level floor and writes plan.json and its page.
+/// Prints what was assumed and why. kNoPlan if no walk was found.
+/// @throws InputError for a URDF, SRDF or mesh that cannot be used.
+ExitCode InitRobot(const RobotInitOptions& options);
+
+}  // namespace possibility::experiments

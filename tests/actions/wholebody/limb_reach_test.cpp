@@ -1,0 +1,72 @@
+#include "actions/wholebody/limb_reach.h"
+
+#include <gtest/gtest.h>
+
+#include "actions/wholebody/limb_bend.h"
+#include "dynamics/tree/tree_kinematics.h"
+#include "tests/actions/drchubo1.h"
+#include "tests/actions/shipped_robots.h"
+
+namespace possibility::actions {
+namespace {
+
+TEST(LimbReachTest, ALegBendsInItsKnee) {
+  const models::RobotModel& robot = DrcHubo1();
+  const models::Gait& walk = robot.GaitNamed("walk");
+  EXPECT_EQ(BendOf(robot, walk.limbs[0])->name, "LKP");
+  EXPECT_EQ(BendOf(robot, walk.limbs[1])->name, "RKP");
+}
+
+/// With the knee straight, hip over ankle, the root is as high as reach says.
+TEST(LimbReachTest, TheRootIsHighestOverAStraightLeg) {
+  const models::RobotModel& robot = DrcHubo1();
+  const NominalStance stance = SolveNominalStance(robot, robot.GaitNamed("walk"));
+  const auto reaches = ReachesOf(robot, stance, 1);
+  dynamics::TreeKinematics kinematics(robot);
+  Eigen::VectorXd q = stance.q;
+  for (const char* joint : {"LHP", "LKP", "LAP"}) q[7 + robot.JointIndex(joint)] = 0;
+  kinematics.SetPosition(q);
+  const models::ContactPatch& sole = robot.contacts[robot.ContactIndex("left_sole")];
+  const Eigen::Vector3d centre = kinematics.Position(sole.link, sole.Centre());
+  ASSERT_TRUE(reaches[0]);
+  const auto highest = reaches[0]->HighestRoot({}, centre, Eigen::Matrix3d::Identity());
+  ASSERT_TRUE(highest);
+  EXPECT_NEAR(*highest, q[6], 1e-3);  // the knee is a little off the line from hip to ankle
+}
+
+/// T1's hips have their twist below, in the thigh: it begins at the joint above.
+TEST(LimbReachTest, AThighBeginsAboveItsTwist) {
+  const models::RobotModel& robot = RobotNamed("t1").robot();
+  const models::GaitLimb& leg = robot.GaitNamed("walk").limbs[0];
+  const std::optional<LimbBend> bend = BendOf(robot, leg);
+  ASSERT_TRUE(bend);
+  EXPECT_EQ(bend->name, "Left_Knee_Pitch");
+  EXPECT_EQ(robot.joints[bend->before - 1].name, "Left_Hip_Roll");
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(robot.nq());
+  q[0] = 1;
+  dynamics::TreeKinematics kinematics(robot);
+  for (const double twist : {0.0, 0.8}) {
+    q[7 + robot.JointIndex("Left_Hip_Yaw")] = twist;
+    kinematics.SetPosition(q);
+    const auto origin = [&](int link) -> Eigen::Vector3d {
+      return kinematics.X_WL()[link].translation();
+    };
+    const int knee = leg.joints[bend->joint] + 1;
+    EXPECT_NEAR(
+        (origin(knee) - origin(bend->before)).norm() + (origin(bend->after) - origin(knee)).norm(),
+        bend->length, 1e-6);
+  }
+}
+
+TEST(LimbReachTest, WhatIsFartherAwayThanTheLimbIsLongIsOutOfReach) {
+  const models::RobotModel& robot = DrcHubo1();
+  const NominalStance stance = SolveNominalStance(robot, robot.GaitNamed("walk"));
+  for (const auto& reach : ReachesOf(robot, stance, 1)) {
+    ASSERT_TRUE(reach);
+    EXPECT_FALSE(reach->HighestRoot({}, {1.5, 0, 0}, Eigen::Matrix3d::Identity()));
+    EXPECT_TRUE(reach->HighestRoot({}, {0.3, 0, 0}, Eigen::Matrix3d::Identity()));
+  }
+}
+
+}  // namespace
+}  // namespace possibility::actions
