@@ -14,8 +14,10 @@ using Eigen::Vector2d;
 
 constexpr double kLeastFloodCell = 0.03;   // m
 constexpr double kMostFloodCells = 2.5e6;  // of all planes
-constexpr int kFloodTurns = 60;
-constexpr double kFloodTurn = 2 * std::numbers::pi / kFloodTurns;
+/// Of a sole's places in a cell: turns that are looked at first, and how exactly what is between
+/// them is looked at, m.
+constexpr int kFloodTurns = 24;
+constexpr double kFinestSlack = 0.004;
 constexpr double kRounding = 1e-5;  // m
 constexpr std::size_t kFloodCellsPerQuestion = 1000;
 
@@ -56,9 +58,7 @@ FootholdFlood::FootholdFlood(const NominalStance& stance, const World& world,
     const Vector2d centre = stance.patch_centres[limb].head<2>();
     for (const Vector2d& p : stance.bearing_points[limb]) {
       sole.radius = std::max(sole.radius, (p - centre).norm());
-      for (int turn = 0; turn < kFloodTurns; ++turn) {
-        sole.points.push_back(Eigen::Rotation2Dd(turn * kFloodTurn) * (p - centre));
-      }
+      sole.points.push_back(p - centre);
     }
     soles_.push_back(std::move(sole));
   }
@@ -207,24 +207,52 @@ bool FootholdFlood::MayBear(const Place& place) const {
                      [&](const Sole& sole) { return MayBear(sole, plane, centre); });
 }
 
-/// Every place and turn of the sole is near a turn that is tested at the cell's centre. Its points
-/// are then so far from those tested, and their clearances differ by no more than that.
 bool FootholdFlood::MayBear(const Sole& sole, int level, const Vector2d& centre) const {
-  const models::GroundMap& ground = *world_.ground;
-  if (ground.OneFaceHolds(level, centre, centre, sole.radius)) return true;
-  const double slack = cell_ / std::numbers::sqrt2 + sole.radius * kFloodTurn / 2 + kRounding;
-  const double needed = limits_.margin - slack;
-  if (!ground.IsNear(level, centre, sole.radius + std::max(0.0, -needed))) return false;
-  const std::size_t points = sole.points.size() / kFloodTurns;
-  for (std::size_t turn = 0; turn < kFloodTurns; ++turn) {
-    bool fits = true;
-    for (std::size_t i = 0; i < points && fits; ++i) {
-      const Vector2d at = centre + sole.points[i * kFloodTurns + turn];
-      fits = needed > 0 ? ground.Clearance(level, at) >= needed : ground.IsNear(level, at, -needed);
-    }
-    if (fits) return true;
+  if (world_.ground->OneFaceHolds(level, centre, centre, sole.radius)) return true;
+  for (int i = 0; i < kFloodTurns; ++i) {
+    const double turn = 2 * std::numbers::pi / kFloodTurns * i;
+    if (MayBear(sole, level, {centre, cell_ / 2, turn, std::numbers::pi / kFloodTurns}))
+      return true;
   }
   return false;
+}
+
+/// In all places, points are no farther than the slack from where they are in the middle, and their
+/// clearances differ by no more than that.
+bool FootholdFlood::MayBear(const Sole& sole, int level, const SolePlaces& places) const {
+  const double by_place = std::numbers::sqrt2 * places.half_side;
+  const double by_turn = sole.radius * places.half_turn;
+  const double slack = by_place + by_turn + kRounding;
+  if (!Fits(sole, level, places, slack)) return false;
+  if (slack <= kFinestSlack || Fits(sole, level, places, 0)) return true;
+  SolePlaces part = places;
+  if (by_turn > by_place) {
+    part.half_turn /= 2;
+    for (const double side : {-1, 1}) {
+      part.turn = places.turn + side * part.half_turn;
+      if (MayBear(sole, level, part)) return true;
+    }
+    return false;
+  }
+  part.half_side /= 2;
+  for (const double x : {-1, 1}) {
+    for (const double y : {-1, 1}) {
+      part.centre = places.centre + part.half_side * Vector2d(x, y);
+      if (MayBear(sole, level, part)) return true;
+    }
+  }
+  return false;
+}
+
+bool FootholdFlood::Fits(const Sole& sole, int level, const SolePlaces& places,
+                         double slack) const {
+  const models::GroundMap& ground = *world_.ground;
+  const double needed = limits_.margin - slack;
+  const Eigen::Rotation2Dd turned(places.turn);
+  return std::all_of(sole.points.begin(), sole.points.end(), [&](const Vector2d& p) {
+    const Vector2d at = places.centre + turned * p;
+    return needed > 0 ? ground.Clearance(level, at) >= needed : ground.IsNear(level, at, -needed);
+  });
 }
 
 void FootholdFlood::Reach(const Place& place) {

@@ -51,10 +51,17 @@ class FootholdFlood {
     kReached
   };
 
-  /// Bearing points from the patch's centre: each of them in all turns that are tested.
+  /// Bearing points from the patch's centre.
   struct Sole {
     std::vector<Eigen::Vector2d> points;
     double radius = 0;
+  };
+  /// Places of a sole: its centre in a square, its turn in an interval.
+  struct SolePlaces {
+    Eigen::Vector2d centre;  ///< of the square
+    double half_side = 0;    ///< m
+    double turn = 0;         ///< middle, rad
+    double half_turn = 0;    ///< rad
   };
   struct Place {
     int plane = 0, column = 0, row = 0;  ///< the plane as an index into planes_
@@ -88,6 +95,11 @@ class FootholdFlood {
   std::vector<int> PlanesAbout(const Eigen::Vector2d& p, double z, double slack) const;
   bool MayBear(const Place& place) const;
   bool MayBear(const Sole& sole, int level, const Eigen::Vector2d& centre) const;
+  /// Whether one of the places may bear. Branch and bound, down to kFinestSlack.
+  bool MayBear(const Sole& sole, int level, const SolePlaces& places) const;
+  /// Whether all points of the sole in the middle of the places are within the margin, give or take
+  /// `slack`, m.
+  bool Fits(const Sole& sole, int level, const SolePlaces& places, double slack) const;
   static bool IsOpen(Cell cell) { return cell == Cell::kUnknown || cell == Cell::kGround; }
   void Reach(const Place& place);
   /// All cells of a plane that a step of the family leads to from height z about a cell.

@@ -38,6 +38,13 @@ constexpr double kRoughness = 0.3e-3;
 constexpr double kSelfDistance = 0.003;
 constexpr double kLeastSelfDistance = 0.001;
 
+/// A knee that bears high steps is spared by a zero moment point so far ahead, m.
+constexpr double kZmpAhead = 0.03;
+
+/// The legs are less astride if the root need not come so far over the foot that bears: share of
+/// the gait's margin of the zero moment point.
+constexpr double kLeastMargin = 0.67;
+
 /// Of every bearing point, as a share of the weight. On steep ground it costs friction: what a
 /// point bears at least has no part in balance.
 constexpr double kLeastLoad = 0.01;
@@ -134,10 +141,11 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slo
                                                   const CancellationToken& cancellation) const {
   PatternSettings pattern;
   pattern.clearance = stance_->gait->parameters.clearance;
-  pattern.zmp_margin = stance_->gait->parameters.com_margin;
+  pattern.zmp_margin = style.zmp_margin * stance_->gait->parameters.com_margin;
   pattern.keeps_reach = true;
   pattern.rise = style.rise;
   pattern.lean = style.lean;
+  pattern.zmp_ahead = style.zmp_ahead;
   pattern.rise_time = kStart;
   pattern.height_spacing = style.spacing;
   pattern.grid = grid;
@@ -222,6 +230,19 @@ std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, 
   return motion;
 }
 
+/// A slower motion has much the same postures. Other styles save torque and friction at no cost of
+/// time, so they are tried first.
+bool FootstepMotion::SpeedMatters(const Style& style, MotionError::Limit limit) {
+  return limit == MotionError::Limit::kAny ||
+         (limit != MotionError::Limit::kJointRange && style.is_patient);
+}
+
+/// What is short of friction needs all that bearing points may hold.
+bool FootstepMotion::MayHelp(const Style& style, MotionError::Limit limit) {
+  return limit != MotionError::Limit::kFriction ||
+         (style.least_load < kLeastLoad && style.zmp_ahead == 0);
+}
+
 std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& start,
                                            const std::vector<Footstep>& steps,
                                            const CancellationToken& cancellation) const {
@@ -236,10 +257,11 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
     } catch (const MotionError& error) {
       if (error.phase() < 0) throw FootstepError(error.what(), -1);
       const int step = StepOfPhase(error.phase(), count);
-      // A slower motion has much the same postures.
       const bool may_be_slower =
-          error.limit() != MotionError::Limit::kJointRange && slowness[step] * kSlower <= kSlowest;
-      if (!may_be_slower) throw FootstepError(error.what(), step, false, PartOf(error));
+          SpeedMatters(style, error.limit()) && slowness[step] * kSlower <= kSlowest;
+      if (!may_be_slower) {
+        throw FootstepError(error.what(), step, false, PartOf(error), error.limit());
+      }
       for (int i = std::max(0, step - 1); i <= std::min(step + 1, count - 1); ++i) {
         slowness[i] = std::min(kSlowest, slowness[i] * kSlower);
       }
@@ -275,10 +297,16 @@ std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  const std::vector<Footstep>& steps,
                                                  const CancellationToken& cancellation) const {
   const double tall = kTall * stance_->gait->posture.root_height;
+  const Style lean_and_ahead{tall,           -0.15,     0.14, 0.99, kLeastSelfDistance,
+                             kLeastLoad / 4, kZmpAhead, 1};
+  const Style lean_and_astride{tall,           -0.15, 0.14,        0.99, kLeastSelfDistance,
+                               kLeastLoad / 4, 0,     kLeastMargin};
   FootstepError fault("no steps", -1);
-  for (const Style& style : {Style{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad},
-                             Style{tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad},
-                             Style{tall, -0.15, 0.14, 0.99, kLeastSelfDistance, kLeastLoad / 4}}) {
+  for (const Style& style :
+       {Style{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, false},
+        Style{tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, false},
+        lean_and_ahead, lean_and_astride}) {
+    if (!MayHelp(style, fault.limit())) continue;
     try {
       return BuildIn(style, start, steps, cancellation);
     } catch (const FootstepError& error) {

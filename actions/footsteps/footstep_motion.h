@@ -21,8 +21,9 @@ class FootstepError : public MotionError {
   enum class Part { kStep, kFrom, kTo };
 
   /// `step`: index; -1 if it is not known which one. `is_hit`: the robot hits an obstacle.
-  FootstepError(const std::string& message, int step, bool is_hit = false, Part part = Part::kStep)
-      : MotionError(message), step_(step), is_hit_(is_hit), part_(part) {}
+  FootstepError(const std::string& message, int step, bool is_hit = false, Part part = Part::kStep,
+                Limit limit = Limit::kAny)
+      : MotionError(message, -1, limit), step_(step), is_hit_(is_hit), part_(part) {}
   int step() const { return step_; }
   bool is_hit() const { return is_hit_; }
   Part part() const { return part_; }
@@ -63,10 +64,17 @@ class FootstepMotion {
     double torque_margin = 0;  ///< MotionSettings
     double self_distance = 0;  ///< m, between links
     double least_load = 0;     ///< MotionSettings::normal_reserve
+    double zmp_ahead = 0;      ///< PatternSettings
+    double zmp_margin = 0;     ///< of PatternSettings, as a share of the gait's
+    bool is_patient = true;    ///< steps that need too much torque or friction are slowed down
   };
 
   std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,
                                    const CancellationToken& cancellation) const;
+  /// Whether a slower motion may keep a limit that one in this style exceeds.
+  static bool SpeedMatters(const Style& style, MotionError::Limit limit);
+  /// Whether a style may keep a limit that another one exceeded.
+  static bool MayHelp(const Style& style, MotionError::Limit limit);
   std::vector<Phase> BuildIn(const Style& style, const Foothold& start,
                              const std::vector<Footstep>& steps,
                              const CancellationToken& cancellation) const;

@@ -13,7 +13,8 @@ namespace {
 
 // Effort of one job.
 constexpr int kAttempts = 24;           // sequences of steps
-constexpr std::int64_t kStates = 4000;  // expanded in each search
+constexpr std::int64_t kStates = 4000;  // expanded in each search; doubled where they do not do
+constexpr std::int64_t kMostStates = 16000;
 constexpr std::int64_t kStatesPerQuestion = 50;
 
 // Where the robot hits something, the swing is raised, and then the trunk kept away; m.
@@ -134,6 +135,12 @@ std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const Gro
   FootstepSearch::Status status = FootstepSearch::Status::kSearching;
   while (status == FootstepSearch::Status::kSearching) {
     status = search.Advance(kStatesPerQuestion, cancellation);
+    const bool is_cut_short =
+        status == FootstepSearch::Status::kExhausted && search.states() >= search.most_states;
+    if (is_cut_short && search.most_states < kMostStates) {
+      search.most_states *= 2;
+      status = FootstepSearch::Status::kSearching;
+    }
   }
   return status == FootstepSearch::Status::kFound ? search.steps() : std::vector<Footstep>();
 }

@@ -45,11 +45,14 @@ StepRefusals::StepMeasures StepRefusals::Of(const Footstep& step, const Foothold
 
 StepRefusals::EndMeasures StepRefusals::Of(const Foothold& place, const Foothold& other) {
   const PlanarPose away = other.stance.Inverse() * place.stance;
-  return {std::abs(away.x),
+  const double outward = std::copysign(1, away.y) * WrapAngle(away.yaw);
+  return {std::max(0.0, away.x),
+          std::max(0.0, -away.x),
           std::abs(away.y),
           std::max(0.0, place.z - other.z),
           std::max(0.0, other.z - place.z),
-          std::abs(WrapAngle(away.yaw)),
+          std::max(0.0, outward),
+          std::max(0.0, -outward),
           TiltOf(place),
           TiltOf(other)};
 }

@@ -22,9 +22,9 @@ class StepRefusals {
   /// Distances and heights of both ends of the step from the other limb, and the lift, m; tilts of
   /// the three footholds, rad.
   using StepMeasures = std::array<double, 10>;
-  /// Ahead or behind, aside, up and down from the other limb, m; turn from it and tilts of both
-  /// footholds, rad.
-  using EndMeasures = std::array<double, 7>;
+  /// Ahead, behind, aside, up and down from the other limb, m; turn away from it and towards it, and
+  /// tilts of both footholds, rad.
+  using EndMeasures = std::array<double, 9>;
   static StepMeasures Of(const Footstep& step, const Foothold& other);
   static EndMeasures Of(const Foothold& place, const Foothold& other);
 

@@ -61,6 +61,23 @@ void RequireSchedule(const models::RobotModel& robot, const NominalStance& stanc
 constexpr double kStretch = 0.98;
 constexpr double kGuessedStretch = 0.94;  // while the root's place is only guessed
 
+/// Where limbs do not reach their places although the guess said so, the root is lowered by this
+/// within this time, m and s, and that so many times at most.
+constexpr double kLower = 0.015;
+constexpr double kLowerWithin = 0.25;
+constexpr int kMostLowerings = 8;
+
+/// Limbs do not reach their places at a knot.
+class OutOfReach : public MotionError {
+ public:
+  OutOfReach(const std::string& message, int phase, int knot)
+      : MotionError(message, phase), knot_(knot) {}
+  int knot() const { return knot_; }
+
+ private:
+  int knot_;
+};
+
 /// What the tasks of an interval need, besides the centre of mass.
 struct Interval {
   double start = 0;  ///< s
@@ -101,9 +118,10 @@ class Pattern {
     stiffness_ = dynamics::kGravity / CentreOfMassHeight();
     SolveCentreOfMass();
     GuessRoots();
+    lowered_.setZero(steps_ + 1);
     for (int pass = 0; pass < settings_.filter_passes; ++pass) {
-      if (KeepsReach()) KeepReach(pass == 0 ? kGuessedStretch : kStretch);
-      Filter(pass + 1 < settings_.filter_passes ? settings_.coarse_stride : 1, cancellation);
+      const int stride = pass + 1 < settings_.filter_passes ? settings_.coarse_stride : 1;
+      FilterWithinReach(pass == 0 ? kGuessedStretch : kStretch, stride, cancellation);
       SolveCentreOfMass();
     }
     if (KeepsReach()) KeepReach(kStretch);
@@ -255,7 +273,9 @@ class Pattern {
       if (!bearing) continue;
       AddFootprint(static_cast<int>(limb), *bearing, &points);
     }
-    return OnGround(k, SupportPolygon(points).Nearest(Balanced(k), settings_.zmp_margin));
+    const Vector2d ahead =
+        Eigen::Rotation2Dd(intervals_[k].yaw_from) * Vector2d(settings_.zmp_ahead, 0);
+    return OnGround(k, SupportPolygon(points).Nearest(Balanced(k) + ahead, settings_.zmp_margin));
   }
 
   /// At the mean height of the limbs that bear in interval `k`.
@@ -353,6 +373,27 @@ class Pattern {
 
   ScalarSignal RootHeight(double t) const { return low_ ? low_->At(t) : WantedRootHeight(t); }
 
+  /// Filter, with the root so low that all limbs reach their places. Where the root is follows from
+  /// the posture, so what KeepReach knows of it is only a guess.
+  void FilterWithinReach(double stretch, int stride, const CancellationToken& cancellation) {
+    for (int lowerings = 0;; ++lowerings) {
+      if (KeepsReach()) KeepReach(stretch);
+      try {
+        return Filter(stride, cancellation);
+      } catch (const OutOfReach& error) {
+        if (!KeepsReach() || lowerings == kMostLowerings) throw;
+        LowerAbout(error.knot());
+      }
+    }
+  }
+
+  void LowerAbout(int knot) {
+    const int within = static_cast<int>(std::ceil(kLowerWithin / h_));
+    for (int i = std::max(0, knot - within); i <= std::min(knot + within, steps_); ++i) {
+      lowered_[i] += kLower;
+    }
+  }
+
   /// Lowers the root as far as the limbs need to reach their places.
   /// @throws MotionError if one is too far from the root, seen from above.
   void KeepReach(double stretch) {
@@ -362,7 +403,7 @@ class Pattern {
       if (reach) reach->hip = lean * reach->hip;
     }
     VectorXd bound(steps_ + 1);
-    for (int i = 0; i <= steps_; ++i) bound[i] = HighestRoot(reaches, i);
+    for (int i = 0; i <= steps_; ++i) bound[i] = HighestRoot(reaches, i) - lowered_[i];
     low_.emplace(bound, h_, settings_.height_spacing);
   }
 
@@ -444,7 +485,7 @@ class Pattern {
       cancellation.ThrowIfCancelled();
       const double t = std::min(i * h_, duration_);
       const int k = IntervalAt(t);
-      const WholeBodyState state = SolveAt(k, t, q, &solver);
+      const WholeBodyState state = SolveAt(i, k, t, q, &solver);
       to_root_.col(i) = state.q.segment<2>(4) - CentreOfMass(t).value;
       q = GuessAfter(state, std::min(stride, steps_ - i) * h_);
       dynamics.SetState(state.q, state.v, state.a);
@@ -464,11 +505,12 @@ class Pattern {
     }
   }
 
-  WholeBodyState SolveAt(int k, double t, const VectorXd& guess, WholeBodySolver* solver) const {
+  WholeBodyState SolveAt(int knot, int k, double t, const VectorXd& guess,
+                         WholeBodySolver* solver) const {
     try {
       return solver->Solve(Task(k, t - intervals_[k].start), guess);
     } catch (const MotionError& error) {
-      throw MotionError(error.what(), k);
+      throw OutOfReach(error.what(), k, knot);
     }
   }
 
@@ -521,6 +563,7 @@ class Pattern {
   std::vector<Interval> intervals_;
   std::vector<Climb> climbs_;
   Eigen::Matrix2Xd to_root_;
+  VectorXd lowered_;                ///< m, at every knot: see FilterWithinReach
   std::optional<SmoothUnder> low_;  ///< the root's height on uneven ground
   double duration_ = 0;             ///< s
   int steps_ = 0;

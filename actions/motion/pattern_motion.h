@@ -16,7 +16,10 @@ struct PatternSettings {
   /// ends; 0: as `clearance` says. Empty: all 0.
   std::vector<double> lifts;
   double zmp_margin =
-      0.05;               ///< wanted distance of the zero moment point from the support's edge, m
+      0.05;  ///< wanted distance of the zero moment point from the support's edge, m
+  /// m: the zero moment point of swings is so far ahead of the balanced place, within the margin.
+  /// Bent knees, which are ahead of the ankles, then need less torque.
+  double zmp_ahead = 0;
   double grid = 0.02;     ///< s, at most, between knots of the centre of mass
   int filter_passes = 2;  ///< corrections of the pendulum by the whole robot's dynamics
   /// Corrections before the last one look at one knot of so many: they are only roughly right

@@ -103,7 +103,7 @@ Knot ToeRoll::KnotAt(const Turn& turn, double t, const JointMotion& joints) {
   const auto forces = dynamics::DistributeContactForces(&dynamics_, toes_, force_settings);
   if (!forces) {
     throw MotionError(fmt::format("{} at {:.2f} s of the roll over the toes",
-                                  ForceFault(&dynamics_, toes_, force_settings), t));
+                                  ForceFault(&dynamics_, toes_, force_settings).what(), t));
   }
   Knot knot;
   knot.t = t;

@@ -16,10 +16,15 @@ using Eigen::VectorXd;
 /// Within 1 ms. Many points that share little load come and go in bursts of tens of events.
 constexpr int kZenoEvents = 1000;
 
+/// m. Feet that lift off jam for milliseconds in a simulation that knows no sliding; held, they
+/// would drag the robot down.
+constexpr double kJamDepth = 2e-4;
+
 dynamics::RobotRolloutSettings SimulatorSettings(const RolloutCheckSettings& check,
                                                  const dynamics::MultibodyModel& model) {
   dynamics::RobotRolloutSettings settings;
   settings.touching = kTouching;
+  settings.jam_depth = kJamDepth;
   settings.utilisation_interval = check.sample_time;
   dynamics::OdeSettings& integration = settings.hybrid.integration;
   integration.relative_tolerance = check.tolerance;

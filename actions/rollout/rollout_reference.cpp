@@ -16,7 +16,9 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kEdge = 0.01;  // m: a rigid sole bears on an edge that it overlaps
+/// A rigid sole bears on an edge that it overlaps: so far may one of its points be beyond it, m, if
+/// the sole reaches back across it within twice as much.
+constexpr double kEdge = 0.01;
 constexpr double kRest = 1e-3;  // m/s and rad/s
 
 std::set<int> PlanesUsed(const Segment& segment, const models::RobotModel& robot,
@@ -40,6 +42,14 @@ std::set<int> PlanesUsed(const Segment& segment, const models::RobotModel& robot
     }
   }
   return planes;
+}
+
+/// The point, moved into its patch.
+Vector3d Inside(const models::ContactPatch& patch, std::size_t point) {
+  const Vector3d inwards = patch.Centre() - patch.points[point];
+  const double length = inwards.norm();
+  return length > 2 * kEdge ? Vector3d(patch.points[point] + 2 * kEdge / length * inwards)
+                            : patch.Centre();
 }
 
 double Turned(const Eigen::Ref<const VectorXd>& q, const VectorXd& planned) {
@@ -128,11 +138,16 @@ std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
         contact.offset = plane.offset - plane.normal.dot(origin_);
         contact.friction = std::min(robot.friction, plane.friction);
         if (planes_.size() > 1) {
-          contact.lands = [this, kinematics, index, point = contact.point](const VectorXd& q) {
+          contact.lands = [this, kinematics, index, point = contact.point,
+                           inside = Inside(patch, i)](const VectorXd& q) {
             kinematics->SetPosition(model_->TreeConfiguration(q));
-            const Vector3d p =
-                origin_ + tilt_.transpose() * kinematics->Position(point.link, point.p_L);
-            return ground_.Clearance(index, p.head<2>()) > -kEdge;
+            const auto clearance = [&](const Vector3d& p_L) {
+              const Vector3d p =
+                  origin_ + tilt_.transpose() * kinematics->Position(point.link, p_L);
+              return ground_.Clearance(index, p.head<2>());
+            };
+            const double here = clearance(point.p_L);
+            return here >= 0 || (here > -kEdge && clearance(inside) >= 0);
           };
         }
         contacts.push_back(std::move(contact));

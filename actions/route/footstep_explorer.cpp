@@ -11,6 +11,9 @@ namespace possibility::actions {
 namespace {
 
 constexpr std::int64_t kStatesPerTurn = 50;
+/// Where the search has neither found steps nor a proof that there are none, it goes on beside the
+/// islands, with twice as many states each time, up to so many.
+constexpr std::int64_t kMostStates = 16000;
 
 /// Of a manoeuvre of planned steps, s: coming to rest and starting again.
 constexpr double kStop = 2.5;
@@ -50,8 +53,9 @@ graph::Findings FootstepExplorer::Explore() {
     *states_ = search_->states();
     if (status == FootstepSearch::Status::kSearching) return {graph::Outlook::kLeadsOn, {}};
     if (status == FootstepSearch::Status::kExhausted) {
-      proposals_ = 2;
       *gave_up_ = true;
+      if (MayGoOn()) return {graph::Outlook::kLeadsOn, {}};
+      proposals_ = 2;
       return {graph::Outlook::kOver, {}};
     }
   } catch (const Cancelled&) {
@@ -59,6 +63,12 @@ graph::Findings FootstepExplorer::Explore() {
   }
   ++proposals_;
   return {graph::Outlook::kOver, Route()};
+}
+
+bool FootstepExplorer::MayGoOn() {
+  const bool is_cut_short = search_->states() >= search_->most_states;
+  search_->most_states *= 2;
+  return is_cut_short && search_->most_states <= kMostStates;
 }
 
 bool FootstepExplorer::OnRefuted() {

@@ -43,6 +43,8 @@ class FootstepExplorer : public graph::Explorer {
     double time = 0;  ///< s, of the steps up to here
   };
 
+  /// Whether the search, cut short without an answer, gets more states.
+  bool MayGoOn();
   const QuasiStaticAction& gait() const { return *(*space_.gaits)[start_.gait]; }
   std::vector<Halt> Halts() const;
   std::vector<graph::PathEdge> Route() const;

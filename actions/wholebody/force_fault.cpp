@@ -81,15 +81,15 @@ std::string BalanceFault(MultibodyDynamics* dynamics, const std::vector<ContactP
 
 }  // namespace
 
-std::string ForceFault(MultibodyDynamics* dynamics, const std::vector<ContactPoint>& points,
+MotionError ForceFault(MultibodyDynamics* dynamics, const std::vector<ContactPoint>& points,
                        const ContactForceSettings& settings) {
   ContactForceSettings tried = settings;
   tried.torque_margin = kUnlimited;
   if (const auto forces = DistributeContactForces(dynamics, points, tried)) {
-    return TorqueFault(
-        *dynamics, settings,
+    const ContactForces least =
         AtLeastMargin(dynamics, points, settings, &ContactForceSettings::torque_margin,
-                      settings.torque_margin, forces->torque_utilisation, *forces));
+                      settings.torque_margin, forces->torque_utilisation, *forces);
+    return MotionError(TorqueFault(*dynamics, settings, least), -1, MotionError::Limit::kTorque);
   }
   tried.friction_margin = kUnlimited;
   if (const auto forces = DistributeContactForces(dynamics, points, tried)) {
@@ -98,10 +98,12 @@ std::string ForceFault(MultibodyDynamics* dynamics, const std::vector<ContactPoi
         dynamics, points, tried, &ContactForceSettings::friction_margin, settings.friction_margin,
         std::max(forces->friction_utilisation, settings.friction_margin), *forces);
     const double friction = LeastFriction(points, settings.friction);
-    return fmt::format("the contacts need a friction of {:.2f} of {:.2f}",
-                       least.friction_utilisation * friction, settings.friction_margin * friction);
+    return MotionError(
+        fmt::format("the contacts need a friction of {:.2f} of {:.2f}",
+                    least.friction_utilisation * friction, settings.friction_margin * friction),
+        -1, MotionError::Limit::kFriction);
   }
-  return BalanceFault(dynamics, points);
+  return MotionError(BalanceFault(dynamics, points));
 }
 
 }  // namespace possibility::actions

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "actions/wholebody/motion_error.h"
 #include "dynamics/contact/contact_forces.h"
 #include "dynamics/tree/multibody_dynamics.h"
 
@@ -13,7 +13,7 @@ namespace possibility::actions {
 /// 61.0 of 42.7", "the contacts need a friction of 0.92 of 0.60", "the centre of pressure is 12 mm
 /// outside the support". A torque is the least that the worst joint needs if all joints may use the
 /// same share of their limits. `settings`: those under which no forces exist.
-std::string ForceFault(dynamics::MultibodyDynamics* dynamics,
+MotionError ForceFault(dynamics::MultibodyDynamics* dynamics,
                        const std::vector<dynamics::ContactPoint>& points,
                        const dynamics::ContactForceSettings& settings);
 

@@ -181,8 +181,8 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, d
   const std::optional<dynamics::ContactForces> forces =
       dynamics::DistributeContactForces(&dynamics_, bearing.points, force_settings);
   if (!forces) {
-    const std::string fault = ForceFault(&dynamics_, bearing.points, force_settings);
-    throw MotionError(fmt::format("{} at {:.2f} s", fault, t));
+    const MotionError fault = ForceFault(&dynamics_, bearing.points, force_settings);
+    throw MotionError(fmt::format("{} at {:.2f} s", fault.what(), t), -1, fault.limit());
   }
   CheckCoupledTorques(forces->torques, t);
   Knot knot;

@@ -37,6 +37,10 @@ struct RobotRolloutSettings {
   /// m/s: after an impact, points that would leave the ground more slowly than this stay. This ends
   /// the endless sequence of ever smaller impacts of a rocking foot.
   double rest_speed = 1e-3;
+  /// m: a point that friction jams (RobotContactEvent::jammed) sinks so far below its plane before
+  /// it is held. A jam that passes within milliseconds then leaves no trace, as on ground that
+  /// yields a little. 0: it is held at once.
+  double jam_depth = 0;
   /// True: a patch whose resultant leaves its friction cone ends the rollout
   /// (RobotRolloutEnd::kSlip). False: the patch sticks, and its utilisation is reported.
   bool ends_at_slip = false;

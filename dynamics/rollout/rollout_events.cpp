@@ -81,18 +81,18 @@ RolloutStance RolloutEvents::PassContactEvent(double time, const std::vector<int
   std::vector<int> touching;
   std::set_union(held.begin(), held.end(), touched.begin(), touched.end(),
                  std::back_inserter(touching));
-  if (touching.empty()) return MakeStance({}, {}, *state);
+  if (touching.empty()) return MakeStance({}, {}, {}, *state);
   RobotContactEvent event;
   event.time = time;
   event.touched = touched;
   event.v_before = state->tail(robot_->nv());
   event.impulses.setZero(3, robot_->num_contacts());
   touching = PassImpact(Without(touching, leaving), &event, state);
-  SelectHeld(touching, *state, &event);
+  const std::vector<int> sinking = SelectHeld(touching, *state, &event);
   event.released = Without(held, event.held);
   event.v_after = state->tail(robot_->nv());
   rollout_->events.push_back(event);
-  return MakeStance(event.held, event.jammed, *state);
+  return MakeStance(event.held, event.jammed, sinking, *state);
 }
 
 /// Returns the points that are at rest afterwards.
@@ -129,17 +129,34 @@ void RolloutEvents::RecordFriction(const std::vector<int>& bearing, const Impact
   }
 }
 
-void RolloutEvents::SelectHeld(const std::vector<int>& touching, const VectorXd& state,
-                               RobotContactEvent* event) {
-  if (touching.empty()) return;
-  const BearingSelection bearing =
-      SelectBearingPoints(robot_->UnilateralAccelerations(event->time, state, touching));
-  event->held = Picked(touching, bearing.points);
-  event->jammed = Picked(touching, bearing.jammed);
+std::vector<int> RolloutEvents::SelectHeld(std::vector<int> touching, const VectorXd& state,
+                                           RobotContactEvent* event) {
+  std::vector<int> sinking;
+  while (!touching.empty()) {
+    const BearingSelection bearing =
+        SelectBearingPoints(robot_->UnilateralAccelerations(event->time, state, touching));
+    event->held = Picked(touching, bearing.points);
+    event->jammed = Picked(touching, bearing.jammed);
+    std::vector<int> yielding;
+    std::copy_if(event->jammed.begin(), event->jammed.end(), std::back_inserter(yielding),
+                 [this](int contact) { return MaySink(contact); });
+    if (yielding.empty()) break;
+    touching = Without(touching, yielding);
+    sinking.insert(sinking.end(), yielding.begin(), yielding.end());
+    event->held.clear();
+    event->jammed.clear();
+  }
+  std::sort(sinking.begin(), sinking.end());
+  return sinking;
+}
+
+bool RolloutEvents::MaySink(int contact) {
+  return settings_.jam_depth > 0 && robot_->Gap(contact) > kContactSlack - settings_.jam_depth;
 }
 
 RolloutStance RolloutEvents::MakeStance(const std::vector<int>& held,
-                                        const std::vector<int>& jammed, const VectorXd& state) {
+                                        const std::vector<int>& jammed,
+                                        const std::vector<int>& sinking, const VectorXd& state) {
   RolloutStance stance;
   stance.held = held;
   stance.jammed = jammed;
@@ -156,7 +173,8 @@ RolloutStance RolloutEvents::MakeStance(const std::vector<int>& held,
     stance.passes[i] = robot_->contact(i).lands &&
                        (std::abs(gap) > settings_.touching || !robot_->Lands(i, state));
     if (stance.passes[i] || gap > kContactSlack) continue;
-    stance.slack[i] = kContactSlack + std::max(0.0, -gap);
+    stance.slack[i] = Contains(sinking, i) ? std::max(settings_.jam_depth, kContactSlack)
+                                           : kContactSlack + std::max(0.0, -gap);
   }
   return stance;
 }

@@ -36,10 +36,13 @@ class RolloutEvents {
                               Eigen::VectorXd* state);
   void RecordFriction(const std::vector<int>& bearing, const Impact& impact,
                       RobotContactEvent* event);
-  void SelectHeld(const std::vector<int>& touching, const Eigen::VectorXd& state,
-                  RobotContactEvent* event);
+  /// Returns the contacts that jam but may still sink, ascending; they are not held.
+  std::vector<int> SelectHeld(std::vector<int> touching, const Eigen::VectorXd& state,
+                              RobotContactEvent* event);
+  /// Whether a contact that jams is not yet as deep as RobotRolloutSettings::jam_depth.
+  bool MaySink(int contact);
   RolloutStance MakeStance(const std::vector<int>& held, const std::vector<int>& jammed,
-                           const Eigen::VectorXd& state);
+                           const std::vector<int>& sinking, const Eigen::VectorXd& state);
   void CheckSlip(double time, const Eigen::VectorXd& state, const RolloutStance& stance);
   bool IsCalm(const Eigen::VectorXd& state);
 

@@ -273,10 +273,26 @@ TEST(StepRefusalsTest, AnEndThatFailedIsRefusedInEveryStep) {
   refusals.AddEnd(at(0.2, 0.1, 0, 0.1), other);
   const Foothold near = at(0, 0, 0, 0.1);
   EXPECT_TRUE(refusals.Refuses({0, at(0.2, 0.1, 0, 0.1), near, 0}, other));
-  EXPECT_TRUE(refusals.Refuses({1, near, at(-0.25, -0.1, 0.2, 0.1), 0.1}, other));
+  EXPECT_TRUE(refusals.Refuses({1, near, at(0.25, -0.1, 0.2, 0.1), 0.1}, other));
   EXPECT_FALSE(refusals.Refuses({0, near, near, 0.2}, other));
   EXPECT_FALSE(refusals.Refuses({0, at(0.3, 0.05, 0, 0.1), near, 0}, other));
   EXPECT_FALSE(refusals.Refuses({0, at(0.15, 0.15, 0, 0.1), near, 0}, other));
+  EXPECT_FALSE(refusals.Refuses({0, at(-0.2, 0.1, 0, 0.1), near, 0}, other)) << "behind";
+}
+
+/// Toes that point away from the other foot are another matter than toes that point at it.
+TEST(StepRefusalsTest, AnEndIsRefusedOnBothSidesButTurnedOneWayOnly) {
+  StepRefusals refusals;
+  const Foothold other{{1, 2, 0.5}, 0.1};
+  const auto at = [&other](double aside, double turn) {
+    return Foothold{other.stance * PlanarPose{0.1, aside, turn}, 0.1};
+  };
+  const Foothold near{other.stance, 0.1};
+  refusals.AddEnd(at(0.1, 0.3), other);
+  EXPECT_TRUE(refusals.Refuses({0, at(0.1, 0.35), near, 0}, other));
+  EXPECT_TRUE(refusals.Refuses({1, at(-0.1, -0.35), near, 0}, other)) << "the mirror image";
+  EXPECT_FALSE(refusals.Refuses({0, at(0.1, -0.35), near, 0}, other));
+  EXPECT_FALSE(refusals.Refuses({1, at(-0.1, 0.35), near, 0}, other));
 }
 
 }  // namespace

@@ -67,6 +67,12 @@ Tally PlanAll(unsigned last) {
 
 TEST(RandomTerrain, IsWalkedOrRefusedWithoutATimeLimit) { EXPECT_FALSE(PlanAll(3).found.empty()); }
 
+/// Terrain 5 was refused by a simulation in which toes caught on an edge beside them; on 60 the
+/// guessed root was out of the legs' reach, on 146 a knee needed 101 of 100 N m.
+TEST(RandomTerrain, GroundThatTakesAllThatTheRobotHasIsWalked) {
+  for (const unsigned seed : {5, 60, 146}) EXPECT_TRUE(IsPlanned(seed)) << "terrain " << seed;
+}
+
 TEST(RandomTerrainLong, IsWalkedOrRefusedAndBruteForceAgrees) {
   constexpr std::size_t kConfirmed = 20;
   Tally tally = PlanAll(200);
@@ -84,8 +90,8 @@ TEST(RandomTerrainLong, IsWalkedOrRefusedAndBruteForceAgrees) {
   });
   std::printf("found %zu, refused %zu; of %zu of these, steps exist on %d\n", tally.found.size(),
               refused, tally.refused.size(), despite_steps.load());
-  EXPECT_GT(tally.found.size(), 100u);
-  EXPECT_LE(2 * despite_steps.load(), static_cast<int>(tally.refused.size()));
+  EXPECT_GE(tally.found.size(), 190u);
+  EXPECT_LE(despite_steps.load(), 1);
 }
 
 }  // namespace

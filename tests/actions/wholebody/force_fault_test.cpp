@@ -39,7 +39,7 @@ class ForceFaultTest : public ::testing::Test {
     MultibodyDynamics dynamics(dynamics::MultibodyModel::Spatial(robot_));
     dynamics.SetState(VectorXd::Unit(robot_.nq(), 0), VectorXd::Zero(robot_.nv()), a);
     EXPECT_FALSE(DistributeContactForces(&dynamics, points, settings_));
-    return ForceFault(&dynamics, points, settings_);
+    return ForceFault(&dynamics, points, settings_).what();
   }
   std::string Fault(const std::vector<ContactPoint>& points) {
     return Fault(points, VectorXd::Zero(robot_.nv()));

@@ -460,6 +460,59 @@ TEST(RobotRollout, ABallInAGrooveRestsOnBothPlanes) {
   EXPECT_EQ(rollout.events.back().held, (std::vector<int>{0, 1}));
 }
 
+/// Painleve's rod: its tip is at rest on the ground and would sink slowly, but it turns so fast
+/// that it would have to be pulled down to stay where it is.
+RobotRollout RolloutOfARod(bool gets_up, double jam_depth) {
+  models::RobotModel rod;
+  rod.name = "rod";
+  rod.links = {LinkOf("rod", 1, Vector3d::Zero(), 0.05)};
+  const double lean = 0.9, sinks_at = 0.5;
+  const double rate = std::sqrt((kGravity - sinks_at) / std::cos(lean));
+  VectorXd q(7), v(6);
+  q << std::cos(lean / 2), 0, std::sin(lean / 2), 0, 0, 0, std::cos(lean);
+  const Vector3d turning(0, gets_up ? -rate : rate, 0);
+  const Vector3d tip(-std::sin(lean), 0, -std::cos(lean));
+  v << turning, -turning.cross(tip);
+  RobotRolloutSettings settings = AccurateRollout(1e-10);
+  settings.jam_depth = jam_depth;
+  RobotSimulator simulator(MultibodyModel::Spatial(rod),
+                           {ContactOn("tip", 0, -Vector3d::UnitZ(), Vector3d::UnitZ())}, {},
+                           settings);
+  return simulator.Run(q, v, 0, 0.08);
+}
+
+double HeightOfTip(const RobotRollout& rollout, double t) {
+  const VectorXd q = rollout.Configuration(t);
+  return q[6] - (Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::UnitZ()).z();
+}
+
+TEST(RobotRollout, AJammedPointIsHeldAtOnceUnlessItMaySink) {
+  const RobotRollout held = RolloutOfARod(true, 0);
+  ASSERT_FALSE(held.events.empty());
+  EXPECT_EQ(held.events[0].time, 0);
+  EXPECT_EQ(held.events[0].jammed, std::vector<int>{0});
+}
+
+TEST(RobotRollout, AJamThatPassesIsNotHeld) {
+  const RobotRollout free = RolloutOfARod(true, 1e-3);
+  ASSERT_EQ(free.events.size(), 1u);
+  EXPECT_TRUE(free.events[0].held.empty());
+  double lowest = 0;
+  for (int i = 0; i <= 80; ++i) lowest = std::min(lowest, HeightOfTip(free, i * 1e-3));
+  EXPECT_LT(lowest, -1e-5);
+  EXPECT_GT(lowest, -1e-3);
+  EXPECT_GT(HeightOfTip(free, 0.08), 0) << "the tip rises again";
+}
+
+TEST(RobotRollout, AJamThatLastsIsHeldOnceThePointHasSunk) {
+  const RobotRollout sunk = RolloutOfARod(false, 1e-3);
+  ASSERT_GE(sunk.events.size(), 2u);
+  EXPECT_TRUE(sunk.events[0].held.empty());
+  EXPECT_GT(sunk.events[1].time, 0.03);
+  EXPECT_EQ(sunk.events[1].touched, std::vector<int>{0});
+  EXPECT_NEAR(HeightOfTip(sunk, sunk.events[1].time), -1e-3, 1e-6);
+}
+
 TEST(RobotRollout, TorquesNeverExceedTheLimits) {
   const models::RobotModel& robot = Drchubo1();
   const auto model = MultibodyModel::Spatial(robot);
