@@ -37,9 +37,10 @@ const kPlotFont = '10.5px system-ui, "DejaVu Sans", sans-serif';
 
 /* A figure: caption with the names and present values of its curves, panel, time cursor. */
 class CurvePlot {
-  /* seek(t) is called with the time that is clicked. */
-  constructor(parent, title, unit, seek) {
+  /* source: where the curves come from. seek(t) is called with the time that is clicked. */
+  constructor(parent, title, unit, source, seek) {
     this.figure = addText(parent, 'figure', '');
+    this.figure.title = source;
     const caption = addText(this.figure, 'figcaption', '');
     addText(caption, 'b', title);
     addText(caption, 'i', unit);
@@ -66,7 +67,7 @@ class CurvePlot {
   }
 
   /* content: {phases, curves, limits, marks, range, include (at least, if there is no range),
-     bandColour}. A curve is {label, colour, dashed,
+     most (that an axis without range shows), bandColour}. A curve is {label, colour, dashed,
      faint, value(phase, knot), text(value)}; limits are {y, text, colour}, marks
      {t, text, colour}. */
   show(content, begin, end) {
@@ -136,6 +137,7 @@ class CurvePlot {
     }
     this.limits.forEach((limit) => include(limit.y));
     this.include.forEach(include);
+    high = Math.min(high, Math.max(low, this.most));
     if (!(low <= high)) return [0, 1];
     const pad = Math.max(0.06 * (high - low), 1e-3 * Math.max(1, Math.abs(high)));
     return [low - pad, high + pad];

@@ -66,6 +66,7 @@ class Motion {
     this.rates = new Table(rows, this.joints.length);
     this.torques = new Table(rows, this.joints.length);
     this.balance = new Table(rows, 6);
+    this.margins = new Table(rows, 7);
     this.knots = knots.numbers;
     this.centres = centres.numbers;
     this.forces = new Float32Array(3 * points);
@@ -82,7 +83,8 @@ class Motion {
           }
         }
       };
-      for (const table of [knots, centres, this.momenta, this.rates, this.torques, this.balance]) {
+      for (const table of [knots, centres, this.momenta, this.rates, this.torques, this.balance,
+                           this.margins]) {
         fill(table.numbers, phase.first * table.columns, table.columns);
       }
       fill(this.forces, phase.forces, 3 * pointsOf(phase));

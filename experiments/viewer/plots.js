@@ -7,6 +7,29 @@ const kFaint = 'rgba(110, 122, 138, 0.45)';
 const kLeastNormal = 1;  // N: friction of what bears less means nothing
 const kMostGroups = 4;   // joints, or pairs of them, that are named
 
+/* Name, title, unit and source of every plot. */
+const kPlots = [
+  ['positions', 'Joint positions', '% of range', 'q of the plan in the ranges of the robot'],
+  ['speeds', 'Joint speeds', '% of limit (rad/s)', 'v of the plan over the limits of the robot'],
+  ['torques', 'Joint torques', '% of limit (N m)', 'tau of the plan over the limits of the robot'],
+  ['forces', 'Normal forces', '% of weight (N)', 'Forces of the plan, vertical, summed by patch'],
+  ['friction', 'Friction used', '% of cone',
+   'Forces of the plan: horizontal over vertical part and the friction of the robot, worst point'],
+  ['shares', 'Margins, used shares', '% of limit',
+   'Measured as the verifier does, worst joint or point, worst knot of the plan since the last drawn'],
+  ['distances', 'Margins, distances', 'm',
+   'Measured as the verifier does, worst pair or point, worst knot of the plan since the last drawn'],
+  ['height', 'Centre of mass, height', 'm', 'From q of the plan and the masses of the links'],
+  ['forward', 'Centre of mass, forward', 'm', 'From q of the plan and the masses of the links'],
+  ['balanceX', 'Balance, world x', 'm', 'From the forces of the plan, where they act, and q and v'],
+  ['balanceY', 'Balance, world y', 'm', 'From the forces of the plan, where they act, and q and v'],
+  ['margin', 'Z.m.p. from edge of support', 'm, inside positive',
+   'From the forces of the plan and where they act, at the knots that are drawn'],
+  ['linear', 'Linear momentum', 'N s', 'From q and v of the plan and the masses of the links'],
+  ['angular', 'Angular momentum about c.o.m.', 'N m s',
+   'From q and v of the plan and the masses and inertias of the links'],
+];
+
 /* "L/RKP" for LKP and RKP. */
 function pairName(a, b) {
   let i = 0;
@@ -23,25 +46,12 @@ class PlotsPanel {
     this.data = data;
     this.motion = motion;
     this.parent = parent;
-    const plot = (title, unit) => {
-      const made = new CurvePlot(parent, title, unit, seek);
-      made.time = (knot) => motion.knots[knot * motion.stride];
-      return made;
-    };
-    this.plots = {
-      positions: plot('Joint positions', '% of range'),
-      speeds: plot('Joint speeds', '% of limit (rad/s)'),
-      torques: plot('Joint torques', '% of limit (N m)'),
-      forces: plot('Normal forces', '% of weight (N)'),
-      friction: plot('Friction used', '% of cone'),
-      height: plot('Centre of mass, height', 'm'),
-      forward: plot('Centre of mass, forward', 'm'),
-      balanceX: plot('Balance, world x', 'm'),
-      balanceY: plot('Balance, world y', 'm'),
-      margin: plot('Z.m.p. from edge of support', 'm, inside positive'),
-      linear: plot('Linear momentum', 'N s'),
-      angular: plot('Angular momentum about c.o.m.', 'N m s'),
-    };
+    this.plots = {};
+    for (const [name, title, unit, source] of kPlots) {
+      const plot = new CurvePlot(parent, title, unit, source, seek);
+      plot.time = (knot) => motion.knots[knot * motion.stride];
+      this.plots[name] = plot;
+    }
     this.key = addText(parent, 'div', '');
     this.key.id = 'phase-key';
     this.groups = this.jointGroups();
@@ -68,6 +78,7 @@ class PlotsPanel {
     this.frame = this.headingFrame(segment);
     this.showJoints();
     this.showContacts();
+    this.showMargins();
     this.showWhole();
     this.showBalance();
     this.showPhaseKey();
@@ -75,7 +86,7 @@ class PlotsPanel {
 
   put(name, content) {
     const bandColour = (phase) => phaseColour(phase, this.data.contacts);
-    const nothing = {limits: [], marks: [], include: [], range: null};
+    const nothing = {limits: [], marks: [], include: [], range: null, most: Infinity};
     this.plots[name].show(
         {...nothing, ...content, phases: this.phases, bandColour}, this.begin, this.end);
   }
@@ -190,6 +201,15 @@ class PlotsPanel {
       limits: [{y: 100, text: ''}],
       range: [0, 108],
     });
+  }
+
+  showMargins() {
+    const {margins} = this.motion;
+    const contents = marginContents((column, scale) => (phase, knot) => {
+      const value = margins.at(knot, column);
+      return isNaN(value) ? null : scale * value;
+    });
+    for (const [name, content] of Object.entries(contents)) this.put(name, content);
   }
 
   showWhole() {

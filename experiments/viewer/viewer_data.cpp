@@ -241,7 +241,7 @@ PageHeading HeadingOf(const actions::Plan& plan, const models::RobotModel& robot
 
 std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& robot,
                            const models::Scenario& scenario, const PageHeading& heading) {
-  MotionPacker motion(robot);
+  MotionPacker motion(robot, scenario.environment);
   Json segments = Json::array();
   for (const actions::Segment& segment : plan.segments) segments.push_back(motion.Add(segment));
   Json goals = Json::array();

@@ -71,8 +71,10 @@ Json MotionPacker::AddPhase(const actions::Phase& phase, bool is_dynamic) {
 
 void MotionPacker::AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames) {
   std::vector<std::vector<float>> courses;
+  std::size_t first = 0;  // of the knots that a frame stands for
   for (const std::size_t k : frames) {
-    const std::vector<float> drawn = Drawn(phase.knots[k]);
+    const std::vector<float> drawn = Drawn(phase.knots[k], margins_.Worst(phase, first, k));
+    first = k + 1;
     courses.resize(drawn.size());
     for (std::size_t i = 0; i < drawn.size(); ++i) courses[i].push_back(drawn[i]);
   }
@@ -81,7 +83,8 @@ void MotionPacker::AddKnots(const actions::Phase& phase, const std::vector<std::
   num_forces_ += static_cast<int>(frames.size() * phase.knots.front().forces.size());
 }
 
-std::vector<float> MotionPacker::Drawn(const actions::Knot& knot) {
+std::vector<float> MotionPacker::Drawn(const actions::Knot& knot,
+                                       const FrameMargins::Numbers& margins) {
   std::vector<float> drawn = {static_cast<float>(knot.t)};
   Append(knot.q, &drawn);
   const CentroidalState whole = CentroidalStateAt(knot, &kinematics_);
@@ -94,6 +97,7 @@ std::vector<float> MotionPacker::Drawn(const actions::Knot& knot) {
   Eigen::Matrix<double, 6, 1> numbers;
   numbers << balance.zmp, balance.margin, balance.capture;
   Append((numbers * 1e5).array().round() / 1e5, &drawn);
+  Append(margins, &drawn);
   Append(knot.forces.reshaped(), &drawn);
   return drawn;
 }

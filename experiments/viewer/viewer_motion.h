@@ -5,9 +5,11 @@
 #include "actions/plan/contact_name.h"
 #include "actions/plan/plan.h"
 #include "dynamics/tree/tree_kinematics.h"
+#include "experiments/viewer/viewer_margins.h"
 #include "experiments/viewer/viewer_packing.h"
 #include "models/input/json_text.h"
 #include "models/robot/robot_model.h"
+#include "models/world/environment.h"
 
 namespace possibility::experiments {
 
@@ -15,8 +17,9 @@ namespace possibility::experiments {
 /// the plotted quantities at each.
 class MotionPacker {
  public:
-  /// `robot` must outlive it.
-  explicit MotionPacker(const models::RobotModel& robot) : robot_(robot), kinematics_(robot) {}
+  /// Both must outlive it. @throws InputError as FrameMargins does.
+  MotionPacker(const models::RobotModel& robot, const models::Environment& environment)
+      : robot_(robot), kinematics_(robot), margins_(robot, environment) {}
 
   /// Adds a segment. Returns the page's data of it besides its knots.
   /// @throws InputError if it names a contact that the robot does not have.
@@ -29,11 +32,12 @@ class MotionPacker {
   nlohmann::ordered_json AddPhase(const actions::Phase& phase, bool is_dynamic);
   void AddKnots(const actions::Phase& phase, const std::vector<std::size_t>& frames);
   /// t, q, centre of mass, linear and angular momentum about it, joint rates, torques, BalanceState
-  /// to 0.01 mm so that strides repeat, forces.
-  std::vector<float> Drawn(const actions::Knot& knot);
+  /// to 0.01 mm so that strides repeat, margins, forces.
+  std::vector<float> Drawn(const actions::Knot& knot, const FrameMargins::Numbers& margins);
 
   const models::RobotModel& robot_;
   dynamics::TreeKinematics kinematics_;
+  FrameMargins margins_;
   std::vector<actions::BearingPatch> bearing_;  ///< of the present phase
   int count_ = 0;                               ///< of knots
   int num_forces_ = 0;                          ///< three per point and knot

@@ -62,15 +62,7 @@ std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robo
                                          {"convex_hull", viewer_resources::convex_hull},
                                          {"convex_geometry", viewer_resources::convex_geometry},
                                          {"orbit_controls", viewer_resources::orbit_controls},
-                                         {"kinematics", viewer_resources::kinematics},
-                                         {"barrier", viewer_resources::barrier},
-                                         {"drawing", viewer_resources::drawing},
-                                         {"jumps", viewer_resources::jumps},
-                                         {"balance", viewer_resources::balance},
-                                         {"timeline", viewer_resources::timeline},
-                                         {"curves", viewer_resources::curves},
-                                         {"plots", viewer_resources::plots},
-                                         {"player", viewer_resources::player}});
+                                         {"scripts", viewer_resources::scripts}});
 }
 
 }  // namespace possibility::experiments

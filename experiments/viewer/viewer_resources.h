@@ -8,15 +8,7 @@ namespace possibility::experiments::viewer_resources {
 
 extern const std::string_view page;
 extern const std::string_view style;
-extern const std::string_view kinematics;
-extern const std::string_view barrier;
-extern const std::string_view drawing;
-extern const std::string_view jumps;
-extern const std::string_view balance;
-extern const std::string_view timeline;
-extern const std::string_view curves;
-extern const std::string_view plots;
-extern const std::string_view player;
+extern const std::string_view scripts;  ///< all *.js, one after the other
 extern const std::string_view three;
 extern const std::string_view convex_hull;
 extern const std::string_view convex_geometry;

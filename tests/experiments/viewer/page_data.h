@@ -64,6 +64,7 @@ struct PageMotion {
         read(num_joints, &rates);
         read(num_joints, &torques);
         read(6, &balance);
+        read(7, &margins);
         read(num_forces, &forces);
       }
     }
@@ -73,6 +74,7 @@ struct PageMotion {
   std::vector<float> knots;  ///< t, q
   std::vector<float> centres, momenta, rates, torques, forces;
   std::vector<float> balance;  ///< zero moment point, its margin, capture point in the plane
+  std::vector<float> margins;  ///< in the order of FrameMargins::Numbers
 };
 
 }  // namespace possibility::experiments::testing

@@ -162,8 +162,8 @@ TEST_F(ViewerPageTest, RepeatedStepsAddLittleToTheSize) {
     }
     plan_.segments.push_back(next);
   }
-  // Time, place, balance and indices of every step, in base64.
-  const std::size_t each = 4 * (40 * 6 + 66) * 4 / 3 + 200;
+  // Time, place, balance, margins and indices of every step, in base64.
+  const std::size_t each = 4 * (40 * 7 + 73) * 4 / 3 + 200;
   EXPECT_LT(Page().size(), one + 100 * each);
 }
 
