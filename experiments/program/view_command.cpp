@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "actions/plan/plan.h"
 #include "experiments/command/loaded_plan.h"
@@ -19,57 +20,86 @@
 namespace possibility::experiments {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kJumpFormat = "possibility-solution/1";
 
 struct ViewOptions {
-  std::string file;
+  std::vector<std::string> files;
   std::string robot;
   std::string out;
 };
 
 struct Page {
-  std::filesystem::path shown;  ///< the plan or jump
+  std::filesystem::path file;  ///< where it goes by default
   std::string html;
 };
 
-Page PlanPage(const ViewOptions& options) {
-  if (!options.robot.empty()) {
-    throw InputError(
-        fmt::format("--robot: {} is a plan, which names its robot, expected a jump", options.file));
-  }
-  const LoadedPlan loaded = LoadPlan(options.file);
+LoadedPlan PlanToShow(const std::string& file) {
+  LoadedPlan loaded = LoadPlan(file);
   RequireFit(loaded);
   if (!loaded.IsCurrent()) {
     PrintError("warning: {}: robot or scenario changed since this plan was made\n",
                loaded.file.string());
   }
-  return {loaded.file, ViewerPage(loaded.plan, loaded.robot, loaded.scenario)};
+  return loaded;
+}
+
+PageSubject SubjectOf(const LoadedPlan& loaded) {
+  return {loaded.plan, loaded.robot, loaded.scenario};
+}
+
+Page PlanPage(const ViewOptions& options) {
+  if (!options.robot.empty()) {
+    throw InputError(fmt::format("--robot: {} is a plan, which names its robot, expected a jump",
+                                 options.files[0]));
+  }
+  const LoadedPlan loaded = PlanToShow(options.files[0]);
+  if (options.files.size() == 1) {
+    return {fs::path(loaded.file).replace_extension(".html"),
+            ViewerPage(loaded.plan, loaded.robot, loaded.scenario)};
+  }
+  const LoadedPlan other = PlanToShow(options.files[1]);
+  return {loaded.file.parent_path() / "comparison.html",
+          ComparisonPage(SubjectOf(loaded), SubjectOf(other))};
 }
 
 Page PageOfJump(const ViewOptions& options) {
-  const LoadedJump loaded = LoadJump(options.file, options.robot);
+  const LoadedJump loaded = LoadJump(options.files[0], options.robot);
   if (!loaded.is_current) {
     PrintError("warning: {}: robot or settings changed since this jump was solved\n",
                loaded.file.string());
   }
-  return {loaded.file, JumpPage(loaded)};
+  return {fs::path(loaded.file).replace_extension(".html"), JumpPage(loaded)};
+}
+
+/// Whether a file is a plan or, if not, a jump.
+bool IsPlan(const std::string& file) {
+  std::error_code ignored;  // LoadPlan reports paths that cannot be read
+  if (fs::is_directory(file, ignored)) return true;
+  const std::string format = FormatOf(file);
+  if (format == kJumpFormat) return false;
+  if (format == actions::kPlanFormat) return true;
+  throw InputError(
+      fmt::format("{}: neither a plan nor a jump, expected \"format\": \"{}\" or \"{}\"", file,
+                  actions::kPlanFormat, kJumpFormat));
 }
 
 Page MakePage(const ViewOptions& options) {
-  std::error_code ignored;  // LoadPlan reports paths that cannot be read
-  if (std::filesystem::is_directory(options.file, ignored)) return PlanPage(options);
-  const std::string format = FormatOf(options.file);
-  if (format == kJumpFormat) return PageOfJump(options);
-  if (format == actions::kPlanFormat) return PlanPage(options);
-  throw InputError(
-      fmt::format("{}: neither a plan nor a jump, expected \"format\": \"{}\" or \"{}\"",
-                  options.file, actions::kPlanFormat, kJumpFormat));
+  if (options.files.size() > 2) {
+    throw InputError(fmt::format("{}: a third file, expected one or two", options.files[2]));
+  }
+  for (const std::string& file : options.files) {
+    if (IsPlan(file)) continue;
+    if (options.files.size() == 1) return PageOfJump(options);
+    throw InputError(fmt::format("{}: is a jump, expected two plans to compare", file));
+  }
+  return PlanPage(options);
 }
 
 ExitCode RunView(const ViewOptions& options) {
   const Page page = MakePage(options);
-  std::filesystem::path out = options.out;
-  if (out.empty()) out = std::filesystem::path(page.shown).replace_extension(".html");
+  const fs::path out = options.out.empty() ? page.file : fs::path(options.out);
   WriteOutput(out, page.html);
   PrintOut("{}\n", out.string());
   return kDone;
@@ -79,12 +109,14 @@ ExitCode RunView(const ViewOptions& options) {
 
 Command AddViewCommand(CLI::App& program) {
   CommandOptions command(program, "view",
-                         "Writes a page that plays a plan or a jump in a browser.");
+                         "Writes a page that plays a plan, two plans or a jump in a browser.");
   auto options = std::make_shared<ViewOptions>();
-  command.AddRequired("FILE", &options->file, "plan.json or its folder, or a jump of a library");
+  command.AddRequired("FILE", &options->files,
+                      "plan.json or its folder, or two of them; or a jump of a library");
   command.AddOptional("--robot", &options->robot,
                       "Robot YAML of a jump (default: the one beside its folder jumps)");
-  command.AddOptional("--out", &options->out, "The page (default: beside FILE, ending in .html)");
+  command.AddOptional("--out", &options->out,
+                      "The page (default: beside FILE, ending in .html; of two comparison.html)");
   return {command, [options] { return RunView(*options); }};
 }
 

@@ -13,7 +13,7 @@ const kPhaseColours = {
   settle: '#8e6bd1', landing: '#20a39e', stance: '#ccd2da', on: '#98a2b0', swing: '#98a2b0'};
 
 /* By action, from the page's data: one table serves pages and pictures. */
-let actionColours = {};
+const actionColours = {};
 const actionColour = (action) => actionColours[action];
 const limbColour = (contact) => kLimbColours[contact % kLimbColours.length];
 
@@ -225,11 +225,22 @@ function routeTubes(motion) {
   return group;
 }
 
+/* The browser offers no WebGL. */
+class NoWebGl extends Error {}
+
+function makeRenderer(canvas) {
+  try {
+    return new THREE.WebGLRenderer({canvas, antialias: true});
+  } catch (error) {
+    throw new NoWebGl(error.message);
+  }
+}
+
 class Drawing {
-  /* Throws if the browser offers no WebGL. */
+  /* Throws NoWebGl. */
   constructor(canvas, data, motion) {
     this.motion = motion;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true});
+    this.renderer = makeRenderer(canvas);
     this.renderer.setPixelRatio(window.devicePixelRatio);
     this.renderer.setClearColor('#f7f8fa');
     this.renderer.shadowMap.enabled = true;
@@ -371,6 +382,9 @@ class Drawing {
     this.controls.update();
   }
 
+  /* Diagonal of the world, m. */
+  get size() { return this.bounds.getSize(new THREE.Vector3()).length(); }
+
   /* Looks at the robot if it is followed, otherwise at the whole world. */
   look(view) {
     const directions = {iso: [-0.62, -0.72, 0.6], top: [0, -1e-3, 1], side: [0, -1, 0.12]};
@@ -395,6 +409,18 @@ class Drawing {
   lookFrom(place) {
     this.camera.position.fromArray(place, 0);
     this.controls.target.fromArray(place, 3);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  /* Looks at its world as another drawing looks at its own; each follows its own robot. */
+  lookLike(other) {
+    const shift = this.bounds.getCenter(new THREE.Vector3())
+                      .sub(other.bounds.getCenter(new THREE.Vector3()));
+    const target = this.follow ? this.controls.target.clone()
+                               : other.controls.target.clone().add(shift);
+    this.camera.position.copy(other.camera.position).sub(other.controls.target).add(target);
+    this.controls.target.copy(target);
     this.controls.update();
     this.stale = true;
   }

@@ -53,8 +53,13 @@ class PlotsPanel {
       this.plots[name] = plot;
     }
     this.key = addText(parent, 'div', '');
-    this.key.id = 'phase-key';
+    this.key.className = 'phase-key';
     this.groups = this.jointGroups();
+  }
+
+  setVisible(visible) {
+    for (const plot of Object.values(this.plots)) plot.figure.hidden = !visible;
+    this.key.hidden = !visible;
   }
 
   /* Joints, left and right ones together. */

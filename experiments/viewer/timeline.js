@@ -25,23 +25,26 @@ function bearingText(phase, contacts) {
 }
 
 class Timeline {
-  /* seek(t): called when a time is asked for; changed(): when another part is in view. */
-  constructor(data, motion, seek, changed) {
+  /* part(id): an element of this timeline. range: {begin, end} of the whole of it. seek(t): called
+     when a time is asked for; changed(timeline): when another part is in view. */
+  constructor(part, data, motion, range, {seek, changed}) {
+    this.part = part;
     this.data = data;
     this.motion = motion;
+    this.range = range;
     this.changed = changed;
-    this.begin = motion.begin;
-    this.end = motion.end;
-    this.time = motion.begin;
-    this.overview = element('overview');
-    this.detail = element('detail');
+    this.begin = range.begin;
+    this.end = range.end;
+    this.time = range.begin;
+    this.overview = part('overview');
+    this.detail = part('detail');
     this.used = data.contacts.map((contact, i) => i)
         .filter((i) => motion.phases.some((phase) => phase.contacts.includes(i)));
     const rows = this.used.length * (kContactRows.height + kContactRows.gap);
     this.rowsEnd = kContactRows.top + rows;
-    element('timeline').style.setProperty('--detail', this.rowsEnd + 15 + 'px');
-    document.body.classList.toggle('one-segment', motion.segments.length < 2);
-    this.connect(this.overview, () => [motion.begin, motion.end], seek);
+    part('timeline').style.setProperty('--detail', this.rowsEnd + 15 + 'px');
+    part('timeline').classList.toggle('one-segment', motion.segments.length < 2);
+    this.connect(this.overview, () => [range.begin, range.end], seek);
     this.connect(this.detail, () => [this.begin, this.end], seek);
     this.detail.addEventListener('wheel', (event) => this.onWheel(event), {passive: false});
     this.detail.addEventListener('dblclick', (event) => {
@@ -77,7 +80,7 @@ class Timeline {
     const half = tip.offsetWidth / 2 + 6;
     const x = Math.min(window.innerWidth - half, Math.max(half, event.clientX));
     tip.style.left = x + 'px';
-    const top = element('timeline').getBoundingClientRect().top;
+    const top = this.part('timeline').getBoundingClientRect().top;
     tip.style.bottom = window.innerHeight - top + 6 + 'px';
   }
 
@@ -101,7 +104,7 @@ class Timeline {
 
   /* Makes the part in view `factor` times as long; t stays where it is. */
   zoomBy(factor, t = this.time) {
-    const whole = this.motion.end - this.motion.begin;
+    const whole = this.range.end - this.range.begin;
     const least = Math.min(1, kShortestWindow / (this.end - this.begin));
     const scale = Math.max(least, Math.min(factor, whole / (this.end - this.begin)));
     this.setWindow(t - scale * (t - this.begin), t + scale * (this.end - t));
@@ -112,18 +115,25 @@ class Timeline {
     const pad = 0.04 * (end - begin);
     this.setWindow(begin - pad, end + pad);
   }
-  showAll() { this.setWindow(this.motion.begin, this.motion.end); }
+  showAll() { this.setWindow(this.range.begin, this.range.end); }
 
   setWindow(begin, end) {
-    const length = Math.min(end - begin, this.motion.end - this.motion.begin);
-    this.begin = Math.min(Math.max(begin, this.motion.begin), this.motion.end - length);
+    const length = Math.min(end - begin, this.range.end - this.range.begin);
+    this.begin = Math.min(Math.max(begin, this.range.begin), this.range.end - length);
     this.end = this.begin + length;
     this.draw();
-    this.changed();
+    this.changed(this);
+  }
+
+  /* Has in view what the other one has. */
+  take(other) {
+    this.begin = other.begin;
+    this.end = other.end;
+    this.draw();
   }
 
   get isWhole() {
-    return this.end - this.begin > 0.999 * (this.motion.end - this.motion.begin);
+    return this.end - this.begin > 0.999 * (this.range.end - this.range.begin);
   }
 
   setTime(t) {
@@ -140,8 +150,8 @@ class Timeline {
     const place = (cursor, begin, end) => {
       cursor.style.left = 100 * (this.time - begin) / Math.max(end - begin, 1e-9) + '%';
     };
-    place(element('overview-cursor'), this.motion.begin, this.motion.end);
-    place(element('detail-cursor'), this.begin, this.end);
+    place(this.part('overview-cursor'), this.range.begin, this.range.end);
+    place(this.part('detail-cursor'), this.begin, this.end);
   }
 
   draw() {
@@ -154,8 +164,8 @@ class Timeline {
 
   drawOverview() {
     const {context, width, height} = openCanvas(this.overview);
-    const whole = this.motion.end - this.motion.begin;
-    const x = (t) => (t - this.motion.begin) / whole * width;
+    const whole = this.range.end - this.range.begin;
+    const x = (t) => (t - this.range.begin) / whole * width;
     for (const leg of this.motion.legs) {
       context.fillStyle = actionColour(leg.action);
       context.fillRect(x(leg.begin), 0, Math.max(1.5, x(leg.end) - x(leg.begin)), height);

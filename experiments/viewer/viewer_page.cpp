@@ -44,6 +44,25 @@ std::string FillIn(std::string_view text,
   }
 }
 
+/// `others`: elements with the data of further plans.
+std::string PageOf(const std::string& title, const std::string& data, const std::string& others) {
+  const std::string escaped_title = EscapeHtml(title);
+  return FillIn(viewer_resources::page, {{"title", escaped_title},
+                                         {"data", data},
+                                         {"others", others},
+                                         {"style", viewer_resources::style},
+                                         {"three", viewer_resources::three},
+                                         {"convex_hull", viewer_resources::convex_hull},
+                                         {"convex_geometry", viewer_resources::convex_geometry},
+                                         {"orbit_controls", viewer_resources::orbit_controls},
+                                         {"scripts", viewer_resources::scripts}});
+}
+
+std::string DataOf(const PageSubject& subject) {
+  return ViewerDataJson(subject.plan, subject.robot, subject.scenario,
+                        HeadingOf(subject.plan, subject.robot, subject.scenario));
+}
+
 }  // namespace
 
 std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
@@ -53,16 +72,14 @@ std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robo
 
 std::string ViewerPage(const actions::Plan& plan, const models::RobotModel& robot,
                        const models::Scenario& scenario, const PageHeading& heading) {
-  const std::string title = EscapeHtml(heading.title);
-  const std::string data = ViewerDataJson(plan, robot, scenario, heading);
-  return FillIn(viewer_resources::page, {{"title", title},
-                                         {"data", data},
-                                         {"style", viewer_resources::style},
-                                         {"three", viewer_resources::three},
-                                         {"convex_hull", viewer_resources::convex_hull},
-                                         {"convex_geometry", viewer_resources::convex_geometry},
-                                         {"orbit_controls", viewer_resources::orbit_controls},
-                                         {"scripts", viewer_resources::scripts}});
+  return PageOf(heading.title, ViewerDataJson(plan, robot, scenario, heading), "");
+}
+
+std::string ComparisonPage(const PageSubject& left, const PageSubject& right) {
+  const std::string other = fmt::format(
+      "<script type=\"application/json\" id=\"plan-data-b\">{}</script>", DataOf(right));
+  return PageOf(fmt::format("{} and {} – possibility", left.scenario.name, right.scenario.name),
+                DataOf(left), other);
 }
 
 }  // namespace possibility::experiments

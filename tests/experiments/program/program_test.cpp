@@ -274,6 +274,16 @@ TEST_F(Program, ViewWritesThePageBesideThePlanOrToTheGivenFile) {
   EXPECT_EQ(Run("view plan.json --out no_such_folder/page.html").code, 1);
 }
 
+TEST_F(Program, ViewOfTwoPlansWritesOnePageOfBoth) {
+  WriteStandingPlan();
+  EXPECT_EQ(Run("view . plan.json").code, 0);
+  const std::string page = ReadText(folder_ / "comparison.html");
+  EXPECT_NE(page.find("id=\"plan-data-b\""), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "plan.html"));
+  EXPECT_EQ(Run("view plan.json . --out both.html").code, 0);
+  EXPECT_EQ(ReadText(folder_ / "both.html"), page);
+}
+
 TEST_F(Program, ViewRefusesFilesThatAreNeitherPlanNorJump) {
   WriteStandingPlan();
   const std::string robot = POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml";
@@ -287,6 +297,10 @@ TEST_F(Program, ViewRefusesFilesThatAreNeitherPlanNorJump) {
       {"list.json", "neither a plan nor a jump"},
       {"other.json", "neither a plan nor a jump"},
       {"jump.json", "jump.json"},
+      {"plan.json jump.json", "expected two plans"},
+      {"jump.json plan.json", "expected two plans"},
+      {"plan.json none.json", "none.json: no such file"},
+      {"plan.json . plan.json", "expected one or two"},
       {"plan.json --robot '" + robot + "'", "--robot"},
       {". --robot '" + robot + "'", "--robot"},
   };

@@ -169,7 +169,7 @@ TEST_F(ViewerPageTest, RepeatedStepsAddLittleToTheSize) {
 
 TEST_F(ViewerPageTest, EveryElementThatScriptsUseExists) {
   const std::string page = Page();
-  const std::regex asked("element\\('([a-z-]+)'\\)");
+  const std::regex asked("(?:element|part)\\('([a-z-]+)'\\)");
   std::set<std::string> names;
   for (std::sregex_iterator it(page.begin(), page.end(), asked), end; it != end; ++it) {
     names.insert((*it)[1]);
