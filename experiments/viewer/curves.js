@@ -68,7 +68,7 @@ class CurvePlot {
 
   /* content: {phases, curves, limits, marks, range, include (at least, if there is no range),
      most (that an axis without range shows), bandColour}. A curve is {label, colour, dashed,
-     faint, value(phase, knot), text(value)}; limits are {y, text, colour}, marks
+     faint, value(phase, k), text(value)}; limits are {y, text, colour}, marks
      {t, text, colour}. */
   show(content, begin, end) {
     Object.assign(this, content, {begin, end});
@@ -118,13 +118,37 @@ class CurvePlot {
     const pieces = [];
     for (const phase of this.phases) {
       const piece = [];
-      for (let knot = phase.first; knot < phase.first + phase.count; ++knot) {
-        const value = curve.value(phase, knot);
-        if (value !== null) piece.push([this.time(knot), value]);
+      for (let k = 0; k < phase.count; ++k) {
+        const value = curve.value(phase, k);
+        if (value !== null) piece.push([this.time(phase, k), value]);
       }
-      if (piece.length) pieces.push(piece);
+      if (piece.length) pieces.push(this.thinned(piece));
     }
     return pieces;
+  }
+
+  /* Of more points than there are pixels, the lowest and the highest of each pixel. */
+  thinned(piece) {
+    const pixel = (this.end - this.begin) / this.inner.width;
+    const [start, stop] = [piece[0][0], piece[piece.length - 1][0]];
+    if (piece.length * pixel < 2 * (stop - start)) return piece;
+    const kept = [piece[0]];
+    let low = null, high = null, column = -1;
+    const keep = () => {
+      if (low) kept.push(...(low[0] < high[0] ? [low, high] : [high, low]));
+    };
+    for (const point of piece) {
+      const next = Math.floor((point[0] - start) / pixel);
+      if (next !== column) {
+        keep();
+        [low, high, column] = [point, point, next];
+      }
+      if (point[1] < low[1]) low = point;
+      if (point[1] > high[1]) high = point;
+    }
+    keep();
+    kept.push(piece[piece.length - 1]);
+    return kept;
   }
 
   findRange() {
@@ -233,13 +257,13 @@ class CurvePlot {
     context.fillText(...place);
   }
 
-  /* Moves the cursor to t, which lies in a phase at (knot, fraction). */
-  setTime(t, phase, {knot, fraction}) {
+  /* Moves the cursor to t, which lies in a phase at (k, fraction). */
+  setTime(t, phase, {k, fraction}) {
     if (!this.inner) return;
     this.cursor.hidden = t < this.begin || t > this.end;
     this.cursor.style.left = this.x(t) + 'px';
     for (const {curve, value} of this.labels) {
-      const before = curve.value(phase, knot), after = curve.value(phase, knot + 1);
+      const before = curve.value(phase, k), after = curve.value(phase, k + 1);
       const text = before === null || after === null
           ? '–' : curve.text(before + fraction * (after - before));
       if (value.textContent !== text) value.textContent = text;

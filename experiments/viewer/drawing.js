@@ -59,48 +59,64 @@ function lineMaterial(colour, opacity = 1) {
   return new THREE.LineBasicMaterial({color: colour, transparent: opacity < 1, opacity});
 }
 
-/* A mark on the ground: a sole's outline and face, or a dot. */
-function footprint(points, colour) {
-  const group = new THREE.Group();
-  const face = new THREE.MeshBasicMaterial(
-      {color: colour, transparent: true, opacity: points.length > 2 ? 0.28 : 0.9,
-       side: THREE.DoubleSide, depthWrite: false});
-  if (points.length > 2) {
-    const ring = outline(points);
-    const geometry = new THREE.BufferGeometry().setFromPoints(ring);
-    group.add(new THREE.LineLoop(geometry, lineMaterial(colour)));
-    const fan = [];
-    for (let i = 1; i + 1 < ring.length; ++i) fan.push(ring[0], ring[i], ring[i + 1]);
-    group.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(fan), face));
-  } else {
-    for (const point of points) {
-      const dot = new THREE.Mesh(new THREE.CircleBufferGeometry(0.025, 20), face);
-      dot.position.copy(point);
-      group.add(dot);
-    }
+const isOutlined = (points) => points.length > 2;  // a sole; a peg is a dot
+
+function fanOf(ring) {
+  const fan = [];
+  for (let i = 1; i + 1 < ring.length; ++i) fan.push(ring[0], ring[i], ring[i + 1]);
+  return fan;
+}
+
+function dotAt(point) {
+  const ring = Array.from({length: 20}, (_, i) => new THREE.Vector3(
+      point.x + 0.025 * Math.cos(i * Math.PI / 10), point.y + 0.025 * Math.sin(i * Math.PI / 10),
+      point.z));
+  return fanOf(ring);
+}
+
+/* Adds a mark on the ground: a sole's outline and face, or dots. */
+function addFootprint(parts, points, colour) {
+  const face = (opacity) => (geometry) => new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(
+      {color: colour, transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false}));
+  if (!isOutlined(points)) {
+    for (const point of points) parts.addPoints('dot ' + colour, dotAt(point), face(0.9));
+    return;
   }
+  const ring = outline(points);
+  const edges = [].concat(...ring.map((point, i) => [point, ring[(i + 1) % ring.length]]));
+  parts.addPoints('edge ' + colour, edges,
+                  (geometry) => new THREE.LineSegments(geometry, lineMaterial(colour)));
+  parts.addPoints('face ' + colour, fanOf(ring), face(0.28));
+}
+
+/* The marks of touchdowns, {contact, points} each. */
+function footprints(touchdowns) {
+  const parts = new MergedParts();
+  touchdowns.forEach(
+      ({contact, points}) => addFootprint(parts, points, limbColour(contact)));
+  const group = parts.group();
   group.position.z = kLift;
   return group;
 }
 
 /* One that closes the way is red. */
-function obstacleMesh(obstacle, closes) {
-  const group = new THREE.Group();
-  const material = obstacle.ground && !closes
-      ? new THREE.MeshLambertMaterial({color: '#d0d3d8'})
+function addObstacle(parts, obstacle, closes) {
+  const kind = closes ? 'closes' : obstacle.ground ? 'ground' : 'obstacle';
+  const lines = {closes: '#8f1d1d', ground: '#aab1ba', obstacle: '#9a6a35'}[kind];
+  const face = () => kind === 'ground' ? new THREE.MeshLambertMaterial({color: '#d0d3d8'})
       : new THREE.MeshLambertMaterial(
             {color: closes ? kBarrierColour : '#d9a066', transparent: true,
              opacity: closes ? 0.7 : 0.45, depthWrite: false});
+  const place = poseMatrix(obstacle.pose);
   for (const geometry of shapeGeometries(obstacle.shape)) {
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.receiveShadow = true;
-    group.add(mesh);
-    group.add(new THREE.LineSegments(
-        new THREE.EdgesGeometry(geometry, 30),
-        lineMaterial(closes ? '#8f1d1d' : obstacle.ground ? '#aab1ba' : '#9a6a35', 0.8)));
+    parts.add(kind + ' edges', new THREE.EdgesGeometry(geometry, 30), place,
+              (all) => new THREE.LineSegments(all, lineMaterial(lines, 0.8)));
+    parts.add(kind + (geometry.index ? '' : ' convex'), geometry, place, (all) => {
+      const mesh = new THREE.Mesh(all, face());
+      mesh.receiveShadow = true;
+      return mesh;
+    });
   }
-  group.applyMatrix(poseMatrix(obstacle.pose));
-  return group;
 }
 
 /* A mesh or height map, with its own colour where it is level enough to bear, and lines along its
@@ -209,22 +225,6 @@ function exploredGraph(explored) {
   return group;
 }
 
-function routeTubes(motion) {
-  const group = new THREE.Group();
-  for (const line of motion.route()) {
-    const points = [];
-    for (const point of line.points) {
-      if (!points.length || points[points.length - 1].distanceTo(point) > 0.02) points.push(point);
-    }
-    if (points.length < 2) continue;
-    const curve = new THREE.CatmullRomCurve3(points);
-    group.add(new THREE.Mesh(
-        new THREE.TubeBufferGeometry(curve, Math.min(2000, 3 * points.length), 0.014, 8),
-        new THREE.MeshBasicMaterial({color: actionColour(line.action)})));
-  }
-  return group;
-}
-
 /* The browser offers no WebGL. */
 class NoWebGl extends Error {}
 
@@ -269,9 +269,11 @@ class Drawing {
   addWorld(data) {
     const world = new THREE.Group();
     const closedBy = data.no && data.no.barrier ? data.no.barrier.closed_by : [];
+    const parts = new MergedParts();
     data.obstacles.forEach((obstacle) => {
-      world.add(obstacleMesh(obstacle, closedBy.includes(obstacle.name)));
+      addObstacle(parts, obstacle, closedBy.includes(obstacle.name));
     });
+    world.add(parts.group());
     data.surfaces.forEach((surface) => {
       world.add(surfaceMesh(surface, closedBy.includes(surface.name)));
     });
@@ -287,10 +289,7 @@ class Drawing {
     this.centre = new CentreOfMass(this.motion);
     this.com = this.centre.group;
     this.scene.add(this.com);
-    this.footprints = new THREE.Group();
-    this.motion.touchdowns().forEach(({contact, points}) => {
-      this.footprints.add(footprint(points, limbColour(contact)));
-    });
+    this.footprints = footprints(this.motion.touchdowns());
     this.scene.add(this.footprints);
     this.bounds = new THREE.Box3(new THREE.Vector3(x0, y0, 0), new THREE.Vector3(x1, y1, 1.2));
   }
@@ -299,9 +298,9 @@ class Drawing {
     this.links = data.links.map(linkGroup);
     this.links.forEach((link) => this.scene.add(link));
     this.patches = data.contacts.map((contact, index) => {
-      const patch = footprint(
-          contact.points.map((p) => new THREE.Vector3(...p)), limbColour(index));
-      patch.position.set(0, 0, 0);
+      const parts = new MergedParts();
+      addFootprint(parts, contact.points.map((p) => new THREE.Vector3(...p)), limbColour(index));
+      const patch = parts.group();
       patch.traverse((part) => {
         if (part.material) {
           Object.assign(part.material, {depthTest: false, transparent: true, opacity: 0.85});

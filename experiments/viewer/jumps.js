@@ -7,7 +7,6 @@ const kCentreColour = '#1d2530';
 const kImpulseColour = '#ff5a1f';
 const kImpulseScale = 1 / 8;  // m per N s
 const kImpactShown = 0.35;    // s, after the impact
-const kArcPieces = 32;
 
 /* Drawn through everything before it. */
 function shining(colour, opacity = 1) {
@@ -16,10 +15,10 @@ function shining(colour, opacity = 1) {
 }
 
 /* Points of the parabola that takes `duration` seconds. */
-function parabola({launch, landing, duration}, gravity) {
+function parabola({launch, landing, duration}, gravity, pieces) {
   const points = [];
-  for (let i = 0; i <= kArcPieces; ++i) {
-    const s = i / kArcPieces;
+  for (let i = 0; i <= pieces; ++i) {
+    const s = i / pieces;
     const point = launch.clone().lerp(landing, s);
     point.z += gravity / 2 * duration * duration * s * (1 - s);
     points.push(point);
@@ -34,32 +33,51 @@ function ball(point, radius, colour) {
   return mesh;
 }
 
-/* A ball with a white rim and a word, to the side to which `away` points. */
-function arcEnd(point, text, away) {
-  const group = new THREE.Group();
-  const rim = ball(point, 0.034, '#ffffff');
-  rim.renderOrder = 3;
-  const name = label(text, kArcColour, 0.62);
-  name.position.copy(point).addScaledVector(away, 0.22);
-  name.position.z += 0.06;
-  name.renderOrder = 4;
-  group.add(rim, ball(point, 0.025, kArcColour), name);
-  return group;
+const kMostNamedFlights = 30;
+
+/* Adds a ball with a white rim to the marks of flights. */
+function addArcEnd(parts, point, pieces) {
+  [['rim', 0.034, '#ffffff', 3], ['end', 0.025, kArcColour, 4]].forEach(
+      ([name, radius, colour, order]) => {
+        const sphere = new THREE.SphereBufferGeometry(radius, pieces, pieces)
+                           .translate(point.x, point.y, point.z);
+        parts.add(name, sphere, null, (geometry) => shiningMesh(geometry, colour, 1, order));
+      });
 }
 
-/* The parabola of the centre of mass of every flight, launch and landing marked. */
+/* A word to the side of a point to which `away` points. */
+function arcWord(point, text, away) {
+  const word = label(text, kArcColour, 0.62);
+  word.position.copy(point).addScaledVector(away, 0.22);
+  word.position.z += 0.06;
+  word.renderOrder = 4;
+  return word;
+}
+
+function shiningMesh(geometry, colour, opacity, order) {
+  const mesh = new THREE.Mesh(geometry, shining(colour, opacity));
+  mesh.renderOrder = order;
+  return mesh;
+}
+
+/* The parabola of the centre of mass of every flight, launch and landing marked; of a few flights
+   with words. */
 function flightArcs(motion) {
-  const group = new THREE.Group();
-  for (const flight of motion.flights()) {
-    const curve = new THREE.CatmullRomCurve3(parabola(flight, motion.gravity));
-    const tube = new THREE.Mesh(
-        new THREE.TubeBufferGeometry(curve, 2 * kArcPieces, 0.011, 10), shining(kArcColour, 0.9));
-    tube.renderOrder = 3;
+  const flights = motion.flights(), parts = new MergedParts(), words = [];
+  const isFew = flights.length <= kMostNamedFlights;
+  for (const flight of flights) {
+    parts.add('arc', tubeAlong(parabola(flight, motion.gravity, isFew ? 32 : 8), 0.011), null,
+              (geometry) => shiningMesh(geometry, kArcColour, 0.9, 3));
+    addArcEnd(parts, flight.launch, isFew ? 16 : 4);
+    addArcEnd(parts, flight.landing, isFew ? 16 : 4);
+    if (!isFew) continue;
     const ahead = flight.landing.clone().sub(flight.launch).setZ(0);
     if (ahead.lengthSq() > 0) ahead.normalize();
-    group.add(tube, arcEnd(flight.launch, 'launch', ahead.clone().negate()),
-              arcEnd(flight.landing, 'landing', ahead));
+    words.push(arcWord(flight.launch, 'launch', ahead.clone().negate()),
+               arcWord(flight.landing, 'landing', ahead));
   }
+  const group = parts.group();
+  words.forEach((word) => group.add(word));
   return group;
 }
 
@@ -69,11 +87,7 @@ class CentreOfMass {
     this.motion = motion;
     this.group = new THREE.Group();
     const points = [];
-    for (const phase of motion.phases) {
-      for (let k = phase.first; k < phase.first + phase.count; ++k) {
-        points.push(motion.centreOfKnot(k));
-      }
-    }
+    motion.forSomeKnots((phase, k) => points.push(motion.centreOfKnot(phase, k)));
     if (!points.length) return;
     this.group.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(points),
                                   lineMaterial(kCentreColour, 0.8)));

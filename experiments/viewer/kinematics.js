@@ -2,6 +2,8 @@
 
 /* The motion of a plan: its knots, and the poses of links at any time between them. */
 
+const kMostKnotsSeen = 40000;  // as lines
+
 function decodeBase64(text) {
   const bytes = atob(text);
   const buffer = new Uint8Array(bytes.length);
@@ -11,20 +13,24 @@ function decodeBase64(text) {
 const decodeFloats = (text) => new Float32Array(decodeBase64(text));
 const decodeIntegers = (text) => new Int32Array(decodeBase64(text));
 
-/* Numbers in rows. */
-class Table {
-  constructor(rows, columns) {
-    this.columns = columns;
-    this.numbers = new Float32Array(rows * columns);
-  }
-  at(row, column) { return this.numbers[row * this.columns + column]; }
-}
-
 /* Pose as stored: quaternion w, x, y, z, then position. */
 function poseMatrix(pose) {
   return new THREE.Matrix4().compose(
       new THREE.Vector3(pose[4], pose[5], pose[6]),
       new THREE.Quaternion(pose[1], pose[2], pose[3], pose[0]), new THREE.Vector3(1, 1, 1));
+}
+
+/* Where the numbers of a knot begin, as experiments/viewer/viewer_motion.h writes them. */
+function columnsOf(joints) {
+  const sizes = {t: 1, q: 7 + joints, centre: 3, momenta: 6, rates: joints, torques: joints,
+                 balance: 6, margins: 7};
+  const columns = {};
+  let next = 0;
+  for (const [name, size] of Object.entries(sizes)) {
+    columns[name] = next;
+    next += size;
+  }
+  return {...columns, forces: next};
 }
 
 class Motion {
@@ -36,16 +42,20 @@ class Motion {
       inParent: poseMatrix(joint.pose),
     }));
     this.contacts = data.contacts;
-    this.stride = 8 + this.joints.length;
-    this.expandCourses(data);
+    this.columns = columnsOf(this.joints.length);
+    this.begins = decodeIntegers(data.courses.begins);
+    this.numbers = decodeFloats(data.courses.numbers);
+    this.indices = decodeIntegers(data.indices);
+    this.next = 0;  // of the indices, while phases are added
     this.gravity = data.gravity;
     this.phases = [];
     this.segments = [];
     data.segments.forEach((segment, index) => {
       const phases = segment.phases.map((phase) => this.addPhase(phase, segment, index));
-      this.phases.push(...phases);
+      for (const phase of phases) this.phases.push(phase);
       if (phases.length) this.segments.push(this.addSegment(segment, phases));
     });
+    this.chains = data.contacts.map((contact) => this.chainTo(contact.link));
     this.legs = this.joinSegments();
     this.linkPoses = data.links.map(() => new THREE.Matrix4());
     this.begin = this.phases.length ? this.phases[0].begin : 0;
@@ -54,58 +64,42 @@ class Motion {
     this.rotation = new THREE.Matrix4();
   }
 
-  /* Of every phase: what each number does from knot to knot, as the index of a course that others
-     may share. A course of one number stays. */
-  expandCourses(data) {
-    const phases = [].concat(...data.segments.map((segment) => segment.phases));
-    const pointsOf = (phase) => phase.points.reduce((sum, points) => sum + points.length, 0);
-    const rows = phases.reduce((sum, phase) => sum + phase.count, 0);
-    const points = phases.reduce((sum, phase) => sum + phase.count * pointsOf(phase), 0);
-    const knots = new Table(rows, this.stride), centres = new Table(rows, 3);
-    this.momenta = new Table(rows, 6);
-    this.rates = new Table(rows, this.joints.length);
-    this.torques = new Table(rows, this.joints.length);
-    this.balance = new Table(rows, 6);
-    this.margins = new Table(rows, 7);
-    this.knots = knots.numbers;
-    this.centres = centres.numbers;
-    this.forces = new Float32Array(3 * points);
-    const begins = decodeIntegers(data.courses.begins);
-    const numbers = decodeFloats(data.courses.numbers), indices = decodeIntegers(data.indices);
-    let next = 0;
-    for (const phase of phases) {
-      const fill = (target, first, columns) => {
-        for (let column = 0; column < columns; ++column) {
-          const index = indices[next++], begin = begins[index];
-          const pace = begins[index + 1] - begin > 1 ? 1 : 0;
-          for (let k = 0; k < phase.count; ++k) {
-            target[first + k * columns + column] = numbers[begin + pace * k];
-          }
-        }
-      };
-      for (const table of [knots, centres, this.momenta, this.rates, this.torques, this.balance,
-                           this.margins]) {
-        fill(table.numbers, phase.first * table.columns, table.columns);
-      }
-      fill(this.forces, phase.forces, 3 * pointsOf(phase));
-    }
+  /* A number at knot k of a phase. The page's data stay packed: each column of a phase is the index
+     of a course that others may share; a course of one number stays. */
+  at(phase, column, k) {
+    const index = this.indices[phase.first + column], begin = this.begins[index];
+    return this.numbers[this.begins[index + 1] - begin > 1 ? begin + k : begin];
+  }
+  time(phase, k) { return this.at(phase, 0, k); }
+
+  /* What t lies between: knots k and k + 1, `fraction` of the way. */
+  between(phase, column, {k, fraction}) {
+    const before = this.at(phase, column, k);
+    return before + fraction * (this.at(phase, column, k + 1) - before);
   }
 
   addPhase(phase, segment, index) {
-    return {
+    const points = phase.points.reduce((sum, points) => sum + points.length, 0);
+    const added = {
       segment: index,
       action: segment.action,
       name: phase.name,
       impulses: this.vectors(phase.impulses || []),
       contacts: phase.contacts,
-      first: phase.first,
+      first: this.next,
       count: phase.count,
-      forces: phase.forces,
       bearing: phase.points,
-      points: phase.points.reduce((sum, points) => sum + points.length, 0),
-      begin: this.knots[phase.first * this.stride],
-      end: this.knots[(phase.first + phase.count - 1) * this.stride],
+      points,
     };
+    this.next += this.columns.forces + 3 * points;
+    added.begin = this.time(added, 0);
+    added.end = this.time(added, phase.count - 1);
+    return added;
+  }
+
+  /* The joints on the way from the root to a link, in this order. */
+  chainTo(link) {
+    return link === 0 ? [] : [...this.chainTo(this.joints[link - 1].parent), link - 1];
   }
 
   addSegment(segment, phases) {
@@ -149,26 +143,37 @@ class Motion {
   phaseAt(t) { return Motion.lastBegun(this.phases, t); }
   segmentAt(t) { return Motion.lastBegun(this.segments, t); }
 
-  /* The knot of the phase before t, and how far t lies towards the next one (0 to 1). */
+  /* The knot k of the phase before t, and how far t lies towards the next one (0 to 1). */
   locate(phase, t) {
-    let low = phase.first, high = phase.first + phase.count - 2;
+    let low = 0, high = phase.count - 2;
     while (low < high) {
       const middle = Math.ceil((low + high) / 2);
-      if (this.knots[middle * this.stride] <= t) low = middle; else high = middle - 1;
+      if (this.time(phase, middle) <= t) low = middle; else high = middle - 1;
     }
-    const t0 = this.knots[low * this.stride], t1 = this.knots[(low + 1) * this.stride];
-    return {knot: low, fraction: Math.min(1, Math.max(0, (t - t0) / (t1 - t0)))};
+    const t0 = this.time(phase, low), t1 = this.time(phase, low + 1);
+    return {k: low, fraction: Math.min(1, Math.max(0, (t - t0) / (t1 - t0)))};
   }
 
-  /* Poses of all links at t: slerp of the root, linear in between for everything else. */
+  rotationOfRoot(phase, k) {
+    const q = (i) => this.at(phase, this.columns.q + i, k);
+    return new THREE.Quaternion(q(1), q(2), q(3), q(0)).normalize();
+  }
+
+  /* Poses at t of the links behind these joints: slerp of the root, linear in between for
+     everything else. */
+  poseBehind(joints, t, phase) {
+    const place = this.locate(phase, t), {q} = this.columns;
+    const root = this.rotationOfRoot(phase, place.k);
+    if (place.fraction > 0) root.slerp(this.rotationOfRoot(phase, place.k + 1), place.fraction);
+    const p = (i) => this.between(phase, q + 4 + i, place);
+    this.linkPoses[0].makeRotationFromQuaternion(root).setPosition(p(0), p(1), p(2));
+    for (const i of joints) {
+      this.poseLink(i + 1, this.joints[i], this.between(phase, q + 7 + i, place));
+    }
+  }
+
   poseLinks(t, phase) {
-    const {knot, fraction} = this.locate(phase, t);
-    const k0 = knot * this.stride + 1, k1 = k0 + this.stride, q = this.knots;
-    const mix = (i) => q[k0 + i] + fraction * (q[k1 + i] - q[k0 + i]);
-    const root = new THREE.Quaternion(q[k0 + 1], q[k0 + 2], q[k0 + 3], q[k0]).normalize();
-    root.slerp(new THREE.Quaternion(q[k1 + 1], q[k1 + 2], q[k1 + 3], q[k1]).normalize(), fraction);
-    this.linkPoses[0].makeRotationFromQuaternion(root).setPosition(mix(4), mix(5), mix(6));
-    this.joints.forEach((joint, i) => this.poseLink(i + 1, joint, mix(7 + i)));
+    this.poseBehind(this.joints.keys(), t, phase);
     return this.linkPoses;
   }
 
@@ -200,38 +205,35 @@ class Motion {
 
   /* Forces (N) at the points of the phase's contacts, in their order. */
   contactForces(t, phase) {
-    const {knot, fraction} = this.locate(phase, t);
-    const k0 = phase.forces + 3 * phase.points * (knot - phase.first), k1 = k0 + 3 * phase.points;
-    const forces = [];
+    const place = this.locate(phase, t), forces = [];
     for (let i = 0; i < 3 * phase.points; i += 3) {
-      const at = (j) => this.forces[k0 + j] + fraction * (this.forces[k1 + j] - this.forces[k0 + j]);
-      forces.push(new THREE.Vector3(at(i), at(i + 1), at(i + 2)));
+      const at = (axis) => this.between(phase, this.columns.forces + i + axis, place);
+      forces.push(new THREE.Vector3(at(0), at(1), at(2)));
     }
     return forces;
   }
 
-  centreOfKnot(knot) {
-    return new THREE.Vector3(...this.centres.subarray(3 * knot, 3 * knot + 3));
+  centreOfKnot(phase, k) {
+    const at = (axis) => this.at(phase, this.columns.centre + axis, k);
+    return new THREE.Vector3(at(0), at(1), at(2));
   }
 
   /* The centre of mass. */
   centreAt(t, phase) {
-    const {knot, fraction} = this.locate(phase, t);
-    return this.centreOfKnot(knot).lerp(this.centreOfKnot(knot + 1), fraction);
+    const {k, fraction} = this.locate(phase, t);
+    return this.centreOfKnot(phase, k).lerp(this.centreOfKnot(phase, k + 1), fraction);
   }
 
-  /* A number of the balance at a knot: zero moment point x, y, z, its distance from the edge of the
-     support, capture point x, y. Null if there is none. */
-  balanceOfKnot(knot, column) {
-    const value = this.balance.at(knot, column);
+  /* A number at a knot, or null where it is not a number. */
+  valueOfKnot(phase, column, k) {
+    const value = this.at(phase, column, k);
     return isNaN(value) ? null : value;
   }
 
   /* Zero moment point and capture point on the ground; null while nothing bears. */
   balanceAt(t, phase) {
-    const {knot, fraction} = this.locate(phase, t);
-    const at = (column) => this.balance.at(knot, column) + fraction *
-        (this.balance.at(knot + 1, column) - this.balance.at(knot, column));
+    const place = this.locate(phase, t);
+    const at = (column) => this.between(phase, this.columns.balance + column, place);
     if (isNaN(at(0))) return null;
     return {zmp: new THREE.Vector3(at(0), at(1), at(2)),
             capture: new THREE.Vector3(at(4), at(5), at(2))};
@@ -242,8 +244,8 @@ class Motion {
     return this.phases.filter((phase) => !phase.contacts.length).map((phase) => ({
       phase,
       duration: phase.end - phase.begin,
-      launch: this.centreOfKnot(phase.first),
-      landing: this.centreOfKnot(phase.first + phase.count - 1),
+      launch: this.centreOfKnot(phase, 0),
+      landing: this.centreOfKnot(phase, phase.count - 1),
     }));
   }
 
@@ -252,25 +254,34 @@ class Motion {
     const found = [];
     let previous = [];
     for (const phase of this.phases) {
-      const fresh = phase.contacts.filter((c) => !previous.includes(c));
-      if (fresh.length) this.poseLinks(phase.begin, phase);
-      for (const contact of fresh) found.push({contact, points: this.contactPoints(contact)});
+      for (const contact of phase.contacts.filter((c) => !previous.includes(c))) {
+        this.poseBehind(this.chains[contact], phase.begin, phase);
+        found.push({contact, points: this.contactPoints(contact)});
+      }
       previous = phase.contacts;
     }
     return found;
   }
 
-  /* Positions of the root at every knot, one list per segment. */
+  /* Calls see(phase, k) for the ends of every phase and for knots between them, of long plans only
+     for some. */
+  forSomeKnots(see) {
+    const all = this.phases.reduce((sum, phase) => sum + phase.count, 0);
+    const step = Math.max(1, Math.round(all / kMostKnotsSeen));
+    for (const phase of this.phases) {
+      for (let k = 0; k < phase.count - 1; k += step) see(phase, k);
+      see(phase, phase.count - 1);
+    }
+  }
+
+  /* Positions of the root, one list per segment. */
   route() {
     const lines = [];
-    for (const phase of this.phases) {
+    this.forSomeKnots((phase, k) => {
       if (!lines[phase.segment]) lines[phase.segment] = {action: phase.action, points: []};
-      for (let k = phase.first; k < phase.first + phase.count; ++k) {
-        const q = k * this.stride + 1;
-        lines[phase.segment].points.push(
-            new THREE.Vector3(this.knots[q + 4], this.knots[q + 5], this.knots[q + 6]));
-      }
-    }
+      const p = (axis) => this.at(phase, this.columns.q + 4 + axis, k);
+      lines[phase.segment].points.push(new THREE.Vector3(p(0), p(1), p(2)));
+    });
     return lines.filter((line) => line);
   }
 }

@@ -49,7 +49,7 @@ class PlotsPanel {
     this.plots = {};
     for (const [name, title, unit, source] of kPlots) {
       const plot = new CurvePlot(parent, title, unit, source, seek);
-      plot.time = (knot) => motion.knots[knot * motion.stride];
+      plot.time = (phase, k) => motion.time(phase, k);
       this.plots[name] = plot;
     }
     this.key = addText(parent, 'div', '');
@@ -98,32 +98,31 @@ class PlotsPanel {
 
   /* Unit vectors forward and to the left, as the robot is headed when the segment begins. */
   headingFrame(segment) {
-    const at = segment.phases[0].first * this.motion.stride + 1, q = this.motion.knots;
     const x = new THREE.Vector3(1, 0, 0).applyQuaternion(
-        new THREE.Quaternion(q[at + 1], q[at + 2], q[at + 3], q[at])).setZ(0).normalize();
+        this.motion.rotationOfRoot(segment.phases[0], 0)).setZ(0).normalize();
     return {forward: x, left: new THREE.Vector3(-x.y, x.x, 0)};
   }
 
   showJoints() {
-    const {joints} = this.data, {knots, stride, rates, torques} = this.motion;
+    const {columns} = this.motion;
     const degrees = (joint, value) => joint.prismatic
         ? fixed(value, 3) + ' m' : fixed(value * 180 / Math.PI, 0) + '°';
     this.showShares('positions', (joint, i) => joint.range && {
-      share: (knot) => {
+      share: (phase, k) => {
         const [low, high] = joint.range;
-        return 100 * (2 * knots[knot * stride + 8 + i] - low - high) / (high - low);
+        return 100 * (2 * this.motion.at(phase, columns.q + 7 + i, k) - low - high) / (high - low);
       },
       text: (share) => degrees(
           joint, (joint.range[0] + joint.range[1] + share / 100 *
                   (joint.range[1] - joint.range[0])) / 2),
     });
     this.showShares('speeds', (joint, i) => joint.speed && {
-      share: (knot) => 100 * rates.at(knot, i) / joint.speed,
+      share: (phase, k) => 100 * this.motion.at(phase, columns.rates + i, k) / joint.speed,
       text: (share) =>
           fixed(share / 100 * joint.speed, 1) + (joint.prismatic ? ' m/s' : ''),
     });
     this.showShares('torques', (joint, i) => joint.effort && {
-      share: (knot) => 100 * torques.at(knot, i) / joint.effort,
+      share: (phase, k) => 100 * this.motion.at(phase, columns.torques + i, k) / joint.effort,
       text: (share) => fixed(share / 100 * joint.effort, 0) + (joint.prismatic ? ' N' : ''),
     });
   }
@@ -144,7 +143,7 @@ class PlotsPanel {
         colour: named ? kCurveColours[rank] : kFaint,
         dashed: named && side > 0,
         faint: !named,
-        value: (phase, knot) => shares[joint].share(knot),
+        value: shares[joint].share,
         text: shares[joint].text,
       });
     }));
@@ -160,76 +159,76 @@ class PlotsPanel {
   peak(share) {
     let highest = 0;
     for (const phase of this.phases) {
-      for (let knot = phase.first; knot < phase.first + phase.count; ++knot) {
-        highest = Math.max(highest, Math.abs(share(knot)));
-      }
+      for (let k = 0; k < phase.count; ++k) highest = Math.max(highest, Math.abs(share(phase, k)));
     }
     return highest;
   }
 
-  /* Offsets of a contact's forces at a knot; none if it does not bear. */
-  forceOffsets(phase, knot, contact) {
+  /* The forces at a contact's points at a knot, [x, y, z] each; null if it does not bear. */
+  forcesOf(phase, k, contact) {
     const place = phase.contacts.indexOf(contact);
     if (place < 0) return null;
     const before = phase.bearing.slice(0, place).reduce((sum, points) => sum + points.length, 0);
-    const first = phase.forces + 3 * (phase.points * (knot - phase.first) + before);
-    return phase.bearing[place].map((_, i) => first + 3 * i);
+    const at = (point, axis) => this.motion.at(
+        phase, this.motion.columns.forces + 3 * (before + point) + axis, k);
+    return phase.bearing[place].map((_, i) => [at(i, 0), at(i, 1), at(i, 2)]);
   }
 
   showContacts() {
-    const {forces} = this.motion, {weight} = this.data;
+    const {weight} = this.data;
     const bearing = this.data.contacts.map((contact, i) => i)
         .filter((i) => this.phases.some((phase) => phase.contacts.includes(i)));
     const curves = (ofPoints, text) => bearing.map((contact) => ({
       label: this.data.contacts[contact].name,
       colour: limbColour(contact),
       dashed: contact % 2 > 0,  // left and right often coincide
-      value: (phase, knot) => {
-        const offsets = this.forceOffsets(phase, knot, contact);
-        return offsets && ofPoints(offsets);
+      value: (phase, k) => {
+        const forces = this.forcesOf(phase, k, contact);
+        return forces && ofPoints(forces);
       },
       text,
     }));
     const marks = this.phases.filter((phase) => phase.impulses.length).map((phase) => ({
       t: phase.begin, text: impulseText(phase), colour: kImpulseColour}));
     this.put('forces', {
-      curves: curves((at) => at.reduce((sum, o) => sum + forces[o + 2], 0) * 100 / weight,
+      curves: curves((forces) => forces.reduce((sum, [, , z]) => sum + z, 0) * 100 / weight,
                      (share) => fixed(share / 100 * weight, 0)),
       limits: [{y: 100, text: 'weight', colour: '#667180'}],
       marks,
       include: [0],
     });
-    const share = (o) => forces[o + 2] < kLeastNormal ? 0
-        : 100 * Math.hypot(forces[o], forces[o + 1]) / (this.data.friction * forces[o + 2]);
+    const share = ([x, y, z]) => z < kLeastNormal ? 0
+        : 100 * Math.hypot(x, y) / (this.data.friction * z);
     this.put('friction', {
-      curves: curves((at) => Math.max(...at.map(share)), (n) => fixed(n, 0)),
+      curves: curves((forces) => Math.max(...forces.map(share)), (n) => fixed(n, 0)),
       limits: [{y: 100, text: ''}],
       range: [0, 108],
     });
   }
 
   showMargins() {
-    const {margins} = this.motion;
-    const contents = marginContents((column, scale) => (phase, knot) => {
-      const value = margins.at(knot, column);
-      return isNaN(value) ? null : scale * value;
+    const {columns} = this.motion;
+    const contents = marginContents((column, scale) => (phase, k) => {
+      const value = this.motion.valueOfKnot(phase, columns.margins + column, k);
+      return value === null ? null : scale * value;
     });
     for (const [name, content] of Object.entries(contents)) this.put(name, content);
   }
 
   showWhole() {
-    const {centres, momenta} = this.motion, {forward, left} = this.frame;
-    const start = this.motion.centreOfKnot(this.segment.phases[0].first);
-    const centre = (axis, from) => (phase, knot) =>
-        (centres[3 * knot] - from.x) * axis.x + (centres[3 * knot + 1] - from.y) * axis.y +
-        (centres[3 * knot + 2] - from.z) * axis.z;
+    const {columns} = this.motion, {forward, left} = this.frame;
+    const start = this.motion.centreOfKnot(this.segment.phases[0], 0);
+    const along = (first, axis, from) => (phase, k) => {
+      const at = (i) => this.motion.at(phase, first + i, k);
+      return (at(0) - from.x) * axis.x + (at(1) - from.y) * axis.y + (at(2) - from.z) * axis.z;
+    };
+    const centre = (axis, from) => along(columns.centre, axis, from);
     const up = new THREE.Vector3(0, 0, 1), none = new THREE.Vector3();
     const one = (label, colour, value, digits) =>
         ({label, colour, value, text: (n) => fixed(n, digits)});
     this.put('height', {curves: [one('height', '#1d2530', centre(up, none), 3)]});
     this.put('forward', {curves: [one('forward', '#1d2530', centre(forward, start), 3)]});
-    const momentum = (first, axis) => (phase, knot) => momenta.at(knot, first) * axis.x +
-        momenta.at(knot, first + 1) * axis.y + momenta.at(knot, first + 2) * axis.z;
+    const momentum = (first, axis) => along(columns.momenta + first, axis, none);
     const three = (first, names) => [forward, left, up].map(
         (axis, i) => one(names[i], kCurveColours[i], momentum(first, axis), 1));
     this.put('linear', {curves: three(0, ['forward', 'left', 'up'])});
@@ -238,14 +237,15 @@ class PlotsPanel {
 
   /* Centre of mass, zero moment point and capture point in the world, and the reserve. */
   showBalance() {
-    const {centres} = this.motion;
-    const curve = (label, colour, value) =>
-        ({label, colour, value: (phase, knot) => value(knot), text: (n) => fixed(n, 3)});
-    const balance = (column) => (knot) => this.motion.balanceOfKnot(knot, column);
+    const {columns} = this.motion;
+    const curve = (label, colour, value) => ({label, colour, value, text: (n) => fixed(n, 3)});
+    const balance = (column) => (phase, k) =>
+        this.motion.valueOfKnot(phase, columns.balance + column, k);
     const inWorld = (axis) => ({curves: [
       curve('z.m.p.', kZmpColour, balance(axis)),
       curve('capture point', kCaptureColour, balance(4 + axis)),
-      curve('c.o.m.', kCentreColour, (knot) => centres[3 * knot + axis]),
+      curve('c.o.m.', kCentreColour,
+            (phase, k) => this.motion.at(phase, columns.centre + axis, k)),
     ]});
     this.put('balanceX', inWorld(0));
     this.put('balanceY', inWorld(1));

@@ -50,15 +50,9 @@ Json MotionPacker::AddPhase(const actions::Phase& phase, bool is_dynamic) {
     contacts.push_back(bearing.patch);
     points.push_back(bearing.points);
   }
-  const int first = count_;
-  const int first_force = num_forces_;
   const std::vector<std::size_t> frames = Frames(phase, is_dynamic ? kFineFrame : kFrame);
   AddKnots(phase, frames);
-  Json json = {{"contacts", contacts},
-               {"points", points},
-               {"first", first},
-               {"count", count_ - first},
-               {"forces", first_force}};
+  Json json = {{"contacts", contacts}, {"points", points}, {"count", frames.size()}};
   if (phase.impulses.cols() > 0) {
     Json impulses = Json::array();
     for (const double impulse : phase.impulses.reshaped()) {
@@ -79,8 +73,6 @@ void MotionPacker::AddKnots(const actions::Phase& phase, const std::vector<std::
     for (std::size_t i = 0; i < drawn.size(); ++i) courses[i].push_back(drawn[i]);
   }
   for (const std::vector<float>& course : courses) indices_.push_back(courses_.IndexOf(course));
-  count_ += static_cast<int>(frames.size());
-  num_forces_ += static_cast<int>(frames.size() * phase.knots.front().forces.size());
 }
 
 std::vector<float> MotionPacker::Drawn(const actions::Knot& knot,

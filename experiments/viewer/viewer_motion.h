@@ -39,8 +39,6 @@ class MotionPacker {
   dynamics::TreeKinematics kinematics_;
   FrameMargins margins_;
   std::vector<actions::BearingPatch> bearing_;  ///< of the present phase
-  int count_ = 0;                               ///< of knots
-  int num_forces_ = 0;                          ///< three per point and knot
   CourseTable courses_;
   std::vector<std::int32_t> indices_;  ///< of the phases' courses, in the order of Drawn
 };

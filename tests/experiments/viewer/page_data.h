@@ -8,11 +8,30 @@
 
 namespace possibility::experiments::testing {
 
-/// The data inside a viewer page.
+/// Adds to every phase where it begins in PageMotion's tables: "first" (knot) and "forces".
+inline void AddPlaces(nlohmann::json* data) {
+  int first = 0;
+  int forces = 0;
+  for (auto& segment : (*data)["segments"]) {
+    for (auto& phase : segment["phases"]) {
+      phase["first"] = first;
+      phase["forces"] = forces;
+      const int count = phase["count"];
+      first += count;
+      for (const auto& points : phase["points"])
+        forces += 3 * count * static_cast<int>(points.size());
+    }
+  }
+}
+
+/// The data inside a viewer page, with places.
 inline nlohmann::json EmbeddedData(const std::string& page) {
   const std::string opening = "<script type=\"application/json\" id=\"plan-data\">";
   const std::size_t begin = page.find(opening) + opening.size();
-  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  nlohmann::json data =
+      nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  AddPlaces(&data);
+  return data;
 }
 
 /// Little-endian numbers decoded from base64.

@@ -144,8 +144,6 @@ TEST_F(ViewerPageTest, ThinningOutKnotsKeepsTheEndsOfEachPhase) {
   const nlohmann::json& second = data["segments"][1]["phases"][0];
   EXPECT_LE(first["count"], 52);
   EXPECT_GE(first["count"], 45);
-  EXPECT_EQ(second["first"], first["count"]);
-  EXPECT_EQ(second["forces"], 12 * first["count"].get<int>());
   const std::size_t num_knots = first["count"].get<int>() + second["count"].get<int>();
   EXPECT_EQ(testing::PageMotion(data).knots.size(), num_knots * (1 + robot_.nq()));
 }
