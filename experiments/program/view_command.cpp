@@ -10,6 +10,10 @@
 
 #include "actions/plan/plan.h"
 #include "experiments/command/loaded_plan.h"
+#include "experiments/recording/film.h"
+#include "experiments/recording/page_recording.h"
+#include "experiments/support/count_line.h"
+#include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
 #include "experiments/viewer/jump_page.h"
@@ -28,6 +32,10 @@ struct ViewOptions {
   std::vector<std::string> files;
   std::string robot;
   std::string out;
+  std::string record;
+  std::string rate = "25";
+  std::string size = "1280x720";
+  std::string link;
 };
 
 struct Page {
@@ -97,7 +105,41 @@ Page MakePage(const ViewOptions& options) {
   return PlanPage(options);
 }
 
+PictureSize ParseSize(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const auto number = [&](const std::string& part) {
+    const auto pixels = static_cast<int>(ParseInteger("--size", part, 160, 7680));
+    if (pixels % 2 == 0) return pixels;
+    throw InputError(fmt::format("--size: expected even numbers, got '{}'", text));
+  };
+  if (cross == std::string::npos) {
+    throw InputError(fmt::format("--size: expected WIDTHxHEIGHT, got '{}'", text));
+  }
+  return {number(text.substr(0, cross)), number(text.substr(cross + 1))};
+}
+
+RecordingSettings SettingsOf(const ViewOptions& options) {
+  RecordingSettings settings;
+  settings.rate = static_cast<int>(ParseInteger("--fps", options.rate, 1, 120));
+  settings.size = ParseSize(options.size);
+  settings.link = options.link.starts_with('#') ? options.link.substr(1) : options.link;
+  ParseTimes(settings.link);
+  return settings;
+}
+
+ExitCode Record(const ViewOptions& options) {
+  const RecordingSettings settings = SettingsOf(options);
+  const Page page = MakePage(options);
+  const std::unique_ptr<Film> film = MakeFilm(options.record, settings.rate);
+  const CountLine line("frame");
+  RecordPage(page.html, settings, film.get(), [&](int done, int all) { line.Show(done, all); });
+  if (!options.out.empty()) WriteOutput(options.out, page.html);
+  PrintOut("{}\n", options.record);
+  return kDone;
+}
+
 ExitCode RunView(const ViewOptions& options) {
+  if (!options.record.empty()) return Record(options);
   const Page page = MakePage(options);
   const fs::path out = options.out.empty() ? page.file : fs::path(options.out);
   WriteOutput(out, page.html);
@@ -117,6 +159,12 @@ Command AddViewCommand(CLI::App& program) {
                       "Robot YAML of a jump (default: the one beside its folder jumps)");
   command.AddOptional("--out", &options->out,
                       "The page (default: beside FILE, ending in .html; of two comparison.html)");
+  command.AddOptional("--record", &options->record,
+                      "Films the page instead: a folder for PNGs, or FILE.webm; needs Chromium");
+  command.AddOptional("--fps", &options->rate, "Pictures per second of the film");
+  command.AddOptional("--size", &options->size, "Of the film, WIDTHxHEIGHT");
+  command.AddOptional("--link", &options->link,
+                      "What the film shows, as in the page's address: t=2&until=5&view=side");
   return {command, [options] { return RunView(*options); }};
 }
 

@@ -179,6 +179,7 @@ class Player {
       if (!asked.has(box)) continue;
       this.switchPart(box, asked.get(box) !== '0');
     }
+    if (asked.has('bare')) this.showBare(asked.get('bare') !== '0');
     if (asked.has('plots')) this.openPlots(asked.get('plots') !== '0');
     const speed = kSpeeds.find((known) => known === Number(asked.get('speed')));
     if (speed) element('speed').value = speed;
@@ -196,6 +197,12 @@ class Player {
     if (camera.length === 6 && camera.every(isFinite)) this.views[0].drawing.lookFrom(camera);
     this.setPlaying(asked.get('play') === '1');
     this.refreshLink();
+  }
+
+  /* The drawing alone. */
+  showBare(bare) {
+    document.body.classList.toggle('bare', bare);
+    this.resize();
   }
 
   /* Lets the link lead to this time and this view. */

@@ -50,7 +50,8 @@ inline const std::vector<CommandRule>& CommandRules() {
       {"docs/tutorial_new_action.md", "cmake", kExempt, "builds"},
       {"docs/verification.md", "/usr/bin/python3", kExempt,
        "needs dartpy; OtherEngine.quick runs the script"},
-      {"docs/viewer.md", "chromium", kExempt, "needs a browser"},
+      {"docs/viewer.md", "./run view out/a --record", kExempt,
+       "needs Chromium; Record.WritesFramesOrAFilm has the like"},
   };
   return rules;
 }
