@@ -61,14 +61,14 @@ HeadlessBrowser::HeadlessBrowser(PictureSize size) : size_(size) {
 }
 
 void HeadlessBrowser::Open(std::string_view page, const std::string& address) {
-  const std::filesystem::path file = folder_.path() / "page.html";
+  const std::filesystem::path file = folder_.path() / fmt::format("page_{}.html", ++pages_);
   WriteOutput(file, page);
   Call("Page.enable", Json::object());
   Call("Page.navigate", {{"url", "file://" + file.string() + address}});
   const std::string loaded =
-      "new Promise((done) => { if (document.readyState === 'complete') done(location.protocol); "
-      "else addEventListener('load', () => done(location.protocol)); })";
-  while (Evaluate(loaded) != "file:") continue;
+      "new Promise((done) => { const tell = () => done(decodeURI(location.pathname)); "
+      "if (document.readyState === 'complete') tell(); else addEventListener('load', tell); })";
+  while (Evaluate(loaded) != file.string()) continue;
 }
 
 Json HeadlessBrowser::Evaluate(const std::string& expression) {

@@ -42,6 +42,7 @@ class HeadlessBrowser {
   std::string session_;
   std::string unread_;
   int calls_ = 0;
+  int pages_ = 0;  ///< a name of its own makes the browser read each anew
 };
 
 }  // namespace possibility::experiments

@@ -30,6 +30,19 @@ function ticks(low, high, count) {
   return found;
 }
 
+/* Black or white, whichever is easier to read on a colour (WCAG 2, relative luminance). */
+function inkOn(colour) {
+  const {r, g, b} = new THREE.Color(colour);
+  const linear = (part) => part <= 0.04045 ? part / 12.92 : Math.pow((part + 0.055) / 1.055, 2.4);
+  const luminance = 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
+  return (luminance + 0.05) / 0.05 > 1.05 / (luminance + 0.05) ? '#000000' : '#ffffff';
+}
+
+/* A colour as it looks on white with less than full opacity. */
+function onWhite(colour, opacity) {
+  return '#' + new THREE.Color('#ffffff').lerp(new THREE.Color(colour), opacity).getHexString();
+}
+
 const kPlotMargin = {left: 38, right: 6, top: 4, bottom: 16};  // px
 const kManyPhases = 40;  // whose curves would run into each other
 const kLimitColour = '#c2182b';
@@ -49,6 +62,7 @@ class CurvePlot {
     this.panel = addText(this.figure, 'div', '');
     this.panel.className = 'panel';
     this.canvas = addText(this.panel, 'canvas', '');
+    this.canvas.setAttribute('aria-hidden', 'true');  // the keys have its values
     this.cursor = addText(this.panel, 'div', '');
     this.cursor.className = 'cursor';
     const onPointer = (event) => {
@@ -77,7 +91,7 @@ class CurvePlot {
       const key = addText(this.keys, 'span', curve.label + ' ');
       key.className = 'curve' + (curve.dashed ? ' dashed' : '');
       key.style.setProperty('--colour', curve.colour);
-      return {curve, value: addText(key, 'output', '')};
+      return {curve, value: addText(key, 'span', '')};
     });
     this.draw();
   }
@@ -254,6 +268,7 @@ class CurvePlot {
     context.strokeStyle = '#ffffff';
     context.lineWidth = 3;
     context.strokeText(...place);
+    context.fillStyle = '#1d2530';
     context.fillText(...place);
   }
 

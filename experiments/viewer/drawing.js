@@ -249,6 +249,7 @@ class Drawing {
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.05, 500);
     this.camera.up.set(0, 0, 1);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.enableKeys = false;  // keys.js has them
     this.addLights();
     this.addWorld(data);
     this.addRobot(data);
@@ -397,6 +398,27 @@ class Drawing {
     }
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(direction, distance);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  /* Turns the eye about what it looks at, rad: about the vertical, and up. */
+  turn(about, over) {
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    const upright = new THREE.Quaternion().setFromUnitVectors(
+        this.camera.up, new THREE.Vector3(0, 1, 0));
+    const sphere = new THREE.Spherical().setFromVector3(arm.applyQuaternion(upright));
+    sphere.theta += about;
+    sphere.phi -= over;
+    arm.setFromSpherical(sphere.makeSafe()).applyQuaternion(upright.inverse());
+    this.camera.position.copy(this.controls.target).add(arm);
+    this.controls.update();
+    this.stale = true;
+  }
+
+  /* Makes the eye's distance `factor` times as long. */
+  approach(factor) {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
     this.stale = true;
   }

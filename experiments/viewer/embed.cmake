@@ -4,7 +4,7 @@
 set(viewer ${CMAKE_CURRENT_LIST_DIR})
 # The page's own scripts, in the order in which they use each other.
 set(scripts kinematics merging routes barrier drawing jumps balance curves timeline margin_plots plots plan_view
-    legend player)
+    legend keys player)
 set(resources
     page ${viewer}/page.html
     style ${viewer}/style.css

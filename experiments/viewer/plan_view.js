@@ -36,6 +36,7 @@ class PlanView {
     this.drawing = new Drawing(this.part('canvas'), data, motion);
     this.timeline = new Timeline((id) => this.part(id), data, motion, range, callbacks);
     this.describe();
+    this.part('canvas').setAttribute('aria-label', 'Drawing of ' + data.title);
   }
 
   part(id) { return element(this.name ? id + '-' + this.name : id); }
@@ -72,6 +73,12 @@ class PlanView {
         : hit ? 'impact of ' + impulseText(phase) : bearingText(phase, this.data.contacts);
     this.part('contacts').textContent = this.part('contacts').title = what;
     this.part('contacts').classList.toggle('impact', hit);
+  }
+
+  /* What it does now, in words. */
+  text() {
+    const {name} = this.data.segments.length ? this.motion.phaseAt(this.time) : {name: ''};
+    return [this.part('action').textContent, name, this.part('contacts').title].join(', ');
   }
 
   segment() { return this.motion.segmentAt(this.time); }

@@ -8,6 +8,9 @@ const kRoomForBoth = 660, kRoomForOne = 420, kRoomBelow = 460;  // px
 /* What can be switched. */
 const kParts = ['graph', 'route', 'footprints', 'com', 'forces', 'balance', 'barrier'];
 
+/* Whether the reader's system asks for pages that do not move by themselves. */
+const prefersStillness = () => window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+
 class Player {
   /* views: makes the plans' views from the page's range of time and the callbacks of timelines. */
   constructor(range, makeViews) {
@@ -26,7 +29,7 @@ class Player {
     this.connectCameras();
     window.addEventListener('resize', () => this.resize());
     window.addEventListener('hashchange', () => this.applyAddress());
-    window.addEventListener('keydown', (event) => this.onKey(event));
+    connectKeys(this);
     if (this.views[0].data.plots_first) {
       this.openPlots(true);
       this.switchPart('route', false);
@@ -148,27 +151,16 @@ class Player {
     this.setTime(legs[Math.min(legs.length - 1, Math.max(0, index))].begin);
   }
 
-  onKey(event) {
-    if (event.target.tagName === 'SELECT') return;
-    const views = {1: 'iso', 2: 'top', 3: 'side'};
-    const steps = {ArrowLeft: -0.1, ArrowRight: 0.1};
-    const {timeline} = this.views[0];
-    const acts = {
-      ' ': () => this.setPlaying(!this.playing),
-      p: () => this.openPlots(element('plots').hidden),
-      s: () => this.zoomToSegment(),
-      0: () => timeline.showAll(),
-      '+': () => timeline.zoomBy(0.5),
-      '-': () => timeline.zoomBy(2),
-      PageUp: () => this.toLeg(-1),
-      PageDown: () => this.toLeg(1),
-    };
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    if (event.key in views) this.look(views[event.key]);
-    else if (event.key in steps) this.setTime(this.time + steps[event.key]);
-    else if (event.key in acts) acts[event.key]();
-    else return;
-    event.preventDefault();
+  /* Turns the views about the vertical and over it, rad. */
+  turn(about, over) { this.movedViews().forEach(({drawing}) => drawing.turn(about, over)); }
+  approach(factor) { this.movedViews().forEach(({drawing}) => drawing.approach(factor)); }
+  /* Those whose cameras do not follow that of another. */
+  movedViews() { return element('linked').checked ? this.views.slice(0, 1) : this.views; }
+
+  /* Says to screen readers where the plans are. */
+  announce() {
+    const texts = this.views.filter((view) => view.moves).map((view) => view.text());
+    element('announcer').textContent = `${this.time.toFixed(1)} s. ` + texts.join('. ');
   }
 
   /* What the address asks for, for example #t=12.5&view=top&play=0&follow=1&graph=0. */
@@ -195,7 +187,7 @@ class Player {
     this.look(['iso', 'top', 'side'].includes(view) ? view : 'iso');
     const camera = (asked.get('camera') || '').split(',').map(Number);
     if (camera.length === 6 && camera.every(isFinite)) this.views[0].drawing.lookFrom(camera);
-    this.setPlaying(asked.get('play') === '1');
+    this.setPlaying(asked.get('play') === '1' && !prefersStillness());
     this.refreshLink();
   }
 
@@ -223,6 +215,7 @@ class Player {
     this.playing = playing && this.moves;
     if (this.playing && this.time >= this.end) this.setTime(this.begin);
     element('play').textContent = this.playing ? 'Pause' : 'Play';
+    if (!this.playing) this.announce();
   }
 
   setTime(time) {
@@ -244,6 +237,7 @@ class Player {
   openPlots(open) {
     element('plots').hidden = !open || !this.chosen.moves;
     document.body.classList.toggle('with-plots', !element('plots').hidden);
+    element('plots-open').setAttribute('aria-expanded', String(!element('plots').hidden));
     this.resize();
     this.foldWhatHasNoRoom();
   }

@@ -6,6 +6,7 @@
 const kActionRow = {top: 0, height: 15};  // px
 const kPhaseRow = {top: 16, height: 12};
 const kContactRows = {top: 30, height: 4, gap: 1};
+const kPhaseOpacity = 0.75;
 const kLeastDetail = 4;  // px per phase: below it what bears is drawn for whole segments
 const kShortestWindow = 0.5;  // s
 
@@ -147,6 +148,11 @@ class Timeline {
   }
 
   placeCursors() {
+    this.detail.setAttribute('aria-valuemin', this.range.begin.toFixed(2));
+    this.detail.setAttribute('aria-valuemax', this.range.end.toFixed(2));
+    this.detail.setAttribute('aria-valuenow', this.time.toFixed(2));
+    this.detail.setAttribute('aria-valuetext', this.motion.phases.length
+        ? `${this.time.toFixed(2)} s, ${this.describe(this.time)}` : `${this.time.toFixed(2)} s`);
     const place = (cursor, begin, end) => {
       cursor.style.left = 100 * (this.time - begin) / Math.max(end - begin, 1e-9) + '%';
     };
@@ -197,7 +203,8 @@ class Timeline {
                        kActionRow.height);
       if (inDetail) this.drawTicks(context, segment, x);
     }
-    this.drawNames(context, this.motion.legs, kActionRow, x, '#ffffff', (leg) => leg.action);
+    this.drawNames(context, this.motion.legs, kActionRow, x,
+                   (leg) => inkOn(actionColour(leg.action)), (leg) => leg.action);
     this.drawSeams(context, x);
     this.drawImpacts(context, x);
     this.drawTimes(context, width, x);
@@ -206,7 +213,7 @@ class Timeline {
   drawPhases(context, segment, x) {
     for (const phase of segment.phases) {
       const x0 = x(phase.begin), x1 = x(phase.end);
-      context.globalAlpha = 0.75;
+      context.globalAlpha = kPhaseOpacity;
       context.fillStyle = phaseColour(phase, this.data.contacts);
       context.fillRect(x0, kPhaseRow.top, x1 - x0 + 0.3, kPhaseRow.height);
       context.globalAlpha = 1;
@@ -218,7 +225,8 @@ class Timeline {
         this.drawContact(context, contact, row, x0, x1, part ? 0.5 : 1);
       });
     }
-    this.drawNames(context, segment.phases, kPhaseRow, x, '#1d2530', (phase) => phase.name);
+    const ink = (phase) => inkOn(onWhite(phaseColour(phase, this.data.contacts), kPhaseOpacity));
+    this.drawNames(context, segment.phases, kPhaseRow, x, ink, (phase) => phase.name);
   }
 
   /* So many phases that they would blur into each other. */
@@ -272,13 +280,13 @@ class Timeline {
   }
 
   /* The names of things in a row, where there is room. */
-  drawNames(context, things, row, x, colour, name) {
-    context.fillStyle = colour;
+  drawNames(context, things, row, x, ink, name) {
     context.textAlign = 'center';
     for (const thing of things) {
       const x0 = Math.max(0, x(thing.begin)), x1 = Math.min(this.detail.clientWidth, x(thing.end));
       const text = name(thing);
       if (x1 - x0 < context.measureText(text).width + 6) continue;
+      context.fillStyle = ink(thing);
       context.fillText(text, (x0 + x1) / 2, row.top + row.height / 2 + 0.5);
     }
   }

@@ -49,7 +49,7 @@ class BrowserTest : public ::testing::Test {
 
   /// Otherwise the page shows its message.
   static bool HasWebGl(const std::string& document) {
-    return document.find("<p id=\"message\" hidden=\"\">") != std::string::npos;
+    return Between(document, "<p id=\"message\"", ">").find("hidden") != std::string::npos;
   }
 
   static std::string Between(const std::string& text, const std::string& begin,

@@ -57,7 +57,7 @@ TEST_F(ComparisonInBrowser, BothPlansHaveOneTime) {
   WritePage(Comparison());
   const std::string document = Opened("#t=3");
   if (!HasWebGl(document)) GTEST_SKIP() << "chromium has no WebGL here";
-  EXPECT_EQ(Between(document, "<output id=\"clock\">", "<"), "3.00 / 4.00 s");
+  EXPECT_EQ(Between(document, "<output id=\"clock\" aria-live=\"off\">", "<"), "3.00 / 4.00 s");
   EXPECT_EQ(Between(document, "id=\"contacts\" class=\"contacts\" title=\"", "\""), "sole, peg");
   EXPECT_EQ(Between(document, "id=\"contacts-b\" class=\"contacts\" title=\"", "\""),
             "ended at 2.50 s");
