@@ -8,7 +8,7 @@
 
 namespace possibility::models {
 
-/// Fills in `mimic` of the robot's joints from the URDF's <mimic> elements. Call after
+/// Fills in `mimic` of the robot's joints from the URDF's `<mimic>` elements. Call after
 /// BuildLumpedTree. A mimic of a mimic follows the last master of the chain. The effort limit of a
 /// mimic becomes infinite. A lumped joint is held at 0 whether or not it mimics another joint.
 /// @throws InputError naming `file` and the joint if the master is unknown, fixed or lumped, joints

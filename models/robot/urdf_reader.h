@@ -9,7 +9,7 @@
 
 namespace possibility::models {
 
-/// A <mimic> element as written: position = multiplier * position of `joint` + offset.
+/// A `<mimic>` element as written: position = multiplier * position of `joint` + offset.
 struct UrdfMimic {
   std::string joint;
   double multiplier = 1;
@@ -43,7 +43,7 @@ struct UrdfLink {
   std::string name;
   /// Mass and moments may be zero or too small for a body that moves by itself (CheckMovingBody).
   std::optional<Inertial> inertial;
-  std::vector<PosedShape> shapes;  ///< <collision> elements: box, cylinder, sphere
+  std::vector<PosedShape> shapes;  ///< `<collision>` elements: box, cylinder, sphere
   std::vector<UrdfMesh> meshes;    ///< likewise
 };
 

@@ -34,6 +34,8 @@ inline const std::vector<CommandRule>& CommandRules() {
       {"docs/cluster.md", "mkdir", kExempt, "needs a cluster; Slurm.JobArray has the like"},
       {"docs/cluster.md", "sbatch", kExempt, "needs a cluster; Slurm.JobArray has the like"},
       {"docs/cluster.md", "build/release", kExempt, "needs a cluster; Slurm.JobArray has the like"},
+      {"docs/cpp.md", "cmake", kExempt, "Outside.ExampleProject and Outside.Reference do the like"},
+      {"docs/cpp.md", "example/built", kExempt, "Outside.ExampleProject does the like"},
       {"docs/development.md", "cmake", kExempt, "builds"},
       {"docs/development.md", "ctest", kExempt, "runs all tests"},
       {"docs/experiments.md", "./run table --trials 50", kExempt, "takes hours"},
