@@ -50,6 +50,8 @@ class PlanView {
     }
     this.part('no').hidden = !no;
     if (no) this.part('no').textContent = no.explanation;
+    this.part('timeline').hidden = !this.moves;
+    if (!this.moves) this.part('contacts').textContent = 'no motion';
   }
 
   get moves() { return this.motion.phases.length > 0; }

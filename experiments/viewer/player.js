@@ -22,7 +22,7 @@ class Player {
     this.views = makeViews({seek, changed: (timeline) => this.showWindow(timeline)});
     this.plots = this.views.map(
         ({data, motion}) => new PlotsPanel(element('plots-grid'), data, motion, seek));
-    this.choosePlots(0);
+    this.choosePlots(Math.max(0, this.views.findIndex((view) => view.moves)));
     this.describePlans();
     this.connectButtons();
     this.connectTimeline();
@@ -57,7 +57,8 @@ class Player {
     element('barrier').parentElement.hidden =
         !some(({data}) => data.no && (data.no.barrier || data.no.passage));
     element('legs').hidden = !some(({motion}) => motion.legs.length > 1);
-    element('linked').parentElement.hidden = element('plots-of').hidden = this.views.length < 2;
+    element('linked').parentElement.hidden = this.views.length < 2;
+    element('plots-of').hidden = this.views.filter((view) => view.moves).length < 2;
     document.body.classList.toggle('no-motion', !this.moves);
     document.body.classList.toggle(
         'short-player', this.views.length < 2 && this.views[0].motion.segments.length < 2);

@@ -63,6 +63,20 @@ TEST_F(ComparisonInBrowser, BothPlansHaveOneTime) {
             "ended at 2.50 s");
 }
 
+TEST_F(ComparisonInBrowser, APlanBesideNoneHasItsPlots) {
+  const models::RobotModel robot = testing::SampleRobot();
+  const models::Scenario yard = testing::SampleScenario();
+  actions::Plan none;
+  none.no = {"exhausted", "", {}};
+  const actions::Plan plan = testing::SamplePlan(robot, 4, 9);
+  WritePage(ComparisonPage({none, robot, yard}, {plan, robot, yard}));
+  const std::string document = Opened("#t=3&plots=1");
+  if (!HasWebGl(document)) GTEST_SKIP() << "chromium has no WebGL here";
+  EXPECT_EQ(Between(document, "<b id=\"plots-title\">", "<"),
+            "walk-&gt;crawl, segment 2 of 2: 2.00 to 4.00 s");
+  EXPECT_EQ(Between(document, "id=\"contacts\" class=\"contacts\">", "<"), "no motion");
+}
+
 /// The worlds are one, so a place in the one is the same place in the other.
 TEST_F(ComparisonInBrowser, BothAreSeenFromTheSamePlace) {
   WritePage(Comparison());
