@@ -15,7 +15,7 @@ python="pybind11-dev python3-dev python3-numpy python3-matplotlib"
 case "${1-}" in
   "") optional="" ;;
   --with-python) packages="$packages $python"; optional="" ;;
-  --with-tests) optional="$python python3-pytest libdart-dev libompl-dev libnlopt-dev libmujoco-dev python3-dartpy python3-yaml" ;;
+  --with-tests) optional="$python python3-pytest doxygen libdart-dev libompl-dev libnlopt-dev libmujoco-dev python3-dartpy python3-yaml" ;;
   *) echo "usage: install_packages.sh [--with-tests | --with-python]" >&2; exit 1 ;;
 esac
 

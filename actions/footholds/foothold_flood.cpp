@@ -209,6 +209,7 @@ bool FootholdFlood::MayBear(const Place& place) const {
 
 bool FootholdFlood::MayBear(const Sole& sole, int level, const Vector2d& centre) const {
   if (world_.ground->OneFaceHolds(level, centre, centre, sole.radius)) return true;
+  if (!world_.ground->IsNear(level, centre, sole.radius + cell_)) return false;
   for (int i = 0; i < kFloodTurns; ++i) {
     const double turn = 2 * std::numbers::pi / kFloodTurns * i;
     if (MayBear(sole, level, {centre, cell_ / 2, turn, std::numbers::pi / kFloodTurns}))
