@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "dynamics/tree/tree_kinematics.h"
-#include "experiments/formats/little_endian.h"
-#include "experiments/formats/zip_file.h"
+#include "models/archive/little_endian.h"
+#include "models/archive/zip_file.h"
 #include "experiments/samples/quantities.h"
 #include "experiments/samples/sample_margins.h"
 
 namespace possibility::experiments {
 namespace {
+
+using models::AppendLittleEndian;
 
 using Arrays = std::map<std::string, NpyArray>;
 
@@ -151,7 +153,7 @@ std::map<std::string, NpyArray> TrajectoryArrays(const ExportSubject& subject,
 
 void WriteNpz(const ExportSubject& subject, const ExportSampling& sampling,
               const std::filesystem::path& file) {
-  ZipWriter archive(file);
+  models::ZipWriter archive(file);
   for (const auto& [name, array] : TrajectoryArrays(subject, sampling)) {
     archive.Add(name + ".npy", NpyFile(array));
   }

@@ -7,10 +7,12 @@
 
 #include <stdexcept>
 
-#include "experiments/formats/little_endian.h"
+#include "models/archive/little_endian.h"
 
 namespace possibility::experiments {
 namespace {
+
+using models::AppendLittleEndian;
 
 using mcap::Opcode;
 

@@ -6,11 +6,13 @@
 #include <charconv>
 #include <optional>
 
-#include "experiments/formats/little_endian.h"
+#include "models/archive/little_endian.h"
 #include "models/input/input_error.h"
 
 namespace possibility::experiments {
 namespace {
+
+using models::AppendLittleEndian;
 
 constexpr std::string_view kMagic("\x93NUMPY", 6);
 constexpr std::size_t kAlignment = 64;  // of the data in the file
@@ -218,7 +220,7 @@ std::string NpyFile(const NpyArray& array) {
 }
 
 NpyArray ReadNpy(std::string_view bytes, const std::string& where) {
-  LittleEndianReader reader(bytes, where);
+  models::LittleEndianReader reader(bytes, where);
   if (!bytes.starts_with(kMagic)) FailNpy(where, "no .npy file");
   reader.Skip(kMagic.size());
   const int version = reader.Read<std::uint8_t>();

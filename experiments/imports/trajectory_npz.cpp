@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/formats/npy_array.h"
-#include "experiments/formats/zip_file.h"
+#include "models/archive/zip_file.h"
 #include "experiments/samples/quantities.h"
 #include "models/input/input_error.h"
 #include "models/input/nearest_name.h"
@@ -21,7 +21,7 @@ using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 class TrajectoryArchive {
  public:
   TrajectoryArchive(const std::string& bytes, const std::filesystem::path& file)
-      : file_(file.string()), members_(ReadZip(bytes, file)) {}
+      : file_(file.string()), members_(models::ReadZip(bytes, file)) {}
 
   bool Has(const std::string& name) const { return members_.contains(name + ".npy"); }
   std::string Where(const std::string& name) const { return file_ + ": " + name; }

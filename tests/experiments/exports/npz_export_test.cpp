@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "experiments/formats/zip_file.h"
+#include "models/archive/zip_file.h"
 #include "tests/experiments/exports/python_run.h"
 #include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_plan.h"
@@ -20,7 +20,7 @@ class NpzExport : public ::testing::Test {
   void TearDown() override { std::filesystem::remove(file_); }
 
   NpyArray Member(const std::string& name) const {
-    return ReadNpy(ReadZip(testing::ReadText(file_), file_).at(name + ".npy"), name);
+    return ReadNpy(models::ReadZip(testing::ReadText(file_), file_).at(name + ".npy"), name);
   }
 
   const models::RobotModel robot_ = testing::SampleRobot();

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "experiments/formats/npy_array.h"
-#include "experiments/formats/zip_file.h"
+#include "models/archive/zip_file.h"
 #include "tests/experiments/program_run.h"
 #include "tests/experiments/standing_plan.h"
 
@@ -88,13 +88,13 @@ TEST_F(ImportProgram, PositionsAndContactsAreCompletedAndVerify) {
 TEST_F(ImportProgram, AMotionThatTheRobotCannotDoIsRejected) {
   Plan("three_routes_a");
   ASSERT_EQ(Run("export out --npz plan.npz --period 0.01").code, 0);
-  auto members = ReadZip(ReadText(folder_ / "plan.npz"), "plan.npz");
+  auto members = models::ReadZip(ReadText(folder_ / "plan.npz"), "plan.npz");
   NpyArray q = ReadNpy(members.at("q.npy"), "q");
   // The robot stands one centimetre higher throughout.
   double* numbers = reinterpret_cast<double*>(q.bytes.data());
   for (std::size_t row = 0; row < q.shape[0]; ++row) numbers[row * q.shape[1] + 6] += 0.01;
   members["q.npy"] = NpyFile(q);
-  ZipWriter archive(folder_ / "spoilt.npz");
+  models::ZipWriter archive(folder_ / "spoilt.npz");
   for (const auto& [name, content] : members) archive.Add(name, content);
   archive.Commit();
   const Outcome outcome =

@@ -7,7 +7,7 @@
 
 #include "experiments/exports/csv_tables.h"
 #include "experiments/exports/npz_export.h"
-#include "experiments/formats/zip_file.h"
+#include "models/archive/zip_file.h"
 #include "models/input/input_error.h"
 #include "tests/experiments/read_text.h"
 #include "tests/experiments/sample_plan.h"
@@ -84,7 +84,7 @@ TEST_F(TrajectoryReader, FindsComponentsOfArraysByTheirNames) {
   }
   arrays["v"] = reversed;
   arrays["v_names"] = TextArray({names.rbegin(), names.rend()});
-  ZipWriter archive(folder_ / "motion.npz");
+  models::ZipWriter archive(folder_ / "motion.npz");
   for (const auto& [name, array] : arrays) archive.Add(name + ".npy", NpyFile(array));
   archive.Commit();
   ExpectThePlan(ReadTrajectory(folder_ / "motion.npz", robot_));

@@ -1,23 +1,23 @@
-#include "experiments/formats/zip_file.h"
+#include "models/archive/zip_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "models/input/file_contents.h"
 #include "models/input/input_error.h"
-#include "tests/experiments/read_text.h"
 
-namespace possibility::experiments {
+namespace possibility::models {
 namespace {
 
 class ZipFile : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(file_); }
 
-  std::string Written() const {
-    ZipWriter archive(file_);
+  std::string Written(Deflation deflation = Deflation::kFast) const {
+    ZipWriter archive(file_, deflation);
     for (const auto& [name, content] : members_) archive.Add(name, content);
     archive.Commit();
-    return testing::ReadText(file_);
+    return ReadFileContents(file_);
   }
 
   const std::filesystem::path file_ =
@@ -44,6 +44,18 @@ TEST_F(ZipFile, RefusesASpoiltArchive) {
   EXPECT_THROW(ReadZip("no archive at all", file_), InputError);
 }
 
+TEST_F(ZipFile, ReadsOneMemberAtATime) {
+  const std::string bytes = Written(Deflation::kThorough);
+  const ZipReader reader(bytes, file_);
+  EXPECT_TRUE(IsZip(bytes));
+  EXPECT_EQ(reader.Names(), (std::vector<std::string>{"empty", "long.txt", "short"}));
+  EXPECT_EQ(reader.SizeOf("long.txt"), 100000u);
+  EXPECT_EQ(reader.Read("short"), members_.at("short"));
+  EXPECT_FALSE(reader.Has("tall"));
+  EXPECT_THROW(reader.Read("tall"), InputError);
+  EXPECT_FALSE(IsZip("PK"));
+}
+
 TEST_F(ZipFile, AWrongCrcIsNamed) {
   std::string bytes = Written();
   const std::size_t entry = bytes.rfind("PK\x01\x02");  // of "short"
@@ -57,4 +69,4 @@ TEST_F(ZipFile, AWrongCrcIsNamed) {
 }
 
 }  // namespace
-}  // namespace possibility::experiments
+}  // namespace possibility::models

@@ -10,7 +10,7 @@
 
 #include "models/input/input_error.h"
 
-namespace possibility::experiments {
+namespace possibility::models {
 
 static_assert(std::endian::native == std::endian::little, "files are written as memory has them");
 
@@ -56,4 +56,4 @@ class LittleEndianReader {
   std::string file_;
 };
 
-}  // namespace possibility::experiments
+}  // namespace possibility::models
