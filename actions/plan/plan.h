@@ -13,8 +13,9 @@
 
 namespace possibility::actions {
 
-/// Format name in plan files.
+/// Format names in plan files (docs/file_formats.md).
 inline constexpr const char* kPlanFormat = "possibility-plan/1";
+inline constexpr const char* kPackedPlanFormat = "possibility-plan/2";
 
 /// State of the whole robot at one instant. Conventions of q, v, a: models::RobotModel.
 struct Knot {
@@ -37,6 +38,9 @@ struct Phase {
   /// Impulses of the impact at the start of the phase, on the robot at every contact point, world,
   /// N s, in the order of Knot::forces. No columns: no impact.
   Eigen::Matrix3Xd impulses = Eigen::Matrix3Xd(3, 0);
+  /// In a file of version 2, accelerations are multiples of 2^-this (m/s^2, rad/s^2), and rates and
+  /// positions correspondingly fine.
+  int acceleration_bits = 12;
 };
 
 /// One executed edge of the route.
@@ -130,8 +134,12 @@ struct SearchReport {
   double lower_bound = 0;     ///< of the duration within the searched space, s; 0: unknown
 };
 
-/// Result of `possibility plan` (format possibility-plan/1, docs/file_formats.md).
+/// Result of `possibility plan` (docs/file_formats.md).
 struct Plan {
+  /// Of the file format, 1 or 2. The motion of version 2 obeys the dynamics between knots to 1e-6
+  /// of the weight, which the verifier requires of it.
+  int version = 1;
+  int force_bits = 14;  ///< in a file of version 2, forces are multiples of 2^-this, N
   std::filesystem::path robot_file;
   std::string robot_hash;
   std::filesystem::path scenario_file;
@@ -157,7 +165,7 @@ struct Plan {
 /// format: it defines the motion between knots.
 Knot Interpolate(const Knot& k0, const Knot& k1, double t);
 
-/// ReadPlan (plan_reader.h) for the text of a plan. `file` need not exist: it appears in messages,
+/// ReadPlan (plan_reader.h) for the bytes of a plan. `file` need not exist: it appears in messages,
 /// and paths in the text are resolved against its folder.
 Plan ParsePlan(const std::string& text, const std::filesystem::path& file);
 
