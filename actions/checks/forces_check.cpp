@@ -17,11 +17,13 @@ using Eigen::VectorXd;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kKnotTolerance = 1e-6;     // of the weight (N), or of weight x 1 m (N m)
-constexpr double kBetweenTolerance = 1e-3;  // likewise, rows that no contact force can change
-constexpr double kConeTolerance = 1e-6;     // of the weight
-constexpr double kLeastLoad = 1e-3;         // of the weight per point, see ChangeWeights
-constexpr double kRankTolerance = 1e-13;    // relative, squared singular values
+constexpr double kKnotTolerance = 1e-6;  // of the weight (N), or of weight x 1 m (N m)
+// Likewise, rows that no contact force can change.
+constexpr double kUnsupplied = 1e-3;
+constexpr double kUnsuppliedOfVersion2 = 1e-6;
+constexpr double kConeTolerance = 1e-6;   // of the weight
+constexpr double kLeastLoad = 1e-3;       // of the weight per point, see ChangeWeights
+constexpr double kRankTolerance = 1e-13;  // relative, squared singular values
 
 /// The wrench (torque about the root's origin, force) of forces at points.
 Vector6d BaseWrench(const Matrix3Xd& arms, const Matrix3Xd& forces) {
@@ -131,7 +133,7 @@ RealisedForces RealiseForces(const VerifierState& state, const std::vector<Beari
 
 void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
                  const models::RobotModel& robot, const dynamics::SimbodyDynamics& dynamics,
-                 bool at_knot, const Instant& at, ViolationLog* log) {
+                 bool at_knot, int version, const Instant& at, ViolationLog* log) {
   const RealisedForces realised = RealiseForces(state, contacts.points, robot, dynamics);
   const double weight = robot.TotalMass() * dynamics::kGravity;
   if (at_knot) {
@@ -146,8 +148,9 @@ void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
           [&] { return robot.joints[j].name + " declared torque off inverse dynamics"; });
     }
   }
+  const double unsupplied = version == 2 ? kUnsuppliedOfVersion2 : kUnsupplied;
   log->RequireAtMost(
-      ViolationKind::kDynamics, at, realised.residual, 0, kBetweenTolerance * weight, "N or N m",
+      ViolationKind::kDynamics, at, realised.residual, 0, unsupplied * weight, "N or N m",
       [] { return std::string("unactuated rows that no contact force can supply"); });
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
     CheckCone(realised.forces.col(i), contacts.normals.col(i), contacts.friction[i],

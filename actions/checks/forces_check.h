@@ -22,9 +22,10 @@ RealisedForces RealiseForces(const VerifierState& state, const std::vector<Beari
                              const dynamics::SimbodyDynamics& dynamics);
 
 /// Checks dynamics, friction cones and torque limits. `at_knot`: also compares the declared tau and
-/// forces with the recomputed ones.
+/// forces with the recomputed ones. `version`: of the plan's format; the motion of version 2 must
+/// leave a thousandth of what is tolerated in version 1.
 void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
                  const models::RobotModel& robot, const dynamics::SimbodyDynamics& dynamics,
-                 bool at_knot, const Instant& at, ViolationLog* log);
+                 bool at_knot, int version, const Instant& at, ViolationLog* log);
 
 }  // namespace possibility::actions

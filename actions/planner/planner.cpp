@@ -22,6 +22,7 @@
 #include "actions/planner/plan_explanation.h"
 #include "actions/planner/request_checks.h"
 #include "actions/planner/route_refusals.h"
+#include "actions/refinement/plan_refinement.h"
 #include "actions/route/footstep_explorer.h"
 #include "actions/route/island_explorer.h"
 #include "actions/route/lattice_explorer.h"
@@ -480,12 +481,21 @@ class TraversalPlanner {
     }
   }
 
+  /// What is verified is what will be written.
+  void RoundToFile(actions::Plan* plan) const {
+    if (request_.plan_version == 2) {
+      *plan = RefinedPlan(*plan, robot_);
+    } else {
+      RoundToPlanDigits(plan);
+    }
+  }
+
   bool Generate(const Route& route, actions::Plan* plan) {
     try {
       plan->segments = GenerateMotion(
           model_, scenario_.environment, route, request_.threads, Until(last_deadline_),
           [this](double fraction) { Report("generating motion", fraction); });
-      RoundToPlanDigits(plan);
+      RoundToFile(plan);
       return true;
     } catch (const LegError& error) {
       const RouteLeg& leg = route[static_cast<size_t>(error.leg())];

@@ -43,6 +43,7 @@ struct PlanRequest {
   std::filesystem::path library;  ///< folder of solved jumps; empty: none
   PlannerPreset preset = PlannerPreset::kDefault;
   std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers) unless empty
+  int plan_version = 1;  ///< format of the file that the plan is for, 1 or 2: how it is rounded
   std::function<void(const PlanProgress&)> progress;
   /// Asked from any thread; once it cancels, PlanTraversal throws Cancelled.
   CancellationToken cancellation;

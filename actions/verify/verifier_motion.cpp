@@ -200,8 +200,8 @@ class Worker {
   void CheckAll(const Sample& sample, bool at_knot) {
     const Instant at{chunk_->segment, sample.state.knot.t};
     CheckContacts(sample.state, contacts(), subject_->robot, subject_->ground, at, &chunk_log_);
-    CheckForces(sample.state, contacts(), subject_->robot, evaluator_.dynamics(), at_knot, at,
-                &chunk_log_);
+    CheckForces(sample.state, contacts(), subject_->robot, evaluator_.dynamics(), at_knot,
+                subject_->plan.version, at, &chunk_log_);
     const std::optional<Flight>& flight = subject_->flights[chunk_->phase_index];
     if (flight) {
       CheckFlight(sample.state, *flight, subject_->robot, evaluator_.dynamics(), at, &chunk_log_);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "actions/plan/plan_reader.h"
 #include "actions/plan/plan_writer.h"
@@ -12,7 +13,9 @@
 #include "actions/verify/verification_report.h"
 #include "actions/verify/verifier.h"
 #include "dynamics/simbody/simbody_dynamics.h"
+#include "models/input/input_error.h"
 #include "tests/actions/hop_plan.h"
+#include "tests/actions/packed_subject.h"
 #include "tests/actions/plan_mutations.h"
 
 namespace possibility::actions {
@@ -176,6 +179,24 @@ TEST_P(DynamicPlanMutation, AMutationOfAHopIsFound) {
                                  [](const Violation& v) { return v.kind == GetParam().expected; });
   EXPECT_TRUE(found) << "expected " << ToString(GetParam().expected) << "\n" << FormatText(report);
   EXPECT_TRUE(report.rollouts.empty());
+}
+
+/// What a file of version 2 cannot hold may be refused instead.
+TEST_P(DynamicPlanMutation, AMutationOfAHopOfVersion2IsFoundInItsFile) {
+  static const VerifierSubject hop = testing::Refined(ValidSubject());
+  VerifierSubject subject = hop;
+  GetParam().apply(&subject);
+  const bool may_be_refused = GetParam().expected == ViolationKind::kStructure;
+  try {
+    subject.plan = testing::Repacked(subject.plan);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_TRUE(may_be_refused) << error.what();
+    return;
+  } catch (const InputError& error) {
+    EXPECT_TRUE(may_be_refused) << error.what();
+    return;
+  }
+  EXPECT_NE(Find(Verified(subject), GetParam().expected), nullptr) << FormatText(Verified(subject));
 }
 
 INSTANTIATE_TEST_SUITE_P(Mutations, DynamicPlanMutation, ::testing::ValuesIn(DynamicMutations()),

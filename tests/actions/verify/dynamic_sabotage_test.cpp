@@ -8,6 +8,7 @@
 #include "actions/verify/verifier.h"
 #include "dynamics/contact/contact_forces.h"
 #include "tests/actions/dynamic_gaits.h"
+#include "tests/actions/packed_subject.h"
 #include "tests/actions/standing_plan.h"
 
 namespace possibility::actions {
@@ -15,16 +16,20 @@ namespace {
 
 using Eigen::VectorXd;
 
-class DynamicSabotage : public ::testing::Test {
+/// `GetParam()`: the version of the plan's format.
+class DynamicSabotage : public ::testing::TestWithParam<int> {
  protected:
   DynamicSabotage() {
     scenario_.goals = {{"walk", kEnd, 0, 0, 0}};
     plan_ = WalkTo({kEnd, 0, 0}, scenario_);
+    if (GetParam() == 2) plan_ = RefinedPlan(plan_, DrcHubo1());
   }
 
   std::vector<Phase>& phases() { return plan_.segments.front().phases; }
 
-  VerificationReport Report() const { return Verify(plan_, DrcHubo1(), scenario_); }
+  VerificationReport Report() const {
+    return Verify(GetParam() == 2 ? testing::Repacked(plan_) : plan_, DrcHubo1(), scenario_);
+  }
 
   /// Expects a rejection for one of these reasons.
   void ExpectRejected(const std::set<ViolationKind>& reasons) const {
@@ -80,11 +85,11 @@ class DynamicSabotage : public ::testing::Test {
   Plan plan_;
 };
 
-TEST_F(DynamicSabotage, TheUntouchedWalkIsAccepted) {
+TEST_P(DynamicSabotage, TheUntouchedWalkIsAccepted) {
   EXPECT_TRUE(Report().accepted()) << FormatText(Report());
 }
 
-TEST_F(DynamicSabotage, ForgedForcesOfTheTrueMotionAreAccepted) {
+TEST_P(DynamicSabotage, ForgedForcesOfTheTrueMotionAreAccepted) {
   ForgeForces();
   const VerificationReport report = Report();
   for (const Violation& violation : report.violations) {
@@ -92,19 +97,19 @@ TEST_F(DynamicSabotage, ForgedForcesOfTheTrueMotionAreAccepted) {
   }
 }
 
-TEST_F(DynamicSabotage, AWalkPlayedFasterIsRejected) {
+TEST_P(DynamicSabotage, AWalkPlayedFasterIsRejected) {
   PlayFaster(1.2);
   ExpectRejected({ViolationKind::kDynamics});
 }
 
-TEST_F(DynamicSabotage, AWalkPlayedFasterWithForgedForcesIsRejected) {
+TEST_P(DynamicSabotage, AWalkPlayedFasterWithForgedForcesIsRejected) {
   PlayFaster(1.2);
   ForgeForces();
   ExpectRejected({ViolationKind::kDynamics, ViolationKind::kFriction, ViolationKind::kJointTorque,
                   ViolationKind::kJointSpeed});
 }
 
-TEST_F(DynamicSabotage, AZeroMomentPointOutsideTheSoleIsRejected) {
+TEST_P(DynamicSabotage, AZeroMomentPointOutsideTheSoleIsRejected) {
   // The whole robot is pulled aside in mid-swing, faster than the foot can press.
   Phase& swing = phases()[3];
   ASSERT_EQ(swing.contacts.size(), 1u);
@@ -113,7 +118,7 @@ TEST_F(DynamicSabotage, AZeroMomentPointOutsideTheSoleIsRejected) {
   ExpectRejected({ViolationKind::kDynamics, ViolationKind::kFriction});
 }
 
-TEST_F(DynamicSabotage, AShortenedPhaseIsRejected) {
+TEST_P(DynamicSabotage, AShortenedPhaseIsRejected) {
   constexpr double kShare = 0.8;
   Phase& swing = phases()[3];
   const double start = swing.knots.front().t;
@@ -130,7 +135,7 @@ TEST_F(DynamicSabotage, AShortenedPhaseIsRejected) {
   ExpectRejected({ViolationKind::kVelocityContinuity});
 }
 
-TEST_F(DynamicSabotage, ASwingFootThroughAKerbIsRejected) {
+TEST_P(DynamicSabotage, ASwingFootThroughAKerbIsRejected) {
   models::Obstacle kerb;
   kerb.name = "kerb";
   kerb.shape = models::Shape::Box({0.02, 4, 0.06});
@@ -139,6 +144,8 @@ TEST_F(DynamicSabotage, ASwingFootThroughAKerbIsRejected) {
   scenario_.environment.obstacles.push_back(kerb);
   ExpectRejected({ViolationKind::kPenetration});
 }
+
+INSTANTIATE_TEST_SUITE_P(Versions, DynamicSabotage, ::testing::Values(1, 2));
 
 }  // namespace
 }  // namespace possibility::actions

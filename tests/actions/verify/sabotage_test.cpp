@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "actions/verify/verification_report.h"
+#include "models/input/input_error.h"
+#include "tests/actions/packed_subject.h"
 #include "tests/actions/plan_mutations.h"
 #include "tests/actions/shipped_robots.h"
 #include "tests/actions/standing_plan.h"
@@ -21,14 +24,44 @@ using testing::WalkAndCrawl;
 
 class Sabotage : public ::testing::TestWithParam<PlanMutation> {};
 
-void ExpectFound(VerifierSubject subject, const PlanMutation& mutation) {
-  mutation.apply(&subject);
+void ExpectViolation(const VerifierSubject& subject, const PlanMutation& mutation) {
   const VerificationReport report = Verify(subject.plan, subject.robot, subject.scenario);
   bool found = false;
   for (const Violation& violation : report.violations) {
     found = found || violation.kind == mutation.expected;
   }
   EXPECT_TRUE(found) << "expected " << ToString(mutation.expected) << "\n" << FormatText(report);
+}
+
+void ExpectFound(VerifierSubject subject, const PlanMutation& mutation) {
+  mutation.apply(&subject);
+  ExpectViolation(subject, mutation);
+}
+
+/// Of a plan of version 2, in a file. What no such file can hold may be refused instead.
+void ExpectFoundInAFile(VerifierSubject subject, const PlanMutation& mutation) {
+  mutation.apply(&subject);
+  const bool may_be_refused =
+      mutation.expected == ViolationKind::kStructure || mutation.expected == ViolationKind::kAction;
+  try {
+    subject.plan = testing::Repacked(subject.plan);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_TRUE(may_be_refused) << error.what();
+    return;
+  } catch (const InputError& error) {
+    EXPECT_TRUE(may_be_refused) << error.what();
+    return;
+  }
+  ExpectViolation(subject, mutation);
+}
+
+TEST_P(Sabotage, AMutationOfAStandingPlanOfVersion2IsFound) {
+  static const VerifierSubject subject = testing::Refined(ValidSubject());
+  ExpectFoundInAFile(subject, GetParam());
+}
+TEST_P(Sabotage, AMutationOfAWalkingAndCrawlingPlanOfVersion2IsFound) {
+  static const VerifierSubject subject = testing::Refined(WalkAndCrawl());
+  ExpectFoundInAFile(subject, GetParam());
 }
 
 TEST_P(Sabotage, AMutationOfAStandingPlanIsFound) { ExpectFound(ValidSubject(), GetParam()); }
@@ -44,6 +77,13 @@ const VerifierSubject& StandingOf(const std::string& robot) {
   return subjects[robot] = testing::StandingPlan(RobotNamed(robot).robot().file.string());
 }
 
+const VerifierSubject& RefinedStandingOf(const std::string& robot) {
+  static std::map<std::string, VerifierSubject> subjects;
+  const auto known = subjects.find(robot);
+  if (known != subjects.end()) return known->second;
+  return subjects[robot] = testing::Refined(StandingOf(robot));
+}
+
 /// Point feet have neither corners nor headings, and no other robot than DRC-HUBO1 crawls.
 bool IsPossible(const std::string& mutation, const std::string& robot) {
   if (mutation == "StartByOtherGait") return false;
@@ -56,6 +96,7 @@ TEST_P(Sabotage, AMutationOfEveryRobotsStandingPlanIsFound) {
     SCOPED_TRACE(robot);
     if (!IsPossible(GetParam().name, robot)) continue;
     ExpectFound(StandingOf(robot), GetParam());
+    ExpectFoundInAFile(RefinedStandingOf(robot), GetParam());
   }
 }
 
@@ -69,6 +110,9 @@ TEST(SabotageBaseline, TheUntouchedPlansAreAccepted) {
     subject.plan.schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
     const VerificationReport report = Verify(subject.plan, subject.robot, subject.scenario);
     EXPECT_TRUE(report.accepted()) << FormatText(report);
+    subject.plan = testing::Repacked(testing::Refined(subject).plan);
+    const VerificationReport of_version_2 = Verified(subject);
+    EXPECT_TRUE(of_version_2.accepted()) << FormatText(of_version_2);
   }
 }
 
