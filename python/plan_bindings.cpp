@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/plan/plan_writer.h"
+#include "experiments/exports/plan_export.h"
 #include "python/bindings.h"
 
 namespace possibility::python {
@@ -100,13 +100,17 @@ std::shared_ptr<LoadedPlan> Load(const std::string& path) {
   return loaded;
 }
 
-/// The same plan, of a scenario in another file with the same content.
+/// In the format that the file's name asks for; of a scenario in another file with the same content
+/// unless `scenario_file` is empty.
 void Save(const LoadedPlan& loaded, const std::string& file, const std::string& scenario_file) {
   const py::gil_scoped_release release;
-  if (scenario_file.empty()) return actions::WritePlan(loaded.plan, file);
+  const auto write = [&](const Plan& plan) {
+    experiments::WritePlanFile({plan, loaded.robot, loaded.scenario}, {}, file);
+  };
+  if (scenario_file.empty()) return write(loaded.plan);
   Plan plan = loaded.plan;
   plan.scenario_file = scenario_file;
-  actions::WritePlan(plan, file);
+  write(plan);
 }
 
 }  // namespace

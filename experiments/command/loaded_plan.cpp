@@ -25,9 +25,7 @@ bool Fits(const actions::Phase& phase, const models::RobotModel& robot, Eigen::I
 /// The plan, without robot and scenario.
 LoadedPlan LoadAlone(const std::filesystem::path& file_or_directory) {
   LoadedPlan loaded;
-  std::error_code ignored;  // ReadPlan reports paths that cannot be read
-  const bool is_folder = std::filesystem::is_directory(file_or_directory, ignored);
-  loaded.file = is_folder ? file_or_directory / "plan.json" : file_or_directory;
+  loaded.file = actions::PlanFileOf(file_or_directory);
   loaded.plan = actions::ReadPlan(loaded.file);
   return loaded;
 }

@@ -19,7 +19,7 @@ struct LoadedPlan {
   bool IsCurrent() const;
 };
 
-/// Reads DIR/plan.json or a plan file, then the robot and scenario it names.
+/// Reads a plan file of either version or that of a folder, then the robot and scenario it names.
 /// @throws InputError for anything malformed or missing.
 LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory);
 

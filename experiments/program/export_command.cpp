@@ -11,6 +11,7 @@
 #include "experiments/exports/mcap_export.h"
 #include "experiments/exports/mujoco_export.h"
 #include "experiments/exports/npz_export.h"
+#include "experiments/exports/plan_export.h"
 #include "experiments/exports/sto_export.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
@@ -27,6 +28,7 @@ struct ExportOptions {
   std::string mujoco;
   std::string sto;
   std::string mcap;
+  std::string plan_file;
   std::string period;
   std::string step;
   bool margins = false;
@@ -45,7 +47,9 @@ constexpr ExportFile kFiles[] = {
     {"--mujoco", &ExportOptions::mujoco, "Model for MuJoCo with the motion as keyframes",
      &WriteMujoco},
     {"--sto", &ExportOptions::sto, "Storage for OpenSim", &WriteSto},
-    {"--mcap", &ExportOptions::mcap, "Recording for Foxglove", &WriteMcap}};
+    {"--mcap", &ExportOptions::mcap, "Recording for Foxglove", &WriteMcap},
+    {"--plan", &ExportOptions::plan_file, "The plan in format 1 (.json) or 2 (.zip)",
+     &WritePlanFile}};
 
 /// Writes every file that is asked for, and prints its name.
 void WriteExports(const ExportOptions& options, const ExportSubject& subject,
@@ -88,7 +92,7 @@ ExitCode RunExport(const ExportOptions& options) {
 Command AddExportCommand(CLI::App& program) {
   CommandOptions command(program, "export", "Writes a plan for other programs.");
   auto options = std::make_shared<ExportOptions>();
-  command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
+  command.AddRequired("PLAN", &options->plan, "plan.json, plan.zip or their folder");
   command.AddOptional("--csv", &options->csv, "Folder for tables");
   for (const ExportFile& kind : kFiles) {
     command.AddOptional(kind.option, &((*options).*kind.file), kind.help);

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "actions/plan/plan_writer.h"
+#include "actions/plan/packed_writer.h"
 #include "actions/planner/planner.h"
 #include "actions/verify/verification_report.h"
 #include "experiments/report/plan_summary.h"
@@ -41,6 +41,7 @@ struct PlanOptions {
   std::string library;
   std::string preset;
   std::string explorers;
+  std::string format;
   bool json = false;
 };
 
@@ -64,6 +65,9 @@ void ApplyOptions(const PlanOptions& options, actions::PlanRequest* request) {
     request->time_limit = ParseSeconds("--time-limit", options.time_limit);
   }
   if (!options.actions.empty()) request->actions = ParseNames("--actions", options.actions);
+  if (!options.format.empty()) {
+    request->plan_version = static_cast<int>(ParseInteger("--format", options.format, 1, 2));
+  }
   if (!options.preset.empty()) request->preset = ParsePreset("--preset", options.preset);
   if (!options.explorers.empty()) {
     request->explorers = ParseNames("--explorers", options.explorers);
@@ -109,6 +113,19 @@ ExitCode Report(const actions::PlanResult& result, const models::RobotModel& rob
   return kNoPlan;
 }
 
+/// The folder's plan, in one of the two formats. A plan of the other one there is of an older run
+/// and would be read in its place.
+std::filesystem::path WriteOnlyPlan(const actions::Plan& plan, int version,
+                                    const std::filesystem::path& folder) {
+  const std::filesystem::path plain = folder / "plan.json";
+  const std::filesystem::path packed = folder / "plan.zip";
+  const std::filesystem::path& file = version == 2 ? packed : plain;
+  actions::WritePlanAs(plan, file);
+  std::error_code ignored;  // mostly there is none
+  std::filesystem::remove(version == 2 ? plain : packed, ignored);
+  return file;
+}
+
 ExitCode RunPlan(const PlanOptions& options) {
   actions::PlanRequest request;
   ApplyOptions(options, &request);
@@ -124,13 +141,13 @@ ExitCode RunPlan(const PlanOptions& options) {
       options.out.empty() ? DefaultFolder(scenario.name) : std::filesystem::path(options.out);
   PrepareOutputFolder("--out", folder);
 
-  const PlanFiles files{folder / "plan.json", folder / "plan.html"};
   const actions::PlanResult result = PlanWithProgress(robot, scenario, request);
   if (result.status == actions::PlanStatus::kFound && !result.verification.accepted()) {
     PrintError("{}", actions::FormatText(result.verification));
     return kVerificationFailed;
   }
-  actions::WritePlan(result.plan, files.plan);
+  const PlanFiles files{WriteOnlyPlan(result.plan, request.plan_version, folder),
+                        folder / "plan.html"};
   WriteOutput(files.page, ViewerPage(result.plan, robot, scenario));
   return Report(result, robot, files, options.json);
 }
@@ -138,7 +155,7 @@ ExitCode RunPlan(const PlanOptions& options) {
 }  // namespace
 
 Command AddPlanCommand(CLI::App& program) {
-  CommandOptions command(program, "plan", "Plans, verifies and writes plan.json and a page.");
+  CommandOptions command(program, "plan", "Plans, verifies and writes a plan and a page.");
   auto options = std::make_shared<PlanOptions>();
   command.AddRequired("SCENARIO", &options->scenario, "Scenario YAML");
   command.AddOptional("--out", &options->out, "Folder for the plan (default: out/<scenario name>)");
@@ -152,6 +169,9 @@ Command AddPlanCommand(CLI::App& program) {
   command.AddOptional("--preset", &options->preset, "Planner: default, or paper (as it prints it)");
   command.AddOptional("--explorers", &options->explorers,
                       "Only these: straight, lattice, random, shortcuts (default: the preset's)");
+  command.AddOptional(
+      "--format", &options->format,
+      "1: plan.json (default); 2: plan.zip, a tenth as large and exact between knots");
   command.AddFlag("--json", &options->json, "Print one JSON object");
   return {command, [options] { return RunPlan(*options); }};
 }

@@ -44,8 +44,8 @@ std::string OneLine(std::string text) {
 }
 
 std::string Version() {
-  return fmt::format("possibility {}\nplan format {}", ThisEnvironment().possibility,
-                     actions::kPlanFormat);
+  return fmt::format("possibility {}\nplan format {}, {}", ThisEnvironment().possibility,
+                     actions::kPlanFormat, actions::kPackedPlanFormat);
 }
 
 /// Prints one line of text; with --json also an object, so that a caller always has one to parse.

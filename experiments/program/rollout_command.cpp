@@ -122,7 +122,7 @@ Command AddRolloutCommand(CLI::App& program) {
   CommandOptions command(program, "rollout",
                          "Simulates a plan on a perturbed robot and ground, and says who falls.");
   auto options = std::make_shared<RolloutOptions>();
-  command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
+  command.AddRequired("PLAN", &options->plan, "plan.json, plan.zip or their folder");
   command.AddOptional("--perturb", &options->perturbations,
                       "One case, such as mass=1.05,slope_deg=1; repeatable (default: a usual set)");
   command.AddOptional("--robot", &options->robot, "Robot YAML (default: the scenario's)");

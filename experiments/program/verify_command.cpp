@@ -41,7 +41,7 @@ ExitCode RunVerify(const VerifyOptions& options) {
 Command AddVerifyCommand(CLI::App& program) {
   CommandOptions command(program, "verify", "Checks a plan from first principles.");
   auto options = std::make_shared<VerifyOptions>();
-  command.AddRequired("PLAN", &options->plan, "plan.json or its folder");
+  command.AddRequired("PLAN", &options->plan, "plan.json, plan.zip or their folder");
   command.AddOptional("--robot", &options->robot, "Robot YAML (default: the scenario's)");
   command.AddOptional("--scenario", &options->scenario, "Scenario YAML (default: the plan's)");
   command.AddFlag("--json", &options->json, "Print one JSON object");

@@ -87,10 +87,10 @@ bool IsPlan(const std::string& file) {
   if (fs::is_directory(file, ignored)) return true;
   const std::string format = FormatOf(file);
   if (format == kJumpFormat) return false;
-  if (format == actions::kPlanFormat) return true;
+  if (format == actions::kPlanFormat || format == actions::kPackedPlanFormat) return true;
   throw InputError(
-      fmt::format("{}: neither a plan nor a jump, expected \"format\": \"{}\" or \"{}\"", file,
-                  actions::kPlanFormat, kJumpFormat));
+      fmt::format("{}: neither a plan nor a jump, expected \"format\": \"{}\", \"{}\" or \"{}\"",
+                  file, actions::kPlanFormat, actions::kPackedPlanFormat, kJumpFormat));
 }
 
 Page MakePage(const ViewOptions& options) {
@@ -153,8 +153,9 @@ Command AddViewCommand(CLI::App& program) {
   CommandOptions command(program, "view",
                          "Writes a page that plays a plan, two plans or a jump in a browser.");
   auto options = std::make_shared<ViewOptions>();
-  command.AddRequired("FILE", &options->files,
-                      "plan.json or its folder, or two of them; or a jump of a library");
+  command.AddRequired(
+      "FILE", &options->files,
+      "plan.json, plan.zip or their folder, or two of them; or a jump of a library");
   command.AddOptional("--robot", &options->robot,
                       "Robot YAML of a jump (default: the one beside its folder jumps)");
   command.AddOptional("--out", &options->out,

@@ -1,5 +1,7 @@
 #include "experiments/viewer/viewer_input.h"
 
+#include "actions/plan/plan.h"
+#include "models/archive/zip_file.h"
 #include "models/input/file_contents.h"
 #include "models/input/json_text.h"
 
@@ -53,6 +55,7 @@ class FormatFinder : public nlohmann::json_sax<nlohmann::json> {
 
 std::string FormatOf(const std::filesystem::path& file) {
   const std::string text = models::ReadFileContents(file);
+  if (models::IsZip(text)) return actions::kPackedPlanFormat;
   FormatFinder finder;
   nlohmann::json::sax_parse(text, &finder);
   return finder.format();

@@ -220,12 +220,13 @@ class Plan(_Stretch):
         return self._data.is_current
 
     def save(self, path: PathLike) -> Path:
-        """Writes plan.json into the folder, or to a file whose name ends in .json.
+        """Writes plan.json into the folder, or to a file whose name ends in .json, or in .zip for
+        format 2: a tenth as large, and exact between knots (docs/file_formats.md).
 
         A scenario that was built in code is written beside it, as scenario.yaml.
         """
         file = Path(path)
-        if file.suffix != ".json":
+        if file.suffix not in (".json", ".zip"):
             file = file / "plan.json"
         file.parent.mkdir(parents=True, exist_ok=True)
         scenario_file = ""
@@ -274,5 +275,5 @@ class Plan(_Stretch):
 
 
 def load_plan(path: PathLike) -> Plan:
-    """Reads DIR/plan.json or a plan file, with the robot and the scenario that it names."""
+    """Reads a plan file of either format or that of a folder, with the robot and the scenario that it names."""
     return Plan(_ext.load_plan(os.fspath(path)))

@@ -12,6 +12,7 @@
 #include "actions/gait/pace_library.h"
 #include "actions/jump/jump_library.h"
 #include "actions/motion/motion_folder.h"
+#include "actions/plan/packed_writer.h"
 #include "actions/plan/plan_reader.h"
 #include "actions/plan/plan_writer.h"
 #include "actions/planner/planner.h"
@@ -22,10 +23,12 @@
 #include "experiments/exports/csv_export.h"
 #include "experiments/exports/csv_tables.h"
 #include "experiments/exports/npz_export.h"
+#include "experiments/exports/plan_export.h"
 #include "experiments/imports/imported_plan.h"
 #include "experiments/imports/trajectory_reader.h"
 #include "experiments/viewer/jump_page.h"
 #include "experiments/viewer/viewer_page.h"
+#include "models/archive/zip_file.h"
 #include "models/input/file_contents.h"
 #include "models/mesh/height_map.h"
 #include "models/mesh/mesh_reader.h"
@@ -273,24 +276,82 @@ Subject UrdfSubject(const fs::path& folder) {
           }};
 }
 
+namespace {
+
+/// As all commands use a plan file.
+void UsePlan(const fs::path& file) {
+  const experiments::LoadedPlan loaded = experiments::LoadPlan(file);
+  actions::VerifierSettings settings;
+  settings.simulates = false;
+  actions::Verify(loaded.plan, loaded.robot, loaded.scenario, settings);
+  experiments::RequireFit(loaded);
+  experiments::ViewerPage(loaded.plan, loaded.robot, loaded.scenario);
+  const experiments::TrajectoryTable trajectory(loaded.plan, loaded.robot);
+  experiments::ContactForceTable forces(loaded.plan, loaded.robot);
+  experiments::VisitKnots(loaded.plan, [&](const experiments::PlanSample& sample) {
+    trajectory.Rows(sample);
+    forces.Rows(sample);
+  });
+  const experiments::ExportSubject subject{loaded.plan, loaded.robot, loaded.scenario};
+  for (const char* name : {"again.json", "again.zip"}) {
+    experiments::WritePlanFile(subject, {}, file.parent_path() / name);
+  }
+}
+
+/// What of a packed plan is spoilt: its document, a block of its motion (both under a CRC that is
+/// right again), or the archive.
+constexpr std::array<const char*, 3> kPackedParts = {"plan.json", "motion/0", ""};
+
+/// The members of packed plans that contain everything a plan can hold.
+std::vector<std::map<std::string, std::string>> PackedPlans(const fs::path& folder) {
+  std::vector<std::map<std::string, std::string>> plans;
+  const fs::path file = folder / "whole_plan.zip";
+  for (const std::string& text : PlanTexts(folder)) {
+    actions::WritePackedPlan(actions::ParsePlan(text, folder / "whole_plan.json"), file);
+    plans.push_back(models::ReadZip(models::ReadFileContents(file), file));
+    plans.back().emplace("motion/0", "");  // that of a "no"
+  }
+  return plans;
+}
+
+std::string ZipOf(const std::map<std::string, std::string>& members, const fs::path& file) {
+  models::ZipWriter archive(file);
+  for (const auto& [name, content] : members) archive.Add(name, content);
+  archive.Commit();
+  return models::ReadFileContents(file);
+}
+
+}  // namespace
+
 Subject PlanSubject(const fs::path& folder) {
   return {"plan", ".json", Syntax::kJson,
           [texts = PlanTexts(folder)](std::uint64_t seed) { return texts[seed % texts.size()]; },
           [folder](std::uint64_t, const std::string& text) {
-            const fs::path file = Write(folder / "plan.json", text);
-            const experiments::LoadedPlan loaded = experiments::LoadPlan(file);
-            actions::VerifierSettings settings;
-            settings.simulates = false;
-            actions::Verify(loaded.plan, loaded.robot, loaded.scenario, settings);
-            experiments::RequireFit(loaded);
-            experiments::ViewerPage(loaded.plan, loaded.robot, loaded.scenario);
-            const experiments::TrajectoryTable trajectory(loaded.plan, loaded.robot);
-            experiments::ContactForceTable forces(loaded.plan, loaded.robot);
-            experiments::VisitKnots(loaded.plan, [&](const experiments::PlanSample& sample) {
-              trajectory.Rows(sample);
-              forces.Rows(sample);
-            });
-            actions::WritePlan(loaded.plan, folder / "again.json");
+            UsePlan(Write(folder / "plan.json", text));
+          }};
+}
+
+Subject PackedPlanSubject(const fs::path& folder) {
+  const auto plans = PackedPlans(folder);
+  const auto plan_of = [plans](std::uint64_t seed) {
+    return plans[seed / kPackedParts.size() % plans.size()];
+  };
+  const auto part_of = [](std::uint64_t seed) -> std::string {
+    return kPackedParts[seed % kPackedParts.size()];
+  };
+  return {"packed_plan", ".zip", Syntax::kJson,
+          [=](std::uint64_t seed) {
+            const auto members = plan_of(seed);
+            const std::string part = part_of(seed);
+            return part.empty() ? ZipOf(members, folder / "whole.zip") : members.at(part);
+          },
+          [=](std::uint64_t seed, const std::string& text) {
+            const std::string part = part_of(seed);
+            if (part.empty()) return UsePlan(Write(folder / "plan.zip", text));
+            auto members = plan_of(seed);
+            members[part] = text;
+            ZipOf(members, folder / "plan.zip");
+            UsePlan(folder / "plan.zip");
           }};
 }
 

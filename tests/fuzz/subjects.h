@@ -15,6 +15,8 @@ Subject HeightMapSubject(const std::filesystem::path& folder);
 Subject RobotSubject(const std::filesystem::path& folder);
 Subject UrdfSubject(const std::filesystem::path& folder);
 Subject PlanSubject(const std::filesystem::path& folder);
+/// Plans of format 2: their documents, their motion, or the whole archive.
+Subject PackedPlanSubject(const std::filesystem::path& folder);
 /// Motions to import, as tables and as arrays.
 Subject TrajectorySubject(const std::filesystem::path& folder);
 Subject SolutionSubject(const std::filesystem::path& folder);

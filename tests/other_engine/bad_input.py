@@ -4,7 +4,7 @@ import copy
 import os
 
 import plan_cases
-from plan_cases import Spoilt, check
+from plan_cases import Spoilt, check, make_packed_plan
 
 
 class BadInput(Spoilt):
@@ -27,6 +27,16 @@ class BadInput(Spoilt):
         with open(broken, "wb") as stream:
             stream.write(b"\xff\xfe\xfd")
         self.refuses_input(broken, "not UTF-8")
+
+    def test_packed_files(self):
+        with open(make_packed_plan("three_routes_b"), "rb") as stream:
+            whole = stream.read()
+        spoilt = os.path.join(plan_cases.FOLDER, "spoilt.zip")
+        for change in (whole[:100], whole[:-100], whole[:200] + b"x" + whole[201:],
+                       whole.replace(b"motion/0", b"motion/9"), whole.replace(b"plan.json", b"plan.text")):
+            with open(spoilt, "wb") as stream:
+                stream.write(change)
+            self.refuses_input(spoilt, "spoilt.zip", "possibility-plan/2")
 
     def test_options(self):
         for options in ((), ("--rate", "-1"), ("--rate", "nan"), ("--rate",), ("--no-such",)):

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Another engine's opinion of a plan: DART looks at plan.json.
+"""Another engine's opinion of a plan: DART looks at plan.json or plan.zip.
 
     check_plan.py PLAN [--rate HZ] [--json]
 
-PLAN is a plan.json or the folder of one. Shares no code with the project: it reads plan.json and
+PLAN is a plan.json, a plan.zip or the folder of one. Shares no code with the project: it reads plan.json and
 the two YAML files itself, DART parses the URDF, and kinematics, inverse dynamics, mass matrix,
 Jacobians and forward dynamics are DART's. Needs Debian's python3-dartpy, python3-numpy and
 python3-yaml.
@@ -21,6 +21,7 @@ standard error says what and where.
 
     check_plan.py      the program
     input_files.py     what it reads
+    packed_plan.py     plan.zip
     motion.py          what a plan means between knots
     dart_robot.py      DART
     sample_checks.py   what is checked at every instant
@@ -60,7 +61,7 @@ class _OneLineParser(argparse.ArgumentParser):
 
 def _arguments(words):
     parser = _OneLineParser(prog="check_plan.py", description="Checks a plan with DART.")
-    parser.add_argument("plan", help="a plan.json, or the folder of one")
+    parser.add_argument("plan", help="a plan.json or plan.zip, or the folder of one")
     parser.add_argument("--rate", type=_rate, default=0.0, metavar="HZ",
                         help="samples a second between knots (0 to 1e5; default 0: knots alone)")
     parser.add_argument("--json", action="store_true", help="one JSON object instead of a table")

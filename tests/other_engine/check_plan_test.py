@@ -12,8 +12,8 @@ import unittest
 
 import plan_cases
 from bad_input import BadInput
-from plan_cases import CheckCase, make_plan
-from spoilt_plans import SpoiltJump, SpoiltStride
+from plan_cases import CheckCase, make_packed_plan, make_plan
+from spoilt_plans import SpoiltJump, SpoiltPackedJump, SpoiltPackedStride, SpoiltStride
 
 
 class Agrees(CheckCase):
@@ -35,6 +35,13 @@ class Agrees(CheckCase):
             self.assertLess(flight["angle"], 3)
 
 
+    def test_format_2_between_knots(self):
+        for scenario in ("three_routes_b", "hallway"):
+            report = self.accepts(make_packed_plan(scenario), "--rate", "500")
+            limits = {entry["check"]: entry["limit"] for entry in report["checks"]}
+            self.assertEqual(limits["root force left over between"], 1e-6)
+
+
 class AgreesLong(CheckCase):
     """Every scenario that has a route over boxes, at the verifier's 5 ms."""
 
@@ -44,6 +51,7 @@ class AgreesLong(CheckCase):
                          "beam", "everything"):
             with self.subTest(scenario):
                 report = self.accepts(make_plan(scenario), "--rate", "200")
+                self.accepts(make_packed_plan(scenario), "--rate", "200")
                 with open(os.path.join(make_plan(scenario), "plan.json"), encoding="utf-8") as file:
                     jumps = [s for s in json.load(file)["segments"]
                              if s["action"] in ("jump", "leap")]
@@ -57,7 +65,8 @@ def main():
     plan_cases.FOLDER = folder = os.path.abspath(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    cases = [AgreesLong] if sys.argv[3] == "long" else [Agrees, SpoiltStride, SpoiltJump, BadInput]
+    cases = [AgreesLong] if sys.argv[3] == "long" else [
+        Agrees, SpoiltStride, SpoiltJump, SpoiltPackedStride, SpoiltPackedJump, BadInput]
     suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromTestCase(case)
                                for case in cases)
     passed = unittest.TextTestRunner().run(suite).wasSuccessful()

@@ -1,11 +1,14 @@
-"""What the check reads: plan.json, the robot's YAML and the scenario's (docs/file_formats.md)."""
+"""What the check reads: plan.json or plan.zip, the robot's YAML and the scenario's (docs/file_formats.md)."""
 
 import json
 import os
 import re
+import zipfile
+import zlib
 from dataclasses import dataclass
 
 import numpy as np
+import packed_plan
 import yaml
 
 
@@ -70,6 +73,7 @@ class Plan:
     robot: Robot
     ground: Ground
     phases: list
+    version: int  # of the format
 
 
 def _text_of(file):
@@ -253,19 +257,40 @@ def _object(pairs):
     return node
 
 
+def _packed_document(file):
+    try:
+        return packed_plan.load(file)
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError, OverflowError,
+            RecursionError, RuntimeError, zipfile.BadZipFile, zlib.error, OSError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(f"{file}: spoilt, expected a possibility-plan/2: {reason}") from None
+
+
+def _plain_document(file):
+    try:
+        return json.loads(_text_of(file), parse_constant=_refuse_constant,
+                          object_pairs_hook=_object)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{file}: not proper JSON: {error}") from None
+
+
+def _document_of(file):
+    """(file, document, version) of a plan file or the folder of one."""
+    if os.path.isdir(file):
+        plain, packed = os.path.join(file, "plan.json"), os.path.join(file, "plan.zip")
+        file = packed if os.path.exists(packed) and not os.path.exists(plain) else plain
+    version = 2 if os.path.isfile(file) and packed_plan.is_packed(file) else 1
+    node = _packed_document(file) if version == 2 else _plain_document(file)
+    if not isinstance(node, dict) or node.get("format") != f"possibility-plan/{version}":
+        raise InputError(f"{file}: format: expected \"possibility-plan/{version}\"")
+    return file, node, version
+
+
 def read_plan(file):
     """The plan with its robot and its ground.
 
     Raises InputError for whatever cannot be read or does not fit together."""
-    if os.path.isdir(file):
-        file = os.path.join(file, "plan.json")
-    try:
-        node = json.loads(_text_of(file), parse_constant=_refuse_constant,
-                          object_pairs_hook=_object)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{file}: not proper JSON: {error}") from None
-    if not isinstance(node, dict) or node.get("format") != "possibility-plan/1":
-        raise InputError(f"{file}: format: expected \"possibility-plan/1\"")
+    file, node, version = _document_of(file)
 
     def beside(key):
         named = _get(_get(node, key, dict, file), "file", str, f"{file}: {key}")
@@ -282,4 +307,4 @@ def read_plan(file):
                                       file))
     if not phases:
         raise InputError(f"{file}: there is no motion in this plan")
-    return Plan(joints, robot, _read_ground(beside("scenario"), robot.friction), phases)
+    return Plan(joints, robot, _read_ground(beside("scenario"), robot.friction), phases, version)

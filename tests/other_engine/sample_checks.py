@@ -4,7 +4,7 @@ import numpy as np
 from motion import Interval, State, cross, knot_state
 
 KNOT_ROUNDING = 1e-6  # of the weight: plan.json has 12 digits
-BETWEEN_KNOTS = 1e-3  # of the weight: what interpolation leaves
+BETWEEN_KNOTS = {1: 1e-3, 2: 1e-6}  # of the weight, by format: what interpolation leaves
 POINT_DISTANCE = 1e-3  # m, compression of a sole
 EDGE = 1e-6  # m
 POINT_SPEED = 2e-3  # m/s
@@ -21,8 +21,8 @@ class SampleChecks:
                 ("root force left over at knots", "weight", KNOT_ROUNDING),
                 ("root torque left over at knots", "weight m", KNOT_ROUNDING),
                 ("joint torque against the plan's", "N m", KNOT_ROUNDING * weight),
-                ("root force left over between", "weight", BETWEEN_KNOTS),
-                ("root torque left over between", "weight m", BETWEEN_KNOTS),
+                ("root force left over between", "weight", BETWEEN_KNOTS[plan.version]),
+                ("root torque left over between", "weight m", BETWEEN_KNOTS[plan.version]),
                 ("root force if forces were linear", "weight", None),
                 ("correction of a force between", "N", None),
                 ("joint torque / limit", "1", 1 + 1e-6),

@@ -4,7 +4,7 @@ import copy
 import os
 
 import plan_cases
-from plan_cases import Spoilt, run_script
+from plan_cases import Packed, Spoilt, run_script
 
 
 class SpoiltStride(Spoilt):
@@ -201,4 +201,22 @@ class SpoiltJump(Spoilt):
 
     def test_force_in_flight(self):
         self.flight["forces"][0] = [0, 0, 1]
+        self.refuses_input(self.write(self.plan), "segment 0, phase ", "forces")
+
+
+class SpoiltPackedStride(Packed, SpoiltStride):
+    pass
+
+
+class SpoiltPackedJump(Packed, SpoiltJump):
+    def test_flight_position_between_knots(self):
+        """A thousandth of a millimetre."""
+        self.flight["q"][self.middle][4] += 1e-6
+        file = self.write(self.plan)
+        self.accepts(file)
+        self.refuses_at_least(file, "root force left over between", options=("--rate", "5000"))
+
+    def test_force_in_flight(self):
+        for forces in self.flight["forces"]:
+            forces.extend([0, 0, 1])
         self.refuses_input(self.write(self.plan), "segment 0, phase ", "forces")

@@ -90,6 +90,17 @@ def test_saving_twice_gives_the_same_bytes(plan, tmp_path):
     assert first == plan.save(tmp_path / "a/again.json").read_bytes()
 
 
+def test_format_2_is_small_and_read_like_format_1(plan, tmp_path):
+    plain, packed = plan.save(tmp_path / "plan.json"), plan.save(tmp_path / "packed/plan.zip")
+    assert packed.stat().st_size < plain.stat().st_size / 5
+    loaded = possibility.load_plan(packed.parent)
+    assert [segment.action for segment in loaded.segments] == [
+        segment.action for segment in plan.segments]
+    assert np.abs(loaded.q[:, 4:] - plan.q[:, 4:]).max() < 1e-9
+    assert np.abs(loaded.tau - plan.tau).max() < 1
+    assert packed.read_bytes() == loaded.save(tmp_path / "packed/again.zip").read_bytes()
+
+
 def test_a_truncated_plan_is_refused_in_one_line(plan, tmp_path):
     file = plan.save(tmp_path)
     file.write_text(file.read_text()[:1000])

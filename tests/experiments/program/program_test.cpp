@@ -91,6 +91,43 @@ TEST_F(Program, ANoWritesAPlanFileAndAPageWithTheReason) {
   EXPECT_EQ(Run("export out --csv tables").code, 1);
 }
 
+TEST_F(Program, AFolderKeepsThePlanOfTheLatestRunOnly) {
+  const std::string room = POSSIBILITY_SOURCE_DIR "/experiments/scenarios/closed_room.yaml";
+  fs::create_directories(folder_ / "out");
+  std::ofstream(folder_ / "out" / "plan.json") << "an older plan";
+  const Outcome packed = Run("plan '" + room + "' --out out --format 2 --json");
+  EXPECT_EQ(packed.code, 2) << packed.err;
+  EXPECT_EQ(nlohmann::json::parse(packed.out)["plan"], "out/plan.zip");
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "plan.zip"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "plan.json"));
+  EXPECT_EQ(Run("view out --out again.html").code, 0);
+  EXPECT_EQ(Run("plan '" + room + "' --out out").code, 2);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "plan.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "plan.zip"));
+}
+
+TEST_F(Program, PlansOfFormat2AreReadLikeThoseOfFormat1) {
+  WriteStandingPlan();
+  ASSERT_EQ(Run("export plan.json --plan small.zip").code, 0);
+  EXPECT_LT(fs::file_size(folder_ / "small.zip"), fs::file_size(folder_ / "plan.json"));
+  // It stands without torques in plan.json; in small.zip it has them.
+  EXPECT_EQ(Run("verify plan.json").code, 3);
+  const Outcome verified = Run("verify small.zip --json");
+  EXPECT_EQ(verified.out.find("\"dynamics\""), std::string::npos) << verified.out;
+  EXPECT_EQ(Run("view small.zip").code, 0);
+  EXPECT_NE(ReadText(folder_ / "small.html").find("three_routes_b"), std::string::npos);
+  EXPECT_EQ(Run("export small.zip --csv tables --plan back.json").code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "tables" / "trajectory.csv"));
+  EXPECT_EQ(Run("export back.json --plan again.zip").code, 0);
+  EXPECT_EQ(Run("verify back.json --json").code, verified.code);
+
+  const std::string bytes = ReadText(folder_ / "small.zip");
+  std::ofstream(folder_ / "cut.zip", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  for (const char* command : {"verify cut.zip", "view cut.zip", "export cut.zip --csv tables"}) {
+    EXPECT_NE(ExpectRefused(command).find("cut.zip"), std::string::npos);
+  }
+}
+
 TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
   const std::string scenario = scenario_file_.string();
   std::ofstream(folder_ / "broken.yaml") << "name: [unclosed\n";
@@ -116,6 +153,7 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "plan " + scenario + " --actions walk,,crawl",
       "plan " + scenario + " --actions fly --out out",
       "plan " + scenario + " --actions walk,crawl,jump --out out",
+      "plan " + scenario + " --format 3 --out out",
       "plan " + scenario + " --out file",
       "plan " + scenario + " --out file/below",
       "verify",
@@ -136,6 +174,8 @@ TEST_F(Program, BadUsageAndInputGiveOneLineAndExitCode1) {
       "export plan.json --csv tables --step 0",
       "export plan.json --npz arrays.npz --period -1",
       "export plan.json --npz none/arrays.npz",
+      "export plan.json --plan plan.txt",
+      "export plan.json --plan none/plan.zip",
       "regress --problem no_such_problem --robot '" POSSIBILITY_SOURCE_DIR
       "/models/drchubo1/drchubo1.yaml'",
       "regress --robot no_such_robot.yaml",
@@ -192,7 +232,8 @@ TEST_F(Program, VersionNamesProgramAndPlanFormat) {
   const Outcome outcome = Run("--version");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(outcome.out, "possibility " POSSIBILITY_VERSION "\nplan format possibility-plan/1\n");
+  EXPECT_EQ(outcome.out, "possibility " POSSIBILITY_VERSION
+                         "\nplan format possibility-plan/1, possibility-plan/2\n");
 }
 
 TEST_F(Program, JsonErrorsAreOneObject) {
