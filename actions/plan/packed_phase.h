@@ -48,13 +48,14 @@ struct PackedPhase {
   std::array<std::vector<std::int64_t>, kNumPackedQuantities> numbers;
 };
 
-/// `before`: the last knot of the phase before, as Unpack gives it; null: none.
+/// `before`: the phase before, of which the last two knots are needed, as Unpack gives them; null:
+/// none. A phase that begins where it ends needs no start.
 /// @throws std::invalid_argument if a number is not finite or too large, sizes differ, there are
 /// fewer than two knots, or times do not increase.
 PackedPhase Pack(const Phase& phase, int force_bits, const Phase* before);
 
-/// The knots. `numbers` as CountOf says; `before` as of Pack, needed without a start.
-/// Values may be infinite, times may not increase: the caller checks.
+/// The knots. `numbers` as CountOf says. `before`: the last knot of the phase before, needed
+/// without a start. Values may be infinite, times may not increase: the caller checks.
 std::vector<Knot> Unpack(const PackedPhase& packed, const Knot* before);
 
 /// Rounds a phase to what a file of version 2 holds: the phase that Pack and Unpack give.
