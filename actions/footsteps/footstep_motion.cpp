@@ -272,7 +272,8 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
 /// At the origin, and carried back: far from it, rounding exceeds the tolerance of inverse
 /// kinematics.
 std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vector<Footstep>& steps,
-                                         const CancellationToken& cancellation) const {
+                                         const CancellationToken& cancellation, int* style) const {
+  int first = style ? *style : 0;
   const Eigen::Vector3d origin(start.stance.x, start.stance.y, start.z);
   const auto moved = [&origin](Foothold place) {
     place.stance.x -= origin.x();
@@ -286,29 +287,35 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
     step.from = moved(step.from);
     step.to = moved(step.to);
   }
-  std::vector<Phase> motion = BuildAtOrigin(moved(start), near, cancellation);
+  std::vector<Phase> motion = BuildAtOrigin(moved(start), near, cancellation, &first);
+  if (style) *style = first;
   for (Phase& phase : motion) {
     for (Knot& knot : phase.knots) knot.q.segment<3>(4) += origin;
   }
   return motion;
 }
 
+std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
+  const double tall = kTall * stance_->gait->posture.root_height;
+  const double spared = kLeastLoad / 4;
+  return {{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, false},
+          {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, false},
+          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, kZmpAhead, 1},
+          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin}};
+}
+
 std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  const std::vector<Footstep>& steps,
-                                                 const CancellationToken& cancellation) const {
-  const double tall = kTall * stance_->gait->posture.root_height;
-  const Style lean_and_ahead{tall,           -0.15,     0.14, 0.99, kLeastSelfDistance,
-                             kLeastLoad / 4, kZmpAhead, 1};
-  const Style lean_and_astride{tall,           -0.15, 0.14,        0.99, kLeastSelfDistance,
-                               kLeastLoad / 4, 0,     kLeastMargin};
+                                                 const CancellationToken& cancellation,
+                                                 int* first) const {
+  const std::vector<Style> styles = Styles();
   FootstepError fault("no steps", -1);
-  for (const Style& style :
-       {Style{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, false},
-        Style{tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, false},
-        lean_and_ahead, lean_and_astride}) {
-    if (!MayHelp(style, fault.limit())) continue;
+  for (int i = *first; i < static_cast<int>(styles.size()); ++i) {
+    if (!MayHelp(styles[i], fault.limit())) continue;
     try {
-      return BuildIn(style, start, steps, cancellation);
+      std::vector<Phase> motion = BuildIn(styles[i], start, steps, cancellation);
+      *first = i;
+      return motion;
     } catch (const FootstepError& error) {
       if (fault.step() < 0 || error.step() >= 0) fault = error;
     }

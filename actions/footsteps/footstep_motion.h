@@ -45,8 +45,10 @@ class FootstepMotion {
   /// From the nominal stance at `start`, in which the first steps begin, to that in which the last
   /// ones end; times from 0.
   /// @throws FootstepError naming the limit that the robot would exceed; Cancelled.
+  /// `style`: number of the first style to try, 0 at first; becomes that of the result. So steps
+  /// of which only lifts have changed need not fail in the others again. May be null.
   std::vector<Phase> Build(const Foothold& start, const std::vector<Footstep>& steps,
-                           const CancellationToken& cancellation = {}) const;
+                           const CancellationToken& cancellation = {}, int* style = nullptr) const;
 
   /// Of the motion, if no step has to be slower, s.
   static double ExpectedDuration(const std::vector<Footstep>& steps);
@@ -70,7 +72,8 @@ class FootstepMotion {
   };
 
   std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,
-                                   const CancellationToken& cancellation) const;
+                                   const CancellationToken& cancellation, int* first) const;
+  std::vector<Style> Styles() const;
   /// Whether a slower motion may keep a limit that one in this style exceeds.
   static bool SpeedMatters(const Style& style, MotionError::Limit limit);
   /// Whether a style may keep a limit that another one exceeded.

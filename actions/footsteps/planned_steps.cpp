@@ -12,9 +12,9 @@ namespace possibility::actions {
 namespace {
 
 // Effort of one job.
-constexpr int kAttempts = 24;           // sequences of steps
-constexpr std::int64_t kStates = 4000;  // expanded in each search; doubled where they do not do
-constexpr std::int64_t kMostStates = 16000;
+constexpr int kAttempts = 24;                      // sequences of steps
+constexpr std::int64_t kStates = 16000;            // expanded in each search at most
+constexpr std::int64_t kStatesFartherAway = 4000;  // and in one of steps farther from obstacles
 constexpr std::int64_t kStatesPerQuestion = 50;
 
 // Where the robot hits something, the swing is raised, and then the trunk kept away; m.
@@ -46,6 +46,15 @@ Foothold OtherAt(const GroundedStance& start, const std::vector<Footstep>& steps
   return {start.pose, start.z};
 }
 
+bool AreSame(const std::vector<Footstep>& some, const std::vector<Footstep>& others) {
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](const Footstep& a, const Footstep& b) {
+                      return a.limb == b.limb && a.to.z == b.to.z &&
+                             a.to.stance.position() == b.to.stance.position() &&
+                             a.to.stance.yaw == b.to.stance.yaw;
+                    });
+}
+
 }  // namespace
 
 PlannedSteps::PlannedSteps(const PlanningContext& context, int gait)
@@ -73,8 +82,8 @@ double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
 std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
                                             const CancellationToken& cancellation) const {
   const models::RobotModel& robot = *model().robot;
-  for (int raises = 0;;) {
-    std::vector<Phase> motion = motion_.Build({from.pose, from.z}, steps, cancellation);
+  for (int raises = 0, style = 0;;) {
+    std::vector<Phase> motion = motion_.Build({from.pose, from.z}, steps, cancellation, &style);
     const std::string self = FirstSelfHit(robot, *checker(), motion, cancellation);
     cancellation.ThrowIfCancelled();
     if (!self.empty()) throw FootstepError(self, -1);
@@ -124,25 +133,35 @@ std::vector<Footstep> PlannedSteps::SuggestedFor(const EdgeKey& key) const {
 
 std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const GroundedStance& to,
                                            const FootstepLimits& limits,
-                                           const StepRefusals& refusals,
+                                           const StepRefusals& refusals, std::int64_t states,
                                            const CancellationToken& cancellation) const {
   FootstepSearch search(model(), this->from(), world(), FootstepEnds{{from}, {to}, {}, {}}, limits,
                         known_ground(), cancellation);
-  search.most_states = kStates;
+  search.most_states = states;
   search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
     return refusals.Refuses(step, other);
   };
   FootstepSearch::Status status = FootstepSearch::Status::kSearching;
   while (status == FootstepSearch::Status::kSearching) {
     status = search.Advance(kStatesPerQuestion, cancellation);
-    const bool is_cut_short =
-        status == FootstepSearch::Status::kExhausted && search.states() >= search.most_states;
-    if (is_cut_short && search.most_states < kMostStates) {
-      search.most_states *= 2;
-      status = FootstepSearch::Status::kSearching;
-    }
   }
   return status == FootstepSearch::Status::kFound ? search.steps() : std::vector<Footstep>();
+}
+
+/// The trunk is not always what hits: without other steps there is nothing to build anew.
+std::vector<Footstep> PlannedSteps::StepsFartherAway(const GroundedStance& from,
+                                                     const GroundedStance& to,
+                                                     const std::vector<Footstep>& steps,
+                                                     const StepRefusals& refusals,
+                                                     FootstepLimits* limits,
+                                                     const CancellationToken& cancellation) const {
+  while (limits->trunk_margin < kFarthestAway) {
+    limits->trunk_margin += kAway;
+    std::vector<Footstep> others =
+        Search(from, to, *limits, refusals, kStatesFartherAway, cancellation);
+    if (!AreSame(others, steps)) return others;
+  }
+  return {};
 }
 
 PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const GroundedStance& to,
@@ -155,8 +174,8 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
   const double upright = stance().gait->posture.root_height;
   int taller = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (attempt > 0 || steps.empty()) {
-      steps = Search(from, to, limits, refusals, cancellation);
+    if (steps.empty()) {
+      steps = Search(from, to, limits, refusals, kStates, cancellation);
       if (steps.empty()) {
         if (limits.lowest_root == limits_.lowest_root) return outcome;
         limits.lowest_root = limits_.lowest_root;
@@ -171,9 +190,13 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
     } catch (const FootstepError& error) {
       outcome.fault = error.what();
       if (error.step() < 0) return outcome;
-      if (error.is_hit() && limits.trunk_margin < kFarthestAway) {
-        limits.trunk_margin += kAway;
-        continue;
+      if (error.is_hit()) {
+        std::vector<Footstep> away =
+            StepsFartherAway(from, to, steps, refusals, &limits, cancellation);
+        if (!away.empty()) {
+          steps = std::move(away);
+          continue;
+        }
       }
       const Footstep& step = steps[error.step()];
       const Foothold other = OtherAt(from, steps, error.step());
@@ -193,6 +216,7 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
         ++taller;
         limits.lowest_root = std::max(limits.lowest_root, std::min(root + kTaller, upright));
       }
+      steps.clear();
     }
   }
   return outcome;

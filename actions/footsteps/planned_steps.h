@@ -82,7 +82,12 @@ class PlannedSteps final : public Manoeuvre {
   /// Empty if none are found.
   std::vector<Footstep> Search(const GroundedStance& from, const GroundedStance& to,
                                const FootstepLimits& limits, const StepRefusals& refusals,
-                               const CancellationToken& cancellation) const;
+                               std::int64_t states, const CancellationToken& cancellation) const;
+  /// Other steps, with the trunk farther from obstacles. Empty if there are none.
+  std::vector<Footstep> StepsFartherAway(const GroundedStance& from, const GroundedStance& to,
+                                         const std::vector<Footstep>& steps,
+                                         const StepRefusals& refusals, FootstepLimits* limits,
+                                         const CancellationToken& cancellation) const;
 
   FootstepLimits limits_;
   StepReach reach_;

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "actions/plan/interpolation.h"
 #include "actions/wholebody/force_fault.h"
 #include "actions/wholebody/motion_error.h"
 
@@ -82,16 +83,37 @@ std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotMode
   return dynamics::MultibodyModel::Spatial(robot);
 }
 
+/// Between two knots the motion is looked at in so many places, as closely as by the verifier.
+constexpr int kPlacesBetween = 4;
+
+void RequireRange(const models::Joint& joint, double position, double t) {
+  if (position >= joint.lower && position <= joint.upper) return;
+  throw MotionError(fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s",
+                                joint.name, position, joint.lower, joint.upper, t),
+                    -1, MotionError::Limit::kJointRange);
+}
+
+/// Between two knots, which are within the limits. `t`: s, of the first one in its phase.
+void RequireRangesBetween(const models::RobotModel& robot, const Knot& from, const Knot& to,
+                          double t) {
+  const KnotInterpolant motion(from, to);
+  const KnotInterpolant::Coefficients bounds = motion.ControlPoints();
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const models::Joint& joint = robot.joints[j];
+    const auto row = bounds.row(6 + j);
+    if (row.minCoeff() >= joint.lower && row.maxCoeff() <= joint.upper) continue;
+    for (int i = 1; i < kPlacesBetween; ++i) {
+      const double passed = motion.duration() * i / kPlacesBetween;
+      RequireRange(joint, motion.ConfigurationAt(from.t + passed)[7 + j], t + passed);
+    }
+  }
+}
+
 void RequireJointLimits(const models::RobotModel& robot, const Eigen::VectorXd& q,
                         const Eigen::VectorXd& v, double speed_margin, double t) {
   for (int j = 0; j < robot.num_joints(); ++j) {
     const models::Joint& joint = robot.joints[j];
-    const double position = q[7 + j];
-    if (position < joint.lower || position > joint.upper) {
-      throw MotionError(fmt::format("{} at {:.4f} leaves its limits {:.4f} to {:.4f} at {:.2f} s",
-                                    joint.name, position, joint.lower, joint.upper, t),
-                        -1, MotionError::Limit::kJointRange);
-    }
+    RequireRange(joint, q[7 + j], t);
     const double rate = v[6 + j];
     if (std::abs(rate) > speed_margin * joint.velocity) {
       throw MotionError(fmt::format("{} at {:.3f}/s is faster than {:.3f}/s at {:.2f} s",
@@ -152,11 +174,12 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
     Knot knot;
     try {
       knot = MakeKnot(phase, bearing, phase.duration * share, guess);
+      knot.t += start;
+      if (i > 0) RequireRangesBetween(*robot_, result.knots.back(), knot, (i - 1) * spacing);
     } catch (const MotionError& error) {
       throw MotionError(error.what(), -1, error.limit(), share);
     }
     if (i < intervals) *guess = GuessAfter({knot.q, knot.v, knot.a}, spacing);
-    knot.t += start;
     result.knots.push_back(std::move(knot));
   }
   return result;
