@@ -100,6 +100,9 @@ VectorXd Moved(const VectorXd& q, const VectorXd& change) {
   return moved;
 }
 
+/// Of a unit quaternion's length.
+constexpr double kUnit = 1e-6;
+
 VectorXd ChangeBetween(const VectorXd& q0, const VectorXd& q1) {
   VectorXd change(q0.size() - 1);
   change << models::RotationVector(OrientationIn(q1) * OrientationIn(q0).conjugate()),
@@ -165,6 +168,10 @@ PackedOutline OutlineOf(const Phase& phase, int force_bits, const Phase* before)
   for (const Knot& knot : phase.knots) {
     if (!Fits(knot, outline)) {
       throw std::invalid_argument("the knots of a phase differ in their sizes");
+    }
+    // Integers tell turns, which would not show it. Not finite: refused below.
+    if (std::abs(knot.q.head<4>().norm() - 1) > kUnit) {
+      throw std::invalid_argument("an orientation of a plan is no unit quaternion");
     }
   }
   ChooseSteps(phase, &outline);

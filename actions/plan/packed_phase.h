@@ -51,7 +51,7 @@ struct PackedPhase {
 /// `before`: the phase before, of which the last two knots are needed, as Unpack gives them; null:
 /// none. A phase that begins where it ends needs no start.
 /// @throws std::invalid_argument if a number is not finite or too large, sizes differ, there are
-/// fewer than two knots, or times do not increase.
+/// fewer than two knots, times do not increase, or a quaternion is no unit one.
 PackedPhase Pack(const Phase& phase, int force_bits, const Phase* before);
 
 /// The knots. `numbers` as CountOf says. `before`: the last knot of the phase before, needed
