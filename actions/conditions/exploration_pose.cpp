@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "actions/wholebody/planar_pose.h"
+#include "graph/action/random.h"
 
 namespace possibility::actions {
 namespace {
@@ -65,7 +66,26 @@ PelvisPoseSpace::PelvisPoseSpace(const Eigen::AlignedBox2d& bounds,
       ground_levels_(std::move(ground_levels)),
       rotation_weight_(rotation_weight) {}
 
+void PelvisPoseSpace::Guide(std::vector<graph::Point> samples, double spread) {
+  guides_ = std::move(samples);
+  guide_spread_ = spread;
+}
+
+/// Where the way is narrow, only small deviations help: spreads of all sizes are equally likely.
+graph::Point PelvisPoseSpace::SampleNearGuide(graph::RandomGenerator* generator) const {
+  constexpr int kMostHalvings = 5;
+  const std::size_t i = graph::UniformIndex(guides_.size(), generator);
+  const double spread =
+      std::ldexp(guide_spread_, -static_cast<int>(graph::UniformIndex(kMostHalvings, generator)));
+  Isometry3d sample = ToPose(guides_[i]);
+  sample.translation().x() += graph::UniformReal(-spread, spread, generator);
+  sample.translation().y() += graph::UniformReal(-spread, spread, generator);
+  sample.linear() = Yaw(graph::UniformReal(-spread, spread, generator)) * sample.linear();
+  return ToPoint(sample);
+}
+
 graph::Point PelvisPoseSpace::RandomSample(graph::RandomGenerator* generator) const {
+  if (!guides_.empty() && graph::UniformIndex(2, generator) == 0) return SampleNearGuide(generator);
   const double x = Uniform(generator), y = Uniform(generator), yaw = Uniform(generator);
   const double level = Uniform(generator) * static_cast<double>(ground_levels_.size());
   const Eigen::Vector2d size = bounds_.sizes();

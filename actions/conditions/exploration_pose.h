@@ -29,14 +29,22 @@ class PelvisPoseSpace : public graph::ExplorationSpace {
   PelvisPoseSpace(const Eigen::AlignedBox2d& bounds, std::vector<double> ground_levels,
                   double rotation_weight);
 
+  /// From now on every second sample is near one of these: at most `spread` (m) away in x and in y,
+  /// and a radian for each metre in heading. For searches that know where a way may lead out.
+  void Guide(std::vector<graph::Point> samples, double spread);
+
   /// Upright pose, uniform in x, y and heading, one metre above one of the levels.
   graph::Point RandomSample(graph::RandomGenerator* generator) const override;
   double Distance(const graph::Point& a, const graph::Point& b) const override;
 
  private:
+  graph::Point SampleNearGuide(graph::RandomGenerator* generator) const;
+
   Eigen::AlignedBox2d bounds_;
   std::vector<double> ground_levels_;
   double rotation_weight_;
+  std::vector<graph::Point> guides_;
+  double guide_spread_ = 0;  ///< m
 };
 
 }  // namespace possibility::actions

@@ -30,6 +30,12 @@ class FloodOracle {
   graph::RouteOracleAnswer Ask(const GroundedStance& start,
                                const std::vector<GroundedStance>& goals);
 
+  /// Whether the last answer was a "no".
+  bool has_barrier() const { return flood_ && !flood_->route_may_exist; }
+  /// After kUnknown: the middles of the cells of a way that the finest flood considers open.
+  std::vector<GroundedStance> way() const {
+    return flood_ ? flood_->way : std::vector<GroundedStance>();
+  }
   /// The barrier, after a "no".
   const Barrier& barrier() const { return flood_->barrier; }
 

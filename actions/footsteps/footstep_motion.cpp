@@ -45,6 +45,9 @@ constexpr double kZmpAhead = 0.03;
 /// the gait's margin of the zero moment point.
 constexpr double kLeastMargin = 0.67;
 
+/// A hip that bears holds the trunk up sideways. It is spared by a trunk that rolls over it, rad.
+constexpr double kSway = 0.08;
+
 /// Of every bearing point, as a share of the weight. On steep ground it costs friction: what a
 /// point bears at least has no part in balance.
 constexpr double kLeastLoad = 0.01;
@@ -146,6 +149,7 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slo
   pattern.rise = style.rise;
   pattern.lean = style.lean;
   pattern.zmp_ahead = style.zmp_ahead;
+  pattern.sway = style.sway;
   pattern.rise_time = kStart;
   pattern.height_spacing = style.spacing;
   pattern.grid = grid;
@@ -237,8 +241,9 @@ bool FootstepMotion::SpeedMatters(const Style& style, MotionError::Limit limit) 
          (limit != MotionError::Limit::kJointRange && style.is_patient);
 }
 
-/// What is short of friction needs all that bearing points may hold.
+/// What is short of friction needs all that bearing points may hold. Swaying spares hips.
 bool FootstepMotion::MayHelp(const Style& style, MotionError::Limit limit) {
+  if (style.sway != 0) return limit == MotionError::Limit::kTorque;
   return limit != MotionError::Limit::kFriction ||
          (style.least_load < kLeastLoad && style.zmp_ahead == 0);
 }
@@ -298,10 +303,11 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
 std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
   const double tall = kTall * stance_->gait->posture.root_height;
   const double spared = kLeastLoad / 4;
-  return {{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, false},
-          {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, false},
-          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, kZmpAhead, 1},
-          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin}};
+  return {{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, 0, false},
+          {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, 0, false},
+          {tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, kSway, false},
+          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, kZmpAhead, 1, 0},
+          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin, 0}};
 }
 
 std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,

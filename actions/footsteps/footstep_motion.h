@@ -68,6 +68,7 @@ class FootstepMotion {
     double least_load = 0;     ///< MotionSettings::normal_reserve
     double zmp_ahead = 0;      ///< PatternSettings
     double zmp_margin = 0;     ///< of PatternSettings, as a share of the gait's
+    double sway = 0;           ///< PatternSettings
     bool is_patient = true;    ///< steps that need too much torque or friction are slowed down
   };
 

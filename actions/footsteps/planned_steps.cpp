@@ -72,11 +72,20 @@ bool PlannedSteps::CN(const graph::Edge& edge) const {
 }
 
 double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
-  const std::vector<Footstep> steps = SuggestedFor(KeyOf(edge));
+  const EdgeKey key = KeyOf(edge);
+  if (const std::optional<double> known = DurationOfOutcome(key)) return *known;
+  const std::vector<Footstep> steps = SuggestedFor(key).steps;
   if (!steps.empty()) return FootstepMotion::ExpectedDuration(steps);
   const Eigen::Vector3d way = (edge.to - edge.from).head<3>();
   return kToStartAndStop + kSecondsPerMetre * way.head<2>().norm() +
          kSecondsPerMetreRisen * std::abs(way.z());
+}
+
+std::optional<double> PlannedSteps::DurationOfOutcome(const EdgeKey& key) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = outcomes_.find(key);
+  if (known == outcomes_.end() || known->second.motion.empty()) return std::nullopt;
+  return known->second.motion.back().knots.back().t;
 }
 
 std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
@@ -120,15 +129,16 @@ PlannedSteps::EdgeKey PlannedSteps::KeyOf(const graph::Edge& edge) {
   return key;
 }
 
-void PlannedSteps::Suggest(const graph::Edge& edge, std::vector<Footstep> steps) const {
+void PlannedSteps::Suggest(const graph::Edge& edge, std::vector<Footstep> steps,
+                           double most_duration) const {
   const std::lock_guard lock(mutex_);
-  suggested_.insert_or_assign(KeyOf(edge), std::move(steps));
+  suggested_.insert_or_assign(KeyOf(edge), Suggestion{std::move(steps), most_duration});
 }
 
-std::vector<Footstep> PlannedSteps::SuggestedFor(const EdgeKey& key) const {
+PlannedSteps::Suggestion PlannedSteps::SuggestedFor(const EdgeKey& key) const {
   const std::lock_guard lock(mutex_);
   const auto suggested = suggested_.find(key);
-  return suggested == suggested_.end() ? std::vector<Footstep>() : suggested->second;
+  return suggested == suggested_.end() ? Suggestion() : suggested->second;
 }
 
 std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const GroundedStance& to,
@@ -165,8 +175,9 @@ std::vector<Footstep> PlannedSteps::StepsFartherAway(const GroundedStance& from,
 }
 
 PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const GroundedStance& to,
-                                         std::vector<Footstep> steps,
+                                         Suggestion suggestion,
                                          const CancellationToken& cancellation) const {
+  std::vector<Footstep> steps = std::move(suggestion.steps);
   StepRefusals refusals;
   FootstepLimits limits = limits_;
   Outcome outcome;
@@ -182,6 +193,10 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
         taller = kMostTaller;
         continue;
       }
+    }
+    if (FootstepMotion::ExpectedDuration(steps) > suggestion.most_duration) {
+      outcome.fault += "; other steps take too long";
+      return outcome;
     }
     try {
       outcome.motion = FreeMotion(from, steps, cancellation);

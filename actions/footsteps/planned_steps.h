@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,8 +55,10 @@ class PlannedSteps final : public Manoeuvre {
 
   /// Steps that a search has found from one end of an edge to the other: its job tries them first,
   /// and searches others only if they are beyond the robot. To be called before the edge is
-  /// proposed; once an edge is planned, it stays as it is.
-  void Suggest(const graph::Edge& edge, std::vector<Footstep> steps) const;
+  /// proposed; once an edge is planned, it stays as it is. `most_duration`: slower steps are of no
+  /// use, s.
+  void Suggest(const graph::Edge& edge, std::vector<Footstep> steps,
+               double most_duration = std::numeric_limits<double>::infinity()) const;
 
   const FootstepLimits& limits() const { return limits_; }
   /// Made when it is first asked for.
@@ -63,6 +67,11 @@ class PlannedSteps final : public Manoeuvre {
  private:
   using EdgeKey = std::vector<std::int64_t>;  ///< both ends, rounded
 
+  struct Suggestion {
+    std::vector<Footstep> steps;                                     ///< empty: none are known
+    double most_duration = std::numeric_limits<double>::infinity();  ///< s
+  };
+
   /// What is known of an edge.
   struct Outcome {
     std::vector<Phase> motion;
@@ -70,9 +79,11 @@ class PlannedSteps final : public Manoeuvre {
   };
 
   static EdgeKey KeyOf(const graph::Edge& edge);
-  std::vector<Footstep> SuggestedFor(const EdgeKey& key) const;
-  /// `steps`: to begin with; empty: none are known.
-  Outcome Plan(const GroundedStance& from, const GroundedStance& to, std::vector<Footstep> steps,
+  /// Of the planned motion, s, if there is one.
+  std::optional<double> DurationOfOutcome(const EdgeKey& key) const;
+  Suggestion SuggestedFor(const EdgeKey& key) const;
+  /// Begins with the suggested steps.
+  Outcome Plan(const GroundedStance& from, const GroundedStance& to, Suggestion suggestion,
                const CancellationToken& cancellation) const;
   /// Raises swings that hit something. @throws FootstepError, Cancelled.
   std::vector<Phase> FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
@@ -96,7 +107,7 @@ class PlannedSteps final : public Manoeuvre {
   mutable std::shared_ptr<const StepGround> known_ground_;
   mutable std::mutex mutex_;
   mutable std::map<EdgeKey, Outcome> outcomes_;
-  mutable std::map<EdgeKey, std::vector<Footstep>> suggested_;
+  mutable std::map<EdgeKey, Suggestion> suggested_;
 };
 
 }  // namespace possibility::actions

@@ -78,6 +78,9 @@ class OutOfReach : public MotionError {
   int knot_;
 };
 
+/// Share of a swing in which the root still rolls from the one before, and so at its end.
+constexpr double kRolling = 0.25;
+
 /// What the tasks of an interval need, besides the centre of mass.
 struct Interval {
   double start = 0;  ///< s
@@ -95,6 +98,13 @@ struct Climb {
   double height = 0;  ///< m
 };
 
+/// A change of the root's roll.
+struct Roll {
+  double start = 0;  ///< s
+  double duration = 0;
+  double angle = 0;  ///< rad
+};
+
 /// The pattern of one schedule; shared by the tasks of its phases.
 class Pattern {
  public:
@@ -107,6 +117,7 @@ class Pattern {
     LayOutIntervals();
     LayOutZmp();
     LayOutClimbs();
+    LayOutRolls();
     duration_ = schedule_.duration();
     steps_ = std::max(static_cast<int>(std::ceil(duration_ / settings_.grid)), 2);
     h_ = duration_ / steps_;
@@ -162,6 +173,9 @@ class Pattern {
     task.root_pitch =
         Blend(stance_.gait->posture.root_pitch, stance_.gait->posture.root_pitch + settings_.lean,
               Raised(interval.start + t));
+    if (settings_.sway != 0) {
+      task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, RootRoll(interval.start + t));
+    }
     task.root_height = RootHeight(interval.start + t);
     task.centre_of_mass = CentreOfMass(interval.start + t);
     task.joints = Joints(interval.start + t);
@@ -321,6 +335,44 @@ class Pattern {
       }
       last = k;
     }
+  }
+
+  /// Towards the side of the support, from one swing to the next; none at rest.
+  void LayOutRolls() {
+    if (settings_.sway == 0) return;
+    double roll = 0;
+    double start = 0;
+    const auto roll_to = [&](double end, double next) {
+      rolls_.push_back({start, end - start, next - roll});
+      roll = next;
+    };
+    for (int k = 0; k < num_intervals(); ++k) {
+      if (AllBear(k)) continue;
+      const Interval& swing = intervals_[k];
+      roll_to(swing.start + kRolling * swing.duration, -SideOf(k) * settings_.sway);
+      start = swing.start + (1 - kRolling) * swing.duration;
+    }
+    roll_to(intervals_.back().start + intervals_.back().duration, 0);
+  }
+
+  /// Of the support beside the middle of all limbs' places: 1 left, -1 right, 0 neither.
+  double SideOf(int k) const {
+    Vector2d all = Vector2d::Zero();
+    for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
+      all += schedule_.After(k, static_cast<int>(limb)).translation().head<2>();
+    }
+    all /= static_cast<double>(NumLimbs());
+    const Vector2d left(-std::sin(intervals_[k].yaw_to), std::cos(intervals_[k].yaw_to));
+    const double aside = left.dot(intervals_[k].zmp_from.head<2>() - all);
+    return aside > 0 ? 1 : aside < 0 ? -1 : 0;
+  }
+
+  ScalarSignal RootRoll(double t) const {
+    ScalarSignal sum = Constant(0);
+    for (const Roll& roll : rolls_) {
+      sum = sum + Blend(0, roll.angle, RestToRest(t - roll.start, roll.duration));
+    }
+    return sum;
   }
 
   ScalarSignal RootYaw(double t) const {
@@ -562,6 +614,7 @@ class Pattern {
   PatternSettings settings_;
   std::vector<Interval> intervals_;
   std::vector<Climb> climbs_;
+  std::vector<Roll> rolls_;
   Eigen::Matrix2Xd to_root_;
   VectorXd lowered_;                ///< m, at every knot: see FilterWithinReach
   std::optional<SmoothUnder> low_;  ///< the root's height on uneven ground

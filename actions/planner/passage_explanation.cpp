@@ -20,16 +20,15 @@ std::string Explain(const PassageNeed& need) {
 
 }  // namespace
 
-std::string ExplainPassage(PlanStatus status, const std::optional<NarrowPassage>& passage) {
+std::string ExplainPassage(bool has_barrier, const std::optional<NarrowPassage>& passage) {
   if (!passage) return {};
   std::vector<std::string> needs;
   needs.reserve(passage->needs.size());
   for (const PassageNeed& need : passage->needs) needs.push_back(Explain(need));
   const bool is_gap = passage->between == std::vector<std::string>{"no ground"};
   return fmt::format(" {} at ({:.2f}, {:.2f}){}: {}.",
-                     status == PlanStatus::kTimeLimit
-                         ? "No barrier was found; the narrowest place on the way is"
-                         : "The narrowest place on the way is",
+                     has_barrier ? "The narrowest place on the way is"
+                                 : "No barrier was found; the narrowest place on the way is",
                      passage->place.x(), passage->place.y(),
                      is_gap || passage->between.empty()
                          ? ""

@@ -117,6 +117,13 @@ std::string ExplainBarrier(PlanStatus status, const Barrier& barrier) {
                                 : fmt::format("{}", fmt::join(barrier.closed_by, ", ")));
 }
 
+std::string ExplainEffort(int turns) {
+  return fmt::format(
+      "no route was found: contact planning has led nowhere, and {} of random exploration have "
+      "found none.",
+      Counted(turns, "turn"));
+}
+
 std::string ExplainSearch(const std::map<std::string, std::int64_t>& statistics) {
   const std::int64_t cycles = Count(statistics, "cycles");
   if (cycles == 0) return {};

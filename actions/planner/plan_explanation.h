@@ -20,6 +20,10 @@ using FailedJobs = std::map<std::string, std::vector<Refusal>>;
 /// "no"s.
 std::string ExplainBarrier(PlanStatus status, const Barrier& barrier);
 
+/// One sentence, where the floods found no barrier: the effort after which the search ended.
+/// `turns`: of random exploration.
+std::string ExplainEffort(int turns);
+
 /// Reports what was explored, the most frequent refusals and the outcome of confirmation jobs.
 /// Begins with a space; empty if the search ran no cycle.
 std::string ExplainSearch(const std::map<std::string, std::int64_t>& statistics);

@@ -29,6 +29,7 @@
 #include "actions/route/route.h"
 #include "actions/route/route_motion.h"
 #include "actions/route/shortcut_explorer.h"
+#include "actions/route/step_shortcut_explorer.h"
 #include "common/cancellation_token.h"
 #include "common/deadline.h"
 #include "common/stopwatch.h"
@@ -244,6 +245,7 @@ class TraversalPlanner {
 
   /// Whether steps alone may lead from the start to a goal.
   bool StepsMayDo() const { return start_.gait == steps_->from() && !GoalsOfSteps().empty(); }
+  bool StepsMayHelp() const { return steps_ && (StepsMayDo() || IsMixed()); }
   /// Whether there is anything else that steps can be joined with.
   bool IsMixed() const { return gaits_.size() > 1 || !searched_.empty(); }
 
@@ -252,15 +254,14 @@ class TraversalPlanner {
   /// their own. If that leads nowhere either, the search goes on as long as the floods leave it
   /// open.
   graph::PathResult FindRoute(std::uint64_t attempt) {
-    const bool steps_may_help = steps_ && (StepsMayDo() || IsMixed());
     const bool nobody_else_explores =
         !switches_.straight && !switches_.lattice && !switches_.random;
-    if (steps_may_help && nobody_else_explores) {
+    if (StepsMayHelp() && nobody_else_explores) {
       AskFloods();
       needs_steps_ = *oracle_answer_ != graph::RouteOracleAnswer::kProvenInfeasible;
     }
     if (!needs_steps_) {
-      ends_at_oracle_ = steps_may_help;
+      ends_at_oracle_ = StepsMayHelp();
       graph::PathResult path = Explore(attempt);
       ends_at_oracle_ = false;
       if (path.status == graph::PathStatus::kFound || !needs_steps_) return path;
@@ -274,7 +275,10 @@ class TraversalPlanner {
   }
 
   graph::RouteOracleAnswer AskFloods() {
-    if (!oracle_answer_) oracle_answer_ = floods_.Ask(start_, goals_);
+    if (!oracle_answer_) {
+      oracle_answer_ = floods_.Ask(start_, goals_);
+      GuideExploration();
+    }
     // A manoeuvre may still be found where the floods cannot tell.
     const bool is_open =
         *oracle_answer_ == graph::RouteOracleAnswer::kUnknown && !manoeuvres_.empty();
@@ -285,6 +289,15 @@ class TraversalPlanner {
     }
     needs_steps_ = true;
     return graph::RouteOracleAnswer::kExhausted;  // of this search
+  }
+
+  /// The way that the floods consider open shows random exploration where to go.
+  void GuideExploration() {
+    std::vector<graph::Point> samples;
+    for (const GroundedStance& stance : floods_.way()) {
+      samples.push_back(ToPoint(stance.pose.At(stance.z + 1)));
+    }
+    space_->Guide(std::move(samples), scenario_.planner.flood_resolution);
   }
 
   graph::PathResult ExploreSteps(std::uint64_t attempt) {
@@ -306,6 +319,7 @@ class TraversalPlanner {
                                                         &steps_gave_up_));
     }
     if (!IsMixed()) return;
+    settings->explorers.push_back(StepShortcutExploration(AllSpace(), *steps_, action));
     settings->explorers.push_back(IslandExploration({&model_, &gaits_, &searched_}, *steps_, action,
                                                     start_, goals_, &steps_are_called_,
                                                     &steps_gave_up_));
@@ -325,6 +339,7 @@ class TraversalPlanner {
     settings.straight_first = switches_.straight;
     settings.explorers = Explorers();
     if (switches_.floods) settings.oracle = [this] { return AskFloods(); };
+    if (StepsMayHelp()) settings.turns_after_oracle = scenario_.planner.turns_after_floods;
     for (const ManoeuvreFactory& factory : factories_) {
       if (IsInUse(factory)) settings.skip_growth[factory.name] = factory.skip_growth;
     }
@@ -401,7 +416,9 @@ class TraversalPlanner {
     }
     SayNo(result->status, Explain(*result), result);
     result->plan.no->passage = floods_.passage();
-    if (result->status != PlanStatus::kTimeLimit) result->plan.no->barrier = floods_.barrier();
+    if (result->status != PlanStatus::kTimeLimit && floods_.has_barrier()) {
+      result->plan.no->barrier = floods_.barrier();
+    }
   }
 
   /// Edges of a gait begin and end in motion. A route of them begins and ends at rest.
@@ -441,8 +458,10 @@ class TraversalPlanner {
             ? fmt::format("no route that can be executed was found within {:.1f} s.",
                           request_.time_limit) +
                   ExplainClosest(result.plan.explored, scenario_.goals)
-            : ExplainBarrier(result.status, floods_.barrier());
-    return why + ExplainPassage(result.status, floods_.passage()) + refusals_.Explain() +
+        : floods_.has_barrier() ? ExplainBarrier(result.status, floods_.barrier())
+                                : ExplainEffort(scenario_.planner.turns_after_floods) +
+                                      ExplainClosest(result.plan.explored, scenario_.goals);
+    return why + ExplainPassage(floods_.has_barrier(), floods_.passage()) + refusals_.Explain() +
            ExplainSearch(result.plan.statistics) + ExplainManoeuvres(all_manoeuvres_, failures_);
   }
 

@@ -68,6 +68,10 @@ void Exploration::OnRefuted() {
   }
 }
 
+void Exploration::OnUndecided() {
+  for (Seat& seat : seats_) seat.explorer->OnUndecided();
+}
+
 void Exploration::OnRoute(const std::vector<PathEdge>& route, double duration) {
   for (Seat& seat : seats_) {
     if (seat.explorer->OnRoute(route, duration)) {

@@ -28,6 +28,7 @@ class Exploration {
 
   /// See Explorer.
   void OnRefuted();
+  void OnUndecided();
   void OnRoute(const std::vector<PathEdge>& route, double duration);
 
   /// Appends a route that `found_by` proposes, see Findings::route.

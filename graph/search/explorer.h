@@ -82,6 +82,9 @@ class Explorer {
   /// Called when jobs have refuted edges. Returns whether that leaves something to explore.
   virtual bool OnRefuted() { return false; }
 
+  /// Called when the oracle could not tell whether a route exists.
+  virtual void OnUndecided() {}
+
   /// Called when a route from the start to a goal is confirmed that is quicker than any before;
   /// `duration` in s. Returns whether that leaves something to explore.
   virtual bool OnRoute(const std::vector<PathEdge>& /*route*/, double /*duration*/) {

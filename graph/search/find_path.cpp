@@ -73,7 +73,10 @@ class PathFinder {
         // What the last jobs confirmed may complete a path.
         const bool was_found = best_.has_value();
         FindConfirmedPath();
-        if (q_confirmation_.num_open() == 0 && best_.has_value() == was_found) break;
+        if (q_confirmation_.num_open() == 0 && best_.has_value() == was_found) {
+          if (result_.counters.count(kEffortIsSpent) > 0) result_.status = PathStatus::kExhausted;
+          break;
+        }
         continue;
       } else {
         q_confirmation_.WaitForResult(MaxWait());
@@ -84,6 +87,9 @@ class PathFinder {
       }
       ReportProgress();
     }
+    // The last turn may have confirmed a quicker path.
+    CollectResults();
+    if (best_) FindConfirmedPath();
     confirmation_.CancelJobs();
     CompleteResult();
   }
@@ -212,6 +218,7 @@ class PathFinder {
         result_.status = PathStatus::kExhausted;
         return true;
       case RouteOracleAnswer::kUnknown:
+        exploration_.OnUndecided();
         break;
     }
     return false;

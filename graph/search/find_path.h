@@ -18,7 +18,8 @@ namespace possibility::graph {
 enum class PathStatus {
   kFound,             ///< every edge of the path is confirmed
   kProvenInfeasible,  ///< no path through C_N exists at the requested resolution (see RouteOracle)
-  kExhausted,         ///< no path exists through what can be confirmed
+  kExhausted,         ///< no path exists through what can be confirmed, or none was found with the
+                      ///< effort of FindPathSettings::turns_after_oracle
   kTimeLimit,
 };
 
@@ -52,6 +53,8 @@ struct FindPathSettings {
   /// has nothing left to explore while no job is open. Open jobs on threads first get one second.
   std::int64_t ask_oracle_after = 200;
   RouteOracle oracle = {};  ///< may be empty
+  /// Turns of random exploration after an oracle that could not tell; -1: until the time limit.
+  std::int64_t turns_after_oracle = -1;
   /// First tests C_S of the straight edge from the start to each goal with every action. If it
   /// holds, that edge is the first path.
   bool straight_first = false;

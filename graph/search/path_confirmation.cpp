@@ -116,6 +116,7 @@ void PathConfirmation::CollectResults() {
     switch (result.outcome) {
       case JobOutcome::kConfirmed:
         OnConfirmed(examined.edge, examined.asked);
+        master_->RefreshDuration(examined.edge);
         break;
       case JobOutcome::kFailed:
         examined.undecided = true;

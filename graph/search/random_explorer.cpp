@@ -24,6 +24,11 @@ Findings RandomExplorer::Explore() {
     (*context_.counters)[kGraphIsFull] = 1;
     return {Outlook::kOver, {}};
   }
+  if (turns_left_ == 0) {
+    (*context_.counters)[kEffortIsSpent] = 1;
+    return {Outlook::kOver, {}};
+  }
+  if (turns_left_ > 0) --turns_left_;
   growth_work_of_turn_ = 0;
   for (std::size_t a = 0; a < explorations_.size(); ++a) {
     const double before = explorations_[a]->growth_work();
@@ -41,6 +46,8 @@ Findings RandomExplorer::Explore() {
   }
   return {Outlook::kOpen, {}};
 }
+
+void RandomExplorer::OnUndecided() { turns_left_ = context_.settings->turns_after_oracle; }
 
 void RandomExplorer::TakeOver(const Discovery& discovery) {
   explorations_[discovery.action]->action_graph().Append(discovery.elements);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@ namespace possibility::graph {
 
 /// Counter that is 1 once FindPathSettings::max_graph_size has ended random exploration.
 inline constexpr const char* kGraphIsFull = "random exploration: graph is full";
+
+/// Counter that is 1 once FindPathSettings::turns_after_oracle has ended random exploration.
+inline constexpr const char* kEffortIsSpent = "random exploration: effort is spent";
 
 /// The paper's exploration: every action performs transitions (Algorithm 2) and grows towards
 /// random targets (Algorithms 3 and 4). A turn is one round of Algorithm 1.
@@ -24,6 +28,7 @@ class RandomExplorer : public Explorer {
   Findings Explore() override;
   double work_of_turn() const override { return budget_ + growth_work_of_turn_; }
   void TakeOver(const Discovery& discovery) override;
+  void OnUndecided() override;
 
  private:
   bool GraphIsFull() const;
@@ -33,6 +38,7 @@ class RandomExplorer : public Explorer {
   ExplorerContext context_;
   std::vector<std::unique_ptr<ActionExploration>> explorations_;
   std::vector<double> skip_growth_;  ///< per action
+  std::int64_t turns_left_ = -1;     ///< -1: no limit
   double budget_ = 0;                ///< of the conditions in one turn, s
   double growth_work_of_turn_ = 0;   ///< beyond it, in the last turn, s
 };

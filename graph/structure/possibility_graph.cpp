@@ -58,15 +58,24 @@ void PossibilityGraph::Append(int action, const std::vector<NewEdge>& edges) {
   }
 }
 
-EdgeId PossibilityGraph::AddEdge(int action, VertexId from, VertexId to) {
-  if (const auto existing = FindEdge(action, from, to)) {
-    return *existing;
-  }
-  const double duration = actions_[action]->ExpectedDuration({points_[from], points_[to]});
+double PossibilityGraph::DurationBy(int action, const Edge& points) const {
+  const double duration = actions_[action]->ExpectedDuration(points);
   if (!std::isfinite(duration) || duration < 0) {
     throw std::invalid_argument("action " + actions_[action]->name() + ": ExpectedDuration is " +
                                 std::to_string(duration) + ", expected a finite number >= 0");
   }
+  return duration;
+}
+
+void PossibilityGraph::RefreshDuration(EdgeId edge) {
+  edges_[edge].duration = DurationBy(edges_[edge].confirmed_by, points(edge));
+}
+
+EdgeId PossibilityGraph::AddEdge(int action, VertexId from, VertexId to) {
+  if (const auto existing = FindEdge(action, from, to)) {
+    return *existing;
+  }
+  const double duration = DurationBy(action, {points_[from], points_[to]});
   const EdgeId edge = topology_.AddEdge(from, to);
   edges_.push_back({.action = action,
                     .duration = duration,

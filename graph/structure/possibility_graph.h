@@ -107,6 +107,10 @@ class PossibilityGraph {
   const Point& point(VertexId vertex) const { return points_[vertex]; }
   Edge points(EdgeId edge) const;
   int action(EdgeId edge) const { return edges_[edge].action; }
+  /// Asks the action that confirmed the edge, which may know it better now.
+  /// @throws std::invalid_argument as Append does.
+  void RefreshDuration(EdgeId edge);
+
   /// Expected duration, s.
   double duration(EdgeId edge) const { return edges_[edge].duration; }
   /// The same edge in the opposite direction, if the action is reversible.
@@ -131,6 +135,7 @@ class PossibilityGraph {
   };
 
   EdgeId AddEdge(int action, VertexId from, VertexId to);
+  double DurationBy(int action, const Edge& points) const;
 
   std::vector<std::shared_ptr<const Action>> actions_;
   const ExplorationSpace* space_;

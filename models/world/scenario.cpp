@@ -63,7 +63,7 @@ std::vector<std::string> ReadActions(const YamlNode& list) {
 
 PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   node.MapOf({"step", "rotation_weight", "max_transitions_per_cycle", "flood_after_cycles",
-              "flood_resolution", "skip_jumps", "improvement_share"});
+              "turns_after_floods", "flood_resolution", "skip_jumps", "improvement_share"});
   PlannerSettings settings;
   if (const auto step = node.Find("step")) settings.step = step->Number(0.001, 100);
   if (const auto weight = node.Find("rotation_weight")) {
@@ -74,6 +74,9 @@ PlannerSettings ReadPlannerSettings(const YamlNode& node) {
   }
   if (const auto count = node.Find("flood_after_cycles")) {
     settings.flood_after_cycles = static_cast<int>(count->Integer(0, 1000000000));
+  }
+  if (const auto count = node.Find("turns_after_floods")) {
+    settings.turns_after_floods = static_cast<int>(count->Integer(0, 1000000000));
   }
   if (const auto cell = node.Find("flood_resolution")) {
     settings.flood_resolution = cell->Number(0.005, 10);

@@ -24,6 +24,8 @@ struct PlannerSettings {
   double rotation_weight = 0.137;     ///< weight of an angle (rad); 1 - weight for a metre
   int max_transitions_per_cycle = 5;  ///< Algorithm 2
   int flood_after_cycles = 200;       ///< exploration cycles before asking whether a route exists
+  /// Turns of random exploration where the floods cannot tell and contact planning has ended.
+  int turns_after_floods = 20000;
   /// Share of the time limit for the search for a quicker route than the first.
   double improvement_share = 0.1;
   double flood_resolution = 0.1;  ///< m, cell size of the flood that checks this

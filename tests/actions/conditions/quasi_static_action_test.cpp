@@ -151,6 +151,30 @@ TEST(ExplorationPoseTest, DistanceIsAMetricThatWeighsRotationLess) {
   EXPECT_NEAR(space.Distance(origin, ToPoint(PlanarPose{0, 0, 1}.At(1))), 0.137, 1e-9);
 }
 
+TEST(ExplorationPoseTest, HalfOfTheGuidedSamplesAreNearTheGuides) {
+  PelvisPoseSpace space(Eigen::AlignedBox2d(Eigen::Vector2d(-5, -5), Eigen::Vector2d(5, 5)), {0.0},
+                        0.137);
+  const double spread = 0.1;
+  const std::vector<PlanarPose> guides = {{1, 2, 0.5}, {-3, 0, -2}};
+  std::vector<Point> points;
+  for (const PlanarPose& guide : guides) points.push_back(ToPoint(guide.At(1.2)));
+  space.Guide(points, spread);
+  graph::RandomGenerator generator(1);
+  std::vector<int> near(guides.size(), 0);
+  constexpr int kSamples = 2000;
+  for (int i = 0; i < kSamples; ++i) {
+    const Eigen::Isometry3d sample = ToPose(space.RandomSample(&generator));
+    for (std::size_t g = 0; g < guides.size(); ++g) {
+      const Eigen::Isometry3d left = guides[g].At(1.2).inverse() * sample;
+      const double turn = std::abs(Heading(left.linear()));
+      if (left.translation().norm() <= std::sqrt(2) * spread + 1e-9 && turn <= spread + 1e-9) {
+        ++near[g];
+      }
+    }
+  }
+  for (const int count : near) EXPECT_NEAR(count, kSamples / 4, kSamples / 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticActionTest, ::testing::Values(0, 1),
                          [](const auto& info) { return info.param == 0 ? "walk" : "crawl"; });
 

@@ -149,21 +149,29 @@ TEST_F(PassageTest, AnUnknownAnswerNamesTheNarrowestPassage) {
   ASSERT_TRUE(oracle.passage().has_value());
   EXPECT_EQ(oracle.passage()->between, (std::vector<std::string>{"left", "right"}));
   EXPECT_LT(oracle.passage()->missing, 0.01) << "there is room";
+  EXPECT_FALSE(oracle.has_barrier());
+  const std::vector<GroundedStance> way = oracle.way();
+  ASSERT_GE(way.size(), 2U);
+  EXPECT_LT(way.front().pose.x, -1);
+  EXPECT_GT(way.back().pose.x, 1);
+  const auto beyond = std::find_if(way.begin(), way.end(),
+                                   [](const GroundedStance& stance) { return stance.pose.x > 0; });
+  EXPECT_NEAR(beyond->pose.y, 0.4, 0.2) << "leads through the door";
 }
 
 TEST(PassageExplanationTest, NamesTheAvailableAndTheNeededDimensions) {
   NarrowPassage passage{.place = {5, 0.1}, .missing = 0.12, .between = {"left", "right"}};
   passage.needs = {{"walk", PassageDimension::kWidth, 0.74, 0.86},
                    {"crawl", PassageDimension::kHeight, 0.7, 0.82}};
-  EXPECT_EQ(ExplainPassage(PlanStatus::kExhausted, passage),
+  EXPECT_EQ(ExplainPassage(true, passage),
             " The narrowest place on the way is at (5.00, 0.10), between left, right: 0.74 m wide, "
             "0.86 needed by 'walk'; 0.70 m high, 0.82 needed by 'crawl'.");
   passage.between = {"no ground"};
   passage.needs = {{"jump", PassageDimension::kGap, 1, 0.46}};
-  EXPECT_EQ(ExplainPassage(PlanStatus::kTimeLimit, passage),
+  EXPECT_EQ(ExplainPassage(false, passage),
             " No barrier was found; the narrowest place on the way is at (5.00, 0.10): 1.00 m "
             "without ground, 'jump' reaches over 0.46.");
-  EXPECT_EQ(ExplainPassage(PlanStatus::kExhausted, std::nullopt), "");
+  EXPECT_EQ(ExplainPassage(true, std::nullopt), "");
 }
 
 }  // namespace

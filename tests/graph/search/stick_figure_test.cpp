@@ -74,6 +74,23 @@ TEST(StickFigure, WithoutAPassageTheOraclesNoEndsTheSearch) {
   }
 }
 
+TEST(StickFigure, WhereTheOracleCannotTellTheSearchEndsAfterItsEffort) {
+  for (const std::int64_t turns : {0, 30}) {
+    FindPathSettings settings{
+        .time_limit = 10, .ask_oracle_after = 50, .turns_after_oracle = turns};
+    settings.oracle = [] { return RouteOracleAnswer::kUnknown; };
+    const PathResult result =
+        FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom, settings);
+    EXPECT_EQ(result.status, PathStatus::kExhausted);
+    EXPECT_EQ(result.statistics.cycles, 50 + turns + 1) << "the last turn finds that it is over";
+    // A search that its own limit ends first has not spent the effort.
+    settings.max_cycles = 50 + turns;
+    const PathResult cut =
+        FindPath(Start(), {Goal()}, {MakeWalk(), MakeCrawl(true)}, kRoom, settings);
+    EXPECT_EQ(cut.status, PathStatus::kTimeLimit);
+  }
+}
+
 TEST(StickFigure, TheSameSeedGivesTheSameResult) {
   const Actions actions = {MakeWalk(), MakeCrawl()};
   const auto run = [&](std::uint64_t seed) {

@@ -205,6 +205,28 @@ TEST_F(RandomGraph, LeastDurationsAgreeWithBellmanFord) {
   EXPECT_GT(reached, 500);
 }
 
+/// An action may know a duration better once it has confirmed the edge.
+TEST_F(RandomGraph, AConfirmedEdgeTakesTheDurationOfTheActionThatConfirmedIt) {
+  class Learning : public test::BandAction {
+   public:
+    explicit Learning(double duration) : BandAction("learning", {0, 1}, 0.5, {}), now(duration) {}
+    double ExpectedDuration(const Edge&) const override { return now; }
+    double now;
+  };
+  const auto finder = std::make_shared<Learning>(1), confirmer = std::make_shared<Learning>(2);
+  PossibilityGraph graph({finder, confirmer}, &room_, MakePoint(0, 0), {MakePoint(1, 0)});
+  graph.Append(0, {{0, 1, false}});
+  finder->now = 5;
+  EXPECT_EQ(graph.duration(0), 1);
+  graph.RefreshDuration(0);
+  EXPECT_EQ(graph.duration(0), 5);
+  graph.SetPossible(0, 1);
+  graph.RefreshDuration(0);
+  EXPECT_EQ(graph.duration(0), 2);
+  confirmer->now = -1;
+  EXPECT_THROW(graph.RefreshDuration(0), std::invalid_argument);
+}
+
 TEST_F(RandomGraph, ExpectedDurationsMustBeFiniteAndNotNegative) {
   Build(1);
   for (const double bad : {-1.0, -std::numeric_limits<double>::infinity()}) {
