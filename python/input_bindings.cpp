@@ -26,6 +26,25 @@ std::vector<std::string> NamesOf(const std::vector<Item>& items) {
   return names;
 }
 
+py::dict ActuatorsOf(const RobotModel& robot) {
+  py::dict actuators;
+  for (const models::Joint& joint : robot.joints) {
+    const models::Actuator& actuator = joint.actuator;
+    if (!actuator.HasLosses() && !actuator.line) continue;
+    py::dict entry;
+    entry["armature"] = actuator.armature;
+    entry["viscous_friction"] = actuator.viscous_friction;
+    entry["dry_friction"] = actuator.dry_friction;
+    entry["dry_speed"] = actuator.dry_speed;
+    if (actuator.line) {
+      entry["stall_torque"] = actuator.line->stall_torque;
+      entry["no_load_speed"] = actuator.line->no_load_speed;
+    }
+    actuators[py::str(joint.name)] = entry;
+  }
+  return actuators;
+}
+
 py::dict LimitsOf(const RobotModel& robot) {
   py::dict limits;
   for (const models::Joint& joint : robot.joints) {
@@ -67,7 +86,8 @@ void BindRobot(py::module_& module) {
                              [](const RobotModel& robot) { return NamesOf(robot.contacts); })
       .def_property_readonly("gaits", [](const RobotModel& robot) { return NamesOf(robot.gaits); })
       .def_property_readonly("jumps", [](const RobotModel& robot) { return NamesOf(robot.jumps); })
-      .def_property_readonly("limits", &LimitsOf);
+      .def_property_readonly("limits", &LimitsOf)
+      .def_property_readonly("actuators", &ActuatorsOf);
   module.def("load_robot", [](const std::string& file) {
     return std::make_shared<RobotModel>(models::LoadRobotModel(file));
   });

@@ -156,7 +156,7 @@ void CheckForces(const VerifierState& state, const PhaseContacts& contacts,
     CheckCone(realised.forces.col(i), contacts.normals.col(i), contacts.friction[i],
               contacts.points[i], robot, weight, at, log);
   }
-  CheckTorqueLimits(realised.torques, robot, at, log);
+  CheckTorqueLimits(realised.torques, state.knot.v, robot, at, log);
 }
 
 }  // namespace possibility::actions

@@ -209,8 +209,8 @@ void CheckJointCouplings(const KnotInterpolant& interpolant, const models::Robot
   }
 }
 
-void CheckTorqueLimits(const Eigen::VectorXd& tau, const models::RobotModel& robot,
-                       const Instant& at, ViolationLog* log) {
+void CheckTorqueLimits(const Eigen::VectorXd& tau, const Eigen::VectorXd& v,
+                       const models::RobotModel& robot, const Instant& at, ViolationLog* log) {
   Eigen::VectorXd borne = tau;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const auto& mimic = robot.joints[j].mimic;
@@ -220,7 +220,8 @@ void CheckTorqueLimits(const Eigen::VectorXd& tau, const models::RobotModel& rob
     const models::Joint& joint = robot.joints[j];
     if (joint.mimic) continue;
     const double tolerance = kRelativeTorqueTolerance * std::max(joint.effort, 1.0);
-    log->RequireAtMost(ViolationKind::kJointTorque, at, std::abs(borne[j]), joint.effort, tolerance,
+    const double limit = joint.actuator.Limit(joint.effort, borne[j], v[6 + j]);
+    log->RequireAtMost(ViolationKind::kJointTorque, at, std::abs(borne[j]), limit, tolerance,
                        UnitsOf(joint).torque, [&] { return joint.name + " torque"; });
   }
 }

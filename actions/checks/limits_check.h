@@ -21,8 +21,9 @@ bool CheckJointLimits(const KnotInterpolant& interpolant, const models::RobotMod
 void CheckJointCouplings(const KnotInterpolant& interpolant, const models::RobotModel& robot,
                          int segment, ViolationLog* log);
 
-/// Checks `tau` (num_joints) against the effort limits; a master also bears its mimics' torques.
-void CheckTorqueLimits(const Eigen::VectorXd& tau, const models::RobotModel& robot,
-                       const Instant& at, ViolationLog* log);
+/// Checks `tau` (num_joints) against the effort limits and torque-speed lines at velocity `v` (nv);
+/// a master also bears its mimics' torques.
+void CheckTorqueLimits(const Eigen::VectorXd& tau, const Eigen::VectorXd& v,
+                       const models::RobotModel& robot, const Instant& at, ViolationLog* log);
 
 }  // namespace possibility::actions

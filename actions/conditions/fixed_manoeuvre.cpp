@@ -293,7 +293,7 @@ std::vector<Phase> FixedManoeuvre::Motion(const graph::Edge& edge,
   if (!outcome.fault.empty()) throw MotionError(outcome.fault);
   std::vector<Phase> motion =
       Placed(std::move(outcome.motion), execution->launch.pose, execution->launch.z);
-  return execution->is_reversed ? Reversed(motion) : motion;
+  return execution->is_reversed ? Reversed(*model().robot, motion) : motion;
 }
 
 ManoeuvreBounds FixedManoeuvre::Bounds() const {

@@ -53,6 +53,15 @@ std::array<double, 3> SpinRate(double spin, const Derivatives& x) {
   return {spin / 3 * cube[2], spin / 3 * cube[3], spin / 3 * cube[4]};
 }
 
+/// Bound of the second time derivative of what an actuator adds to the torque, and of the torque
+/// that its line leaves; x bounds the joint's position and its derivatives.
+double ActuatorChange(const models::Actuator& actuator, const Derivatives& x) {
+  const double line =
+      actuator.line ? actuator.line->stall_torque / actuator.line->no_load_speed : 0;
+  return actuator.armature * x[4] + (actuator.FrictionSlope(0) + line) * x[3] +
+         actuator.GreatestFrictionCurvature() * x[2] * x[2];
+}
+
 template <int Columns>
 double GreatestNorm(const Eigen::Matrix<double, 3, Columns>& columns) {
   return std::sqrt(columns.colwise().squaredNorm().maxCoeff());
@@ -147,7 +156,7 @@ void DerivativeBounds::SetForces() {
     std::array<double, 3> torque{};
     AddProduct(parent.rotation,
                joint.type == models::JointType::kPrismatic ? link.force : link.moment, &torque);
-    torque_change_[j] = torque[2];
+    torque_change_[j] = torque[2] + ActuatorChange(joint.actuator, link.joint);
   }
   force_change_ = links_[0].force[2];
   moment_change_ = links_[0].moment[2];

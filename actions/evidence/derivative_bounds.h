@@ -44,7 +44,7 @@ class DerivativeBounds {
   /// (N m/s^2).
   double force_change() const { return force_change_; }
   double moment_change() const { return moment_change_; }
-  /// The same for the torque of a joint, N m/s^2 or N/s^2.
+  /// The same for the torque of a joint against its limit, N m/s^2 or N/s^2.
   double JointTorqueChange(int joint) const { return torque_change_[joint]; }
   /// Second and third derivative of the position of a bearing point: maximum over the points.
   double point_acceleration() const { return point_acceleration_; }  ///< m/s^2

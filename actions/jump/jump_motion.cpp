@@ -180,10 +180,12 @@ void JumpMotion::RequireLimits(const Phase& flight, double max_base_speed) const
                       base_speed, knot.t, settings.speed_margin * max_base_speed));
     }
     for (int j = 0; j < robot.num_joints(); ++j) {
-      if (std::abs(knot.tau[j]) > settings.torque_margin * robot.joints[j].effort) {
+      const models::Joint& joint = robot.joints[j];
+      const double limit =
+          settings.torque_margin * joint.actuator.Limit(joint.effort, knot.tau[j], knot.v[6 + j]);
+      if (std::abs(knot.tau[j]) > limit) {
         throw MotionError(fmt::format("{} needs {:.1f} at {:.2f} s of the flight, more than {:.1f}",
-                                      robot.joints[j].name, knot.tau[j], knot.t,
-                                      settings.torque_margin * robot.joints[j].effort));
+                                      joint.name, knot.tau[j], knot.t, limit));
       }
     }
   }

@@ -33,6 +33,7 @@ class Reporter {
 
   std::vector<RobotFinding> Run() {
     Symmetry();
+    Actuators();
     for (const models::Gait& gait : robot_.gaits) ReportGait(gait);
     return std::move(findings_);
   }
@@ -50,6 +51,20 @@ class Reporter {
                     pairs.pairs.size(), pairs.unpaired.size(), 1e3 * pairs.worst_distance,
                     pairs.worst_link.empty() ? "" : " at '" + pairs.worst_link + "'",
                     pairs.worst_mass));
+  }
+
+  void Actuators() {
+    int rotors = 0, frictions = 0, lines = 0;
+    for (const models::Joint& joint : robot_.joints) {
+      const models::Actuator& actuator = joint.actuator;
+      rotors += actuator.armature > 0 ? 1 : 0;
+      frictions += actuator.viscous_friction > 0 || actuator.dry_friction > 0 ? 1 : 0;
+      lines += actuator.line ? 1 : 0;
+    }
+    if (rotors + frictions + lines == 0) return;
+    Add("actuators", fmt::format("of {} joints {} have an armature, {} friction, {} a torque-speed "
+                                 "line",
+                                 robot_.num_joints(), rotors, frictions, lines));
   }
 
   void ReportGait(const models::Gait& gait) {

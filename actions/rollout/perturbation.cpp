@@ -24,7 +24,13 @@ models::RobotModel Perturbation::Perturbed(models::RobotModel robot) const {
     link.inertial.mass *= mass;
     link.inertial.I_LC *= mass;
   }
-  for (models::Joint& joint : robot.joints) joint.effort *= torque;
+  for (models::Joint& joint : robot.joints) {
+    joint.effort *= torque;
+    if (joint.actuator.line) joint.actuator.line->stall_torque *= torque;
+  }
+  if (armature > 0) {
+    for (const int joint : robot.LegJoints()) robot.joints[joint].actuator.armature += armature;
+  }
   robot.friction = friction.value_or(robot.friction);
   return robot;
 }

@@ -14,6 +14,7 @@ struct Perturbation {
   double slope = 0;                ///< rad: the ground rises along the world's x
   double side_slope = 0;           ///< rad: the ground rises along the world's y
   double torque = 1;               ///< factor on the effort limits
+  double armature = 0;             ///< kg m^2: added to the joints of the legs
   std::optional<double> friction;  ///< coefficient of the ground
   double push = 0;                 ///< N s: impulse on the root's centre of mass
   double push_direction = 0;       ///< rad, from the world's x
@@ -21,7 +22,7 @@ struct Perturbation {
 
   /// Turns the planned ground into the simulated one, about the place where the motion begins.
   Eigen::Matrix3d Tilt() const;
-  /// The robot with the perturbed masses, limits and friction.
+  /// The robot with the perturbed masses, limits, armatures and friction.
   models::RobotModel Perturbed(models::RobotModel robot) const;
   /// Force of the push, N: half a sine of 0.1 s. `begin`, `end`: of the motion, s.
   Eigen::Vector3d PushAt(double t, double begin, double end) const;

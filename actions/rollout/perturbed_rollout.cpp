@@ -55,12 +55,12 @@ class SlideMeter {
   std::vector<std::optional<Vector3d>> places_;
 };
 
-double TorqueUsed(const VectorXd& torques, const VectorXd& limits) {
+double TorqueUsed(const dynamics::RobotMotion& motion, const dynamics::MultibodyModel& model) {
   double used = 0;
-  for (Eigen::Index i = 0; i < limits.size(); ++i) {
-    if (limits[i] > 0 && std::isfinite(limits[i])) {
-      used = std::max(used, std::abs(torques[i]) / limits[i]);
-    }
+  for (int i = 0; i < model.num_joints(); ++i) {
+    const double limit = model.TorqueLimit(i, motion.torques[i], motion.v);
+    if (limit > 0 && std::isfinite(limit))
+      used = std::max(used, std::abs(motion.torques[i]) / limit);
   }
   return used;
 }
@@ -85,8 +85,7 @@ void Record(const RolloutReference& reference, const dynamics::CompliantRollout&
     const dynamics::RobotMotion motion = simulator->MotionAt(rollout, t);
     if (t <= drift->end) reference.Compare(t, motion.q, drift);
     slides->Measure(motion, drift);
-    drift->torque_used =
-        std::max(drift->torque_used, TorqueUsed(motion.torques, reference.model()->effort()));
+    drift->torque_used = std::max(drift->torque_used, TorqueUsed(motion, *reference.model()));
   }
 }
 

@@ -64,7 +64,7 @@ std::vector<Phase> GaitPhases(const LocomotionModel& model, const RouteLeg& leg,
 std::vector<Phase> TransitionPhases(const LocomotionModel& model, const RouteLeg& leg) {
   const std::vector<Phase> phases =
       Placed(model.transitions[leg.transition].phases, leg.backwards ? leg.to : leg.from, leg.z);
-  return leg.backwards ? Reversed(phases) : phases;
+  return leg.backwards ? Reversed(*model.robot, phases) : phases;
 }
 
 /// @throws MotionError unless the robot is at rest in the stance at this knot. `joints`: in place

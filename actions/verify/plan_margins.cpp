@@ -63,7 +63,9 @@ class MarginMeasurement {
     for (int j = 0; j < robot_.num_joints(); ++j) {
       const models::Joint& joint = robot_.joints[j];
       Greatest(std::abs(knot.v[6 + j]) / joint.velocity, &margins_.joint_speed);
-      if (!joint.mimic) Greatest(std::abs(knot.tau[j]) / joint.effort, &margins_.torque);
+      if (joint.mimic) continue;
+      const double limit = joint.actuator.Limit(joint.effort, knot.tau[j], knot.v[6 + j]);
+      Greatest(std::abs(knot.tau[j]) / limit, &margins_.torque);
     }
   }
 

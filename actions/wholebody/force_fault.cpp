@@ -46,10 +46,10 @@ std::string TorqueFault(const MultibodyDynamics& dynamics, const ContactForceSet
                         const ContactForces& forces) {
   const dynamics::MultibodyModel& model = dynamics.model();
   Eigen::Index worst = 0;
-  forces.torques.cwiseAbs().cwiseQuotient(model.effort().cwiseMax(1e-9)).maxCoeff(&worst);
+  const Eigen::VectorXd& limits = dynamics.torque_limits();
+  forces.torques.cwiseAbs().cwiseQuotient(limits.cwiseMax(1e-9)).maxCoeff(&worst);
   return fmt::format("{} needs {:.1f} of {:.1f}", model.tree().joints[model.joints()[worst]].name,
-                     std::abs(forces.torques[worst]),
-                     settings.torque_margin * model.effort()[worst]);
+                     std::abs(forces.torques[worst]), settings.torque_margin * limits[worst]);
 }
 
 /// Of the most slippery ground.

@@ -207,7 +207,7 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, d
     const MotionError fault = ForceFault(&dynamics_, bearing.points, force_settings);
     throw MotionError(fmt::format("{} at {:.2f} s", fault.what(), t), -1, fault.limit());
   }
-  CheckCoupledTorques(forces->torques, t);
+  CheckCoupledTorques(forces->torques, state.v, t);
   Knot knot;
   knot.t = t;
   knot.q = state.q;
@@ -218,7 +218,8 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, d
   return knot;
 }
 
-void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const {
+void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, const Eigen::VectorXd& v,
+                                        double t) const {
   Eigen::VectorXd borne = torques;
   for (int j = 0; j < robot_->num_joints(); ++j) {
     const auto& mimic = robot_->joints[j].mimic;
@@ -226,13 +227,15 @@ void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, double t
   }
   for (int j = 0; j < robot_->num_joints(); ++j) {
     const models::Joint& joint = robot_->joints[j];
-    if (joint.mimic || std::abs(borne[j]) <= settings_.torque_margin * joint.effort) continue;
+    const double limit =
+        settings_.torque_margin * joint.actuator.Limit(joint.effort, borne[j], v[6 + j]);
+    if (joint.mimic || std::abs(borne[j]) <= limit) continue;
     throw MotionError(fmt::format("{} and its mimics need {:.1f}, more than {:.1f}, at {:.2f} s",
-                                  joint.name, borne[j], settings_.torque_margin * joint.effort, t));
+                                  joint.name, borne[j], limit, t));
   }
 }
 
-std::vector<Phase> Reversed(const std::vector<Phase>& phases) {
+std::vector<Phase> Reversed(const models::RobotModel& robot, const std::vector<Phase>& phases) {
   std::vector<Phase> result(phases.rbegin(), phases.rend());
   if (result.empty()) return result;
   const double end = phases.back().knots.back().t;
@@ -241,6 +244,11 @@ std::vector<Phase> Reversed(const std::vector<Phase>& phases) {
     for (Knot& knot : phase.knots) {
       knot.t = end - knot.t;
       knot.v = -knot.v;
+      // Friction alone does not run backwards.
+      for (int j = 0; j < robot.num_joints(); ++j) {
+        const models::Actuator& actuator = robot.joints[j].actuator;
+        if (actuator.HasLosses()) knot.tau[j] += 2 * actuator.Friction(knot.v[6 + j]);
+      }
     }
   }
   return result;

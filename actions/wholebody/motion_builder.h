@@ -62,7 +62,8 @@ class MotionBuilder {
   Phase BuildPhase(const MotionPhase& phase, const MotionPhase* before, const MotionPhase* after,
                    double start, Eigen::VectorXd* guess);
   Knot MakeKnot(const MotionPhase& phase, const Bearing& bearing, double t, Eigen::VectorXd* guess);
-  void CheckCoupledTorques(const Eigen::VectorXd& torques, double t) const;
+  void CheckCoupledTorques(const Eigen::VectorXd& torques, const Eigen::VectorXd& v,
+                           double t) const;
 
   const models::RobotModel* robot_;
   MotionSettings settings_;
@@ -70,7 +71,8 @@ class MotionBuilder {
   dynamics::MultibodyDynamics dynamics_;  // every joint with a motor of its own
 };
 
-/// The same motion backwards in time. The same torques and forces realise it, quasi-static or not.
-std::vector<Phase> Reversed(const std::vector<Phase>& phases);
+/// The same motion backwards in time. The same forces realise it, quasi-static or not, and the same
+/// torques but for the joints' friction.
+std::vector<Phase> Reversed(const models::RobotModel& robot, const std::vector<Phase>& phases);
 
 }  // namespace possibility::actions

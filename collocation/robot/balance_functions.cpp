@@ -19,12 +19,13 @@ using Eigen::VectorXd;
 /// After q, v, a come f of all points and perhaps other forces.
 class BalanceFunction : public RobotFunction {
  public:
+  /// `num_other_rows`: outputs beside the balance itself.
   BalanceFunction(const RobotSystem& model, const std::vector<ContactPoint>& points,
-                  int num_other = 0)
+                  int num_other = 0, int num_other_rows = 0)
       : RobotFunction(
             model, ComponentsOf(*model, points),
             3 * model->nv() + static_cast<int>(ComponentsOf(*model, points).size()) + num_other,
-            model->nv()) {}
+            model->nv() + num_other_rows) {}
 
  protected:
   VectorXd PointForces(const VectorXd& z) const {
@@ -38,10 +39,10 @@ class BalanceFunction : public RobotFunction {
   void SubtractForceJacobian(const VectorXd& z, MatrixXd* J) {
     MatrixXd jacobian(3, n_);
     for (const Point& point : points_) {
-      dynamics_.AddPointForceDerivative(point.point, -ForceOn(point, z), J->leftCols(n_));
+      dynamics_.AddPointForceDerivative(point.point, -ForceOn(point, z), J->topLeftCorner(n_, n_));
       dynamics_.Jacobian(point.point, jacobian);
       for (const int i : point.components) {
-        J->col(3 * n_ + i) = -jacobian.transpose() * components_[i].axis;
+        J->col(3 * n_ + i).head(n_) = -jacobian.transpose() * components_[i].axis;
       }
     }
   }
@@ -95,39 +96,64 @@ class EquationOfMotionFunction : public BalanceFunction {
  public:
   /// `with_torques`: the joint torques are the last inputs.
   EquationOfMotionFunction(const RobotSystem& model, const std::vector<ContactPoint>& points,
-                           bool with_torques)
-      : BalanceFunction(model, points, with_torques ? model->num_joints() : 0),
-        num_torques_(with_torques ? model->num_joints() : 0) {}
+                           bool with_torques, const std::vector<TorqueSpeedRow>& rows)
+      : BalanceFunction(model, points, with_torques ? model->num_joints() : 0,
+                        static_cast<int>(rows.size())),
+        num_torques_(with_torques ? model->num_joints() : 0),
+        rows_(rows) {}
 
   void Evaluate(const VectorXd& z, VectorXd* y) override {
     SetPositionVelocityAcceleration(z);
-    *y = dynamics_.InverseDynamics() - PointForces(z);
-    y->tail(num_torques_) -= z.tail(num_torques_);
+    y->head(n_) = dynamics_.InverseDynamics() - PointForces(z);
+    y->segment(n_ - num_torques_, num_torques_) -= z.tail(num_torques_);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const int i = VelocityOf(rows_[k]);
+      (*y)[RowOf(k)] = (*y)[i] + rows_[k].slope * z[n_ + i];
+    }
   }
 
   void Jacobian(const VectorXd& z, MatrixXd* J) override {
     SetPositionVelocityAcceleration(z);
     const dynamics::InverseDynamicsDerivatives& D = dynamics_.Differentiate();
-    J->leftCols(n_) = D.dq;
-    J->middleCols(n_, n_) = D.dv;
-    J->middleCols(2 * n_, n_) = D.da;
+    J->topLeftCorner(n_, n_) = D.dq;
+    J->block(0, n_, n_, n_) = D.dv;
+    J->block(0, 2 * n_, n_, n_) = D.da;
     SubtractForceJacobian(z, J);
     J->rightCols(num_torques_).setZero();
-    J->bottomRightCorner(num_torques_, num_torques_).diagonal().setConstant(-1);
+    J->block(n_ - num_torques_, num_inputs() - num_torques_, num_torques_, num_torques_)
+        .diagonal()
+        .setConstant(-1);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const int i = VelocityOf(rows_[k]);
+      J->row(RowOf(k)) = J->row(i);
+      (*J)(RowOf(k), n_ + i) += rows_[k].slope;
+    }
   }
 
   void Hessian(const VectorXd& z, const VectorXd& multipliers, MatrixXd* H) override {
     SetPositionVelocityAcceleration(z);
-    PutHessian(dynamics_.Hessian(multipliers, MinusForceTerms(z)), H);
+    VectorXd lambda = multipliers.head(n_);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      lambda[VelocityOf(rows_[k])] += multipliers[RowOf(k)];
+    }
+    PutHessian(dynamics_.Hessian(lambda, MinusForceTerms(z)), H);
     SubtractForceHessian(H);
   }
 
   // Forces depend neither on the robot's position nor on its linear velocity as a whole.
   Mask JacobianMask() const override {
-    Mask mask = BalanceMask();
-    mask.middleCols(n_, n_) = RelatedMask(true, false);
-    mask.middleCols(2 * n_, n_) = RelatedMask(true, true);
-    mask.bottomRightCorner(num_torques_, num_torques_).matrix().diagonal().setConstant(true);
+    Mask mask = Mask::Constant(num_outputs(), num_inputs(), false);
+    mask.topRows(n_) = BalanceMask();
+    mask.block(0, n_, n_, n_) = RelatedMask(true, false);
+    mask.block(0, 2 * n_, n_, n_) = RelatedMask(true, true);
+    mask.block(n_ - num_torques_, num_inputs() - num_torques_, num_torques_, num_torques_)
+        .matrix()
+        .diagonal()
+        .setConstant(true);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      mask.row(RowOf(k)) = mask.row(VelocityOf(rows_[k]));
+      mask(RowOf(k), n_ + VelocityOf(rows_[k])) = true;
+    }
     return mask;
   }
 
@@ -140,7 +166,13 @@ class EquationOfMotionFunction : public BalanceFunction {
   }
 
  private:
+  int VelocityOf(const TorqueSpeedRow& row) const {
+    return model().num_base_velocities() + row.joint;
+  }
+  Eigen::Index RowOf(std::size_t row) const { return n_ + static_cast<Eigen::Index>(row); }
+
   int num_torques_;
+  std::vector<TorqueSpeedRow> rows_;
 };
 
 class ImpactMapFunction : public BalanceFunction {
@@ -190,13 +222,15 @@ class ImpactMapFunction : public BalanceFunction {
 }  // namespace
 
 std::shared_ptr<Function> EquationOfMotion(const RobotSystem& model,
-                                           const std::vector<ContactPoint>& points) {
-  return std::make_shared<EquationOfMotionFunction>(model, points, false);
+                                           const std::vector<ContactPoint>& points,
+                                           const std::vector<TorqueSpeedRow>& rows) {
+  return std::make_shared<EquationOfMotionFunction>(model, points, false, rows);
 }
 
 std::shared_ptr<Function> ActuatedMotion(const RobotSystem& model,
                                          const std::vector<ContactPoint>& points) {
-  return std::make_shared<EquationOfMotionFunction>(model, points, true);
+  return std::make_shared<EquationOfMotionFunction>(model, points, true,
+                                                    std::vector<TorqueSpeedRow>());
 }
 
 std::shared_ptr<Function> ImpactMap(const RobotSystem& model,

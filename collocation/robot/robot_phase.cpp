@@ -98,12 +98,41 @@ void AddForces(const MultibodyModel& model, const RobotLimits& limits, RobotPhas
   }
 }
 
+/// Of a joint's torque. `most`: N m or N.
+Bounds Within(double most) { return {-most, most}; }
+
+/// |torque + slope * rate| <= limit is the torque-speed line, and the same for the opposite sign.
+struct LineLimit {
+  TorqueSpeedRow row;
+  double most = 0;  ///< N m or N
+};
+
+std::vector<LineLimit> LineLimits(const MultibodyModel& model, const RobotLimits& limits) {
+  std::vector<LineLimit> lines;
+  for (int i = 0; i < model.num_joints(); ++i) {
+    const auto& line = model.actuator(i).line;
+    if (!line) continue;
+    const double most = limits.torque_fraction * line->stall_torque;
+    lines.push_back({{i, most / line->no_load_speed}, most});
+  }
+  return lines;
+}
+
 void AddTorques(const MultibodyModel& model, const RobotLimits& limits, RobotPhase* robot) {
   for (int i = 0; i < model.num_joints(); ++i) {
     const double most = limits.torque_fraction * model.effort()[i];
     robot->torques.push_back(robot->phase->AddControl(
-        "torque " + model.tree().joints[model.joints()[i]].name, {-most, most}, kTorque));
+        "torque " + model.tree().joints[model.joints()[i]].name, Within(most), kTorque));
     robot->phase->Guess(robot->torques.back(), 0);
+  }
+  for (const LineLimit& line : LineLimits(model, limits)) {
+    const int joint = line.row.joint;
+    robot->phase->Constrain(
+        "torque and speed of " + model.tree().joints[model.joints()[joint]].name,
+        Differentiated<2, 1>(
+            [slope = line.row.slope](const auto& z, auto* y) { (*y)[0] = z[0] + slope * z[1]; }),
+        {robot->torques[joint], robot->v[model.num_base_velocities() + joint]}, {Within(line.most)},
+        At::kEverywhere, {kTorque});
   }
 }
 
@@ -116,15 +145,22 @@ void AddMotion(const std::shared_ptr<const MultibodyModel>& model, const RobotLi
   std::vector<Bounds> bounds(model->nv(), Bounds{0, 0});
   std::vector<double> scales(model->nv(), kTorque);
   for (const auto& translation : model->translations()) scales[translation.index] = kForce;
-  const bool rows = robot->torques.empty();
-  for (int i = 0; rows && i < model->num_joints(); ++i) {
-    const double most = limits.torque_fraction * model->effort()[i];
-    bounds[model->num_base_velocities() + i] = {-most, most};
+  if (!robot->torques.empty()) {
+    robot->phase->Constrain("motion", ActuatedMotion(model, robot->points), arguments, bounds,
+                            At::kEverywhere, scales);
+    return;
   }
-  robot->phase->Constrain(
-      "motion",
-      rows ? EquationOfMotion(model, robot->points) : ActuatedMotion(model, robot->points),
-      arguments, bounds, At::kEverywhere, scales);
+  for (int i = 0; i < model->num_joints(); ++i) {
+    bounds[model->num_base_velocities() + i] = Within(limits.torque_fraction * model->effort()[i]);
+  }
+  std::vector<TorqueSpeedRow> rows;
+  for (const LineLimit& line : LineLimits(*model, limits)) {
+    rows.push_back(line.row);
+    bounds.push_back(Within(line.most));
+    scales.push_back(kTorque);
+  }
+  robot->phase->Constrain("motion", EquationOfMotion(model, robot->points, rows), arguments, bounds,
+                          At::kEverywhere, scales);
 }
 
 }  // namespace

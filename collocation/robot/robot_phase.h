@@ -17,7 +17,7 @@ struct RobotLimits {
   double friction = 0.7;           ///< Coulomb
   double friction_fraction = 1;    ///< of `friction`
   double speed_fraction = 1;       ///< of the joints' speed limits
-  double torque_fraction = 1;      ///< of the joints' effort limits
+  double torque_fraction = 1;      ///< of the joints' effort limits and torque-speed lines
   double max_acceleration = 200;   ///< rad/s^2 and m/s^2, every coordinate
   double max_base_speed = 10;      ///< rad/s and m/s
   double min_normal_force = 0;     ///< N, at one contact point
@@ -27,7 +27,7 @@ struct RobotLimits {
 
 /// Who bears the torque limits.
 enum class Torques {
-  kRows,     ///< the joint rows of the equation of motion: fewest variables
+  kRows,     ///< rows of the equation of motion: fewest variables
   kControls  ///< variables of their own, which costs may name
 };
 

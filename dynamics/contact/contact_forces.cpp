@@ -175,7 +175,7 @@ std::optional<ContactForces> DistributeContactForces(MultibodyDynamics* dynamics
   balance.required = dynamics->InverseDynamics();
   balance.weight = dynamics->kinematics().total_mass() * kGravity;
   balance.num_base = model.num_base_velocities();
-  balance.efforts = model.effort();
+  balance.efforts = dynamics->torque_limits();
   balance.jacobians.resize(3 * points.size(), model.nv());
   for (std::size_t i = 0; i < points.size(); ++i) {
     dynamics->Jacobian(points[i], balance.jacobians.middleRows<3>(3 * i));

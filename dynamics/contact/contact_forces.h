@@ -13,7 +13,7 @@ struct ContactForceSettings {
   /// Coulomb; the lesser of this and the point's own counts. The cone is linearised from inside.
   double friction = 0.7;
   double friction_margin = 0.9;  ///< fraction of the friction that may be used
-  double torque_margin = 0.95;   ///< fraction of each joint's effort limit that may be used
+  double torque_margin = 0.95;   ///< fraction of each joint's torque limit that may be used
   /// N: every point's cone starts at this normal force, so that a force that turns out smaller by
   /// less than this still lies in the cone.
   double normal_reserve = 0;
@@ -32,15 +32,16 @@ struct ContactForces {
   /// Greatest ratio of tangential force to friction * normal force (without the margin); 0 at
   /// points that bear nothing.
   double friction_utilisation = 0;
-  /// Greatest |torque| over effort limit (without the margin).
+  /// Greatest |torque| over torque limit (without the margin).
   double torque_utilisation = 0;
 };
 
 /// Forces in the friction cones and joint torques within limits that realise the acceleration at
 /// the state of `dynamics`. They are the smallest in a weighted square norm, hence a smooth
-/// function of the state while the active set stays the same. Torques and limits are those of
-/// MultibodyModel's independent joints. None if no such forces exist. Without points: the torques
-/// of free flight, if a flying robot can have that acceleration.
+/// function of the state while the active set stays the same. Torques and limits
+/// (MultibodyDynamics::torque_limits) are those of MultibodyModel's independent joints. None if no
+/// such forces exist. Without points: the torques of free flight, if a flying robot can have that
+/// acceleration.
 /// @throws std::invalid_argument if the forces are not finite, a point names no link or is not
 /// finite, a normal is not a unit vector, a friction is not positive, a setting is out of range, or
 /// there is not one share per point.

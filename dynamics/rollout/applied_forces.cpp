@@ -26,6 +26,14 @@ const VectorXd& AppliedForces::Evaluate(double t, const Eigen::Ref<const VectorX
   return generalised_;
 }
 
+VectorXd FrictionSlopes(const MultibodyModel& model, const Eigen::Ref<const VectorXd>& v) {
+  VectorXd slopes(model.num_joints());
+  for (int i = 0; i < model.num_joints(); ++i) {
+    slopes[i] = model.actuator(i).FrictionSlope(v[model.num_base_velocities() + i]);
+  }
+  return slopes;
+}
+
 void StateRateJacobian(const MultibodyModel& model, const Eigen::Ref<const VectorXd>& q,
                        const MatrixXd& to_position, const MatrixXd& to_velocity,
                        Eigen::Ref<MatrixXd> jacobian) {

@@ -31,6 +31,10 @@ class AppliedForces {
   Eigen::VectorXd generalised_;
 };
 
+/// Derivatives of the joints' friction with respect to their rates; num_joints. `v`: nv.
+Eigen::VectorXd FrictionSlopes(const MultibodyModel& model,
+                               const Eigen::Ref<const Eigen::VectorXd>& v);
+
 /// Adds the stiff part of a state's rate: velocities, and the accelerations that `to_position` and
 /// `to_velocity` (nv x nv) give per change of the configuration's tangent and of the velocity.
 /// `q`: nq. `jacobian`: (nq + nv) square.

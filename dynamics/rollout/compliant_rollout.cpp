@@ -75,7 +75,8 @@ void CompliantSimulator::DifferentiateRate(double t, const Eigen::Ref<const Vect
   const int nv = model().nv(), joints = model().num_joints();
   MatrixXd by_position = MatrixXd::Zero(nv, nv), by_velocity = MatrixXd::Zero(nv, nv);
   by_position.diagonal().tail(joints) = -applied_.torques().Stiffness();
-  by_velocity.diagonal().tail(joints) = -applied_.torques().Damping();
+  by_velocity.diagonal().tail(joints) =
+      -applied_.torques().Damping() - FrictionSlopes(model(), state.tail(nv));
   MatrixXd J(3, nv);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const GroundReaction& reaction = reactions_[i];

@@ -37,7 +37,7 @@ void CheckCommand(const char* what, const VectorXd& values, Eigen::Index size, d
 }  // namespace
 
 JointTorques::JointTorques(const MultibodyModel& model, JointControl control)
-    : control_(std::move(control)), limits_(model.effort()) {
+    : control_(std::move(control)), lower_(-model.effort()), upper_(model.effort()) {
   CheckGains("stiffness", control_.stiffness, model.num_joints());
   CheckGains("damping", control_.damping, model.num_joints());
   for (const ContactPoint& point : control_.gravity_support) {
@@ -52,7 +52,7 @@ JointTorques::JointTorques(const MultibodyModel& model, JointControl control)
 const VectorXd& JointTorques::Evaluate(double t, const Eigen::Ref<const VectorXd>& q,
                                        const Eigen::Ref<const VectorXd>& v, bool is_supported,
                                        MultibodyDynamics* dynamics) {
-  const Eigen::Index joints = limits_.size();
+  const Eigen::Index joints = upper_.size();
   command_.position.setZero(joints);
   command_.velocity.setZero(joints);
   command_.torque.setZero(joints);
@@ -70,13 +70,21 @@ const VectorXd& JointTorques::Evaluate(double t, const Eigen::Ref<const VectorXd
     torques_ += control_.damping.cwiseProduct(command_.velocity - v.tail(joints));
   }
   if (control_.compensates_gravity && is_supported) AddGravityCompensation(dynamics);
-  torques_ = torques_.cwiseMin(limits_).cwiseMax(-limits_);
+  Clamp(v, dynamics->model());
   return torques_;
 }
 
+void JointTorques::Clamp(const Eigen::Ref<const VectorXd>& v, const MultibodyModel& model) {
+  for (int i = 0; model.has_lines() && i < model.num_joints(); ++i) {
+    upper_[i] = model.TorqueLimit(i, 1, v);
+    lower_[i] = -model.TorqueLimit(i, -1, v);
+  }
+  torques_ = torques_.cwiseMin(upper_).cwiseMax(lower_);
+}
+
 VectorXd JointTorques::Active(const VectorXd& gains) const {
-  if (gains.size() == 0) return VectorXd::Zero(limits_.size());
-  return (torques_.array().abs() < limits_.array()).select(gains, 0);
+  if (gains.size() == 0) return VectorXd::Zero(upper_.size());
+  return (torques_.array() < upper_.array() && torques_.array() > lower_.array()).select(gains, 0);
 }
 
 /// The robot as one rigid body (joints locked) at rest on its support: base acceleration a and

@@ -16,7 +16,7 @@ struct JointCommand {
 };
 
 /// Joint torques: feed-forward + stiffness (position - q) + damping (velocity - v), plus gravity
-/// compensation if enabled, clamped to the model's effort limits.
+/// compensation if enabled, clamped to what the actuators can deliver at the joints' speeds.
 struct JointControl {
   /// Fills in a command that is initialised with zeros. If empty, the command stays zero.
   std::function<void(double t, JointCommand* command)> command;
@@ -49,11 +49,12 @@ class JointTorques {
   Eigen::VectorXd Damping() const { return Active(control_.damping); }
 
  private:
+  void Clamp(const Eigen::Ref<const Eigen::VectorXd>& v, const MultibodyModel& model);
   Eigen::VectorXd Active(const Eigen::VectorXd& gains) const;
   void AddGravityCompensation(MultibodyDynamics* dynamics);
 
   JointControl control_;
-  Eigen::VectorXd limits_;
+  Eigen::VectorXd lower_, upper_;  // limits at the last state
   JointCommand command_;
   Eigen::VectorXd torques_;
 };

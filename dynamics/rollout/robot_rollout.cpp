@@ -158,11 +158,13 @@ class RobotSimulator::Impl {
   void RecordUtilisation(double t, const VectorXd& state, const RolloutStance& stance) {
     Matrix3Xd forces;
     robot_.Accelerate(t, state, stance, &forces);
-    const VectorXd& limits = robot_.model().effort();
-    for (int i = 0; i < limits.size(); ++i) {
-      if (!(limits[i] > 0) || !std::isfinite(limits[i])) continue;
+    const MultibodyModel& model = robot_.model();
+    for (int i = 0; i < model.num_joints(); ++i) {
+      const double torque = robot_.joint_torques()[i];
+      const double limit = model.TorqueLimit(i, torque, state.tail(model.nv()));
+      if (!(limit > 0) || !std::isfinite(limit)) continue;
       double& greatest = rollout_.torque_utilisation[i];
-      greatest = std::max(greatest, std::abs(robot_.joint_torques()[i]) / limits[i]);
+      greatest = std::max(greatest, std::abs(torque) / limit);
     }
     for (const ContactPatchBalance& patch : stance.patches) {
       const double utilisation =

@@ -116,7 +116,8 @@ void RolloutDynamics::DifferentiateRate(double t, const Eigen::Ref<const VectorX
   MatrixXd to_velocity = -2 * rate * response.to_drift;
   const auto to_torques = response.to_forces.rightCols(joints);
   to_position.rightCols(joints) -= to_torques * applied_.torques().Stiffness().asDiagonal();
-  to_velocity.rightCols(joints) -= to_torques * applied_.torques().Damping().asDiagonal();
+  const VectorXd damping = applied_.torques().Damping() + FrictionSlopes(model(), state.tail(nv()));
+  to_velocity.rightCols(joints) -= to_torques * damping.asDiagonal();
   StateRateJacobian(model(), state.head(nq()), to_position, to_velocity, jacobian);
 }
 

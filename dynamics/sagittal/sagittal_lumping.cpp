@@ -204,6 +204,40 @@ class Folder {
     joint->velocity = std::min(left.velocity, right.velocity);
     // A mimic joint has no motor.
     joint->effort = (left.mimic ? 0 : left.effort) + (right.mimic ? 0 : right.effort);
+    joint->actuator = CombinedActuator(pair);
+  }
+
+  /// Both motors drive one joint at one speed.
+  models::Actuator CombinedActuator(const SagittalJoint& pair) const {
+    const Joint& left = robot_.joints[pair.left];
+    const Joint& right = robot_.joints[pair.right];
+    if (left.mimic || right.mimic) return left.mimic ? right.actuator : left.actuator;
+    models::Actuator both = left.actuator;
+    const models::Actuator& other = right.actuator;
+    both.armature += other.armature;
+    both.viscous_friction += other.viscous_friction;
+    both.dry_friction += other.dry_friction;
+    if (left.actuator.dry_friction == 0) both.dry_speed = other.dry_speed;
+    if (left.actuator.dry_friction > 0 && other.dry_friction > 0 &&
+        left.actuator.dry_speed != other.dry_speed) {
+      Fail(PairName(pair.left, pair.right) + " differ in their dry_speed");
+    }
+    CheckLines(pair);
+    if (both.line) both.line->stall_torque += other.line->stall_torque;
+    return both;
+  }
+
+  /// Limits of a pair add up to the limit of the sum only if both fall alike.
+  void CheckLines(const SagittalJoint& pair) const {
+    const Joint& left = robot_.joints[pair.left];
+    const Joint& right = robot_.joints[pair.right];
+    const auto& a = left.actuator.line;
+    const auto& b = right.actuator.line;
+    if (!a && !b) return;
+    const bool alike = a && b && a->no_load_speed == b->no_load_speed &&
+                       std::abs(a->stall_torque * right.effort - b->stall_torque * left.effort) <=
+                           kTolerance * a->stall_torque * right.effort;
+    if (!alike) Fail(PairName(pair.left, pair.right) + " differ in their torque-speed lines");
   }
 
   void LumpLinks() {

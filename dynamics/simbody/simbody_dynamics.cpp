@@ -54,11 +54,19 @@ void CheckFinite(const char* what, const double* values, Eigen::Index size) {
   }
 }
 
+bool HasRotors(const models::RobotModel& model) {
+  for (const models::Joint& joint : model.joints) {
+    if (joint.actuator.armature > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 /// The robot with gravity, mobility forces and the couplings of its mimic joints.
 struct SimbodyDynamics::System {
-  explicit System(const models::RobotModel& model) : matter(system), general_forces(system) {
+  System(const models::RobotModel& model, bool with_rotors)
+      : matter(system), general_forces(system), nq(model.nq()), nv(model.nv()) {
     bodies.push_back(SimTK::MobilizedBody::Free(
         matter.Ground(), SimTK::Body::Rigid(ToMassProperties(model.links[0].inertial))));
     for (int i = 0; i < model.num_joints(); ++i) {
@@ -66,6 +74,8 @@ struct SimbodyDynamics::System {
     }
     for (int i = 0; i < model.num_joints(); ++i) {
       if (model.joints[i].mimic) Couple(bodies[i + 1], *model.joints[i].mimic);
+      const double armature = model.joints[i].actuator.armature;
+      if (with_rotors && armature > 0) AddRotor(i, armature);
     }
     SimTK::Force::Gravity(general_forces, matter, SimTK::Vec3(0, 0, -kGravity));
     applied = SimTK::Force::DiscreteForces(general_forces, matter);
@@ -88,6 +98,16 @@ struct SimbodyDynamics::System {
     }
   }
 
+  /// A rotor with its bearing on the ground, so that the robot's motion does not carry it. Its
+  /// mass does not move.
+  void AddRotor(int joint, double armature) {
+    const SimTK::Body::Rigid body(
+        SimTK::MassProperties(1, SimTK::Vec3(0), SimTK::Inertia(armature)));
+    rotors.push_back(SimTK::MobilizedBody::Pin(matter.Ground(), body));
+    rotor_joints.push_back(joint);
+    Couple(rotors.back(), {joint, 1, 0});
+  }
+
   /// q - multiplier * q of the master - offset = 0.
   void Couple(const SimTK::MobilizedBody& body, const models::Mimic& mimic) {
     SimTK::Vector coefficients(3);
@@ -107,8 +127,6 @@ struct SimbodyDynamics::System {
   void Finish() {
     state = system.realizeTopology();
     system.realizeModel(state);
-    nq = state.getNQ();
-    nv = state.getNU();
     for (const SimTK::MobilizedBody& body : bodies) {
       first_q.push_back(body.getFirstQIndex(state));
       first_u.push_back(body.getFirstUIndex(state));
@@ -125,10 +143,14 @@ struct SimbodyDynamics::System {
     for (int i = 7; i < nq; ++i) to_q[first_q[i - 6]] = q.data()[i];
     SimTK::Vector& to_u = state.updU();
     for (int i = 0; i < nv; ++i) to_u[UIndex(i)] = v.data()[i];
+    for (std::size_t i = 0; i < rotors.size(); ++i) {
+      to_q[rotors[i].getFirstQIndex(state)] = q.data()[7 + rotor_joints[i]];
+      to_u[rotors[i].getFirstUIndex(state)] = v.data()[6 + rotor_joints[i]];
+    }
   }
 
   SimTK::Vector ToMobilities(const double* values) const {
-    SimTK::Vector mobilities(nv);
+    SimTK::Vector mobilities(state.getNU(), 0.0);
     for (int i = 0; i < nv; ++i) mobilities[UIndex(i)] = values[i];
     return mobilities;
   }
@@ -150,8 +172,10 @@ struct SimbodyDynamics::System {
   SimTK::GeneralForceSubsystem general_forces;
   SimTK::Force::DiscreteForces applied;
   std::vector<SimTK::MobilizedBody> bodies;  ///< by link
+  std::vector<SimTK::MobilizedBody> rotors;
+  std::vector<int> rotor_joints;
   SimTK::State state;
-  int nq = 0;
+  int nq = 0;  ///< of the robot
   int nv = 0;
   std::vector<int> first_q;  ///< by link
   std::vector<int> first_u;
@@ -159,7 +183,7 @@ struct SimbodyDynamics::System {
 
 struct SimbodyDynamics::HeldSystem : System {
   HeldSystem(const models::RobotModel& model, const std::vector<int>& held_links)
-      : System(model), links(held_links) {
+      : System(model, true), links(held_links) {
     for (const int link : links) {
       balls.push_back(SimTK::Constraint::Ball(matter.Ground(), bodies[link]));
     }
@@ -194,8 +218,11 @@ struct SimbodyDynamics::HeldSystem : System {
 };
 
 SimbodyDynamics::SimbodyDynamics(const models::RobotModel& model)
-    : model_(model), free_(std::make_unique<System>(model)) {
+    : model_(model), free_(std::make_unique<System>(model, false)) {
   free_->Finish();
+  if (!HasRotors(model)) return;
+  driven_ = std::make_unique<System>(model, true);
+  driven_->Finish();
 }
 SimbodyDynamics::~SimbodyDynamics() = default;
 SimbodyDynamics::SimbodyDynamics(SimbodyDynamics&&) noexcept = default;
@@ -231,13 +258,32 @@ Eigen::VectorXd SimbodyDynamics::InverseDynamics(const Eigen::Ref<const Eigen::V
   SimTK::Vector residual;
   free_->matter.calcResidualForceIgnoringConstraints(free_->state, SimTK::Vector(), gravity,
                                                      free_->ToMobilities(a.data()), residual);
-  return free_->FromMobilities(residual);
+  Eigen::VectorXd forces = free_->FromMobilities(residual);
+  for (int i = 0; i < model_.num_joints(); ++i) {
+    const models::Actuator& actuator = model_.joints[i].actuator;
+    if (!actuator.HasLosses()) continue;
+    forces.data()[6 + i] +=
+        actuator.armature * a.data()[6 + i] + actuator.Friction(v_.data()[6 + i]);
+  }
+  return forces;
+}
+
+Eigen::VectorXd SimbodyDynamics::WithoutFriction(
+    const Eigen::Ref<const Eigen::VectorXd>& forces) const {
+  Eigen::VectorXd rest = forces;
+  for (int i = 0; i < model_.num_joints(); ++i) {
+    rest.data()[6 + i] -= model_.joints[i].actuator.Friction(v_.data()[6 + i]);
+  }
+  return rest;
 }
 
 Eigen::VectorXd SimbodyDynamics::ForwardDynamics(const Eigen::Ref<const Eigen::VectorXd>& forces) {
   CheckSize("forces", forces.size(), free_->nv);
   CheckFinite("forces", forces.data(), forces.size());
-  return free_->Accelerate(forces.data());
+  const Eigen::VectorXd rest = WithoutFriction(forces);
+  if (!driven_) return free_->Accelerate(rest.data());
+  driven_->SetState(q_, v_);
+  return driven_->Accelerate(rest.data());
 }
 
 SimbodyDynamics::HeldMotion SimbodyDynamics::ForwardDynamics(
@@ -257,13 +303,18 @@ SimbodyDynamics::HeldMotion SimbodyDynamics::ForwardDynamics(
   held_->SetState(q_, v_);
   held_->Place(held);
   HeldMotion motion;
-  motion.acceleration = held_->Accelerate(forces.data());
+  motion.acceleration = held_->Accelerate(WithoutFriction(forces).data());
   motion.forces = held_->Reactions();
   return motion;
 }
 
 double SimbodyDynamics::KineticEnergy() const {
-  return free_->matter.calcKineticEnergy(free_->state);
+  double energy = free_->matter.calcKineticEnergy(free_->state);
+  for (int i = 0; i < model_.num_joints(); ++i) {
+    const double speed = v_.data()[6 + i];
+    energy += model_.joints[i].actuator.armature * speed * speed / 2;
+  }
+  return energy;
 }
 
 double SimbodyDynamics::PotentialEnergy() const {
@@ -285,6 +336,9 @@ Eigen::MatrixXd SimbodyDynamics::MassMatrix() const {
   Eigen::MatrixXd result(n, n);
   for (int c = 0; c < n; ++c) {
     for (int r = 0; r < n; ++r) result.data()[c * n + r] = M(free_->UIndex(r), free_->UIndex(c));
+  }
+  for (int i = 0; i < model_.num_joints(); ++i) {
+    result.data()[(6 + i) * (n + 1)] += model_.joints[i].actuator.armature;
   }
   return result;
 }

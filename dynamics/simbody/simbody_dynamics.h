@@ -14,6 +14,10 @@ namespace possibility::dynamics {
 /// forward dynamics). Conventions of q, v, a: models::RobotModel; of generalised forces:
 /// TreeKinematics.
 ///
+/// Actuators: their rotors and friction are in inverse dynamics, the mass matrix, the kinetic
+/// energy and forward dynamics, where each rotor is a body of its own that a constraint turns with
+/// its joint.
+///
 /// Mimic joints: inverse dynamics, the mass matrix and Jacobians are those of the tree, where every
 /// joint is independent. Forward dynamics holds mimic joints to their masters by constraints.
 ///
@@ -67,7 +71,11 @@ class SimbodyDynamics {
   models::RobotModel model_;
   Eigen::VectorXd q_;
   Eigen::VectorXd v_;
+  /// What friction leaves of generalised forces.
+  Eigen::VectorXd WithoutFriction(const Eigen::Ref<const Eigen::VectorXd>& forces) const;
+
   std::unique_ptr<System> free_;
+  std::unique_ptr<System> driven_;    ///< with rotors; null if there are none
   std::unique_ptr<HeldSystem> held_;  ///< for the last links held
 };
 

@@ -10,7 +10,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MultibodyDynamics::MultibodyDynamics(std::shared_ptr<const MultibodyModel> model)
-    : model_(std::move(model)), tree_(model_->tree()) {
+    : model_(std::move(model)), tree_(model_->tree()), torque_limits_(model_->effort()) {
   const int nv = model_->nv();
   forces_.setZero(nv);
   mass_matrix_.setZero(nv, nv);
@@ -54,6 +54,7 @@ void MultibodyDynamics::SetState(const Eigen::Ref<const VectorXd>& q,
   Check("q", q, model_->nq());
   Check("v", v, model_->nv());
   Check("a", a, model_->nv());
+  if (model_->has_lines()) torque_limits_ = model_->TorqueLimits(v);
   if (model_->is_identity()) {
     tree_.SetState(q, v, a);
   } else {

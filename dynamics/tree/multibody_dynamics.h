@@ -34,12 +34,15 @@ class MultibodyDynamics {
   /// Sets another acceleration at the same state; nv.
   void SetAcceleration(const Eigen::Ref<const Eigen::VectorXd>& a);
 
-  /// M(q) a + c(q, v) + g(q) at the acceleration set; nv.
+  /// M(q) a + c(q, v) + g(q), with the torques of rotors and friction, at the acceleration set; nv.
   const Eigen::VectorXd& InverseDynamics();
-  /// nv x nv, symmetric.
+  /// nv x nv, symmetric; with the rotors.
   const Eigen::MatrixXd& MassMatrix();
   /// First derivatives of InverseDynamics at the acceleration set, each nv x nv.
   const InverseDynamicsDerivatives& Differentiate();
+
+  /// MultibodyModel::TorqueLimits at the state set.
+  const Eigen::VectorXd& torque_limits() const { return torque_limits_; }
 
   Eigen::Vector3d Position(const ContactPoint& point) const;
   Eigen::Vector3d Velocity(const ContactPoint& point) const;
@@ -79,6 +82,7 @@ class MultibodyDynamics {
 
   std::shared_ptr<const MultibodyModel> model_;
   TreeDerivatives tree_;
+  Eigen::VectorXd torque_limits_;
   // Only for models whose coordinates are not the tree's.
   Eigen::VectorXd forces_;
   Eigen::MatrixXd mass_matrix_;

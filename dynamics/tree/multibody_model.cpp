@@ -181,6 +181,7 @@ void MultibodyModel::CombineLimits() {
     upper_[i] = joint.upper;
     velocity_[i] = joint.velocity;
     effort_[i] = joint.effort;
+    has_lines_ = has_lines_ || joint.actuator.line;
   }
   for (int j = 0; j < tree_.num_joints(); ++j) {
     const models::Joint& joint = tree_.joints[j];
@@ -194,6 +195,16 @@ void MultibodyModel::CombineLimits() {
     upper_[i] = std::min(upper_[i], std::max(a, b));
     velocity_[i] = std::min(velocity_[i], joint.velocity / std::abs(factor));
   }
+}
+
+VectorXd MultibodyModel::TorqueLimits(const Eigen::Ref<const VectorXd>& v) const {
+  CheckSize("v", v.size(), nv());
+  VectorXd limits = effort_;
+  if (!has_lines_) return limits;
+  for (int i = 0; i < num_joints(); ++i) {
+    limits[i] = actuator(i).Limit(effort_[i], v[num_base_velocities() + i]);
+  }
+  return limits;
 }
 
 VectorXd MultibodyModel::TreeConfiguration(const Eigen::Ref<const VectorXd>& q) const {

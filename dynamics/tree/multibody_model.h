@@ -74,7 +74,20 @@ class MultibodyModel {
   const Eigen::VectorXd& lower() const { return lower_; }        ///< rad or m, may be -inf
   const Eigen::VectorXd& upper() const { return upper_; }        ///< rad or m, may be +inf
   const Eigen::VectorXd& velocity() const { return velocity_; }  ///< rad/s or m/s
-  const Eigen::VectorXd& effort() const { return effort_; }      ///< N m or N
+  const Eigen::VectorXd& effort() const { return effort_; }      ///< N m or N, at rest
+  /// Greatest torque in both directions at velocity `v` (nv), by independent joint: what their
+  /// torque-speed lines leave of effort().
+  Eigen::VectorXd TorqueLimits(const Eigen::Ref<const Eigen::VectorXd>& v) const;
+  /// Of an independent joint, for a torque of this sign; N m or N.
+  double TorqueLimit(int joint, double torque, const Eigen::Ref<const Eigen::VectorXd>& v) const {
+    return actuator(joint).Limit(effort_[joint], torque, v[num_base_velocities() + joint]);
+  }
+  /// Whether some independent joint has a torque-speed line.
+  bool has_lines() const { return has_lines_; }
+  /// Of an independent joint.
+  const models::Actuator& actuator(int joint) const {
+    return tree_.joints[joints_[joint]].actuator;
+  }
 
   /// Tree coordinates of independent ones. @throws std::invalid_argument for a wrong size.
   Eigen::VectorXd TreeConfiguration(const Eigen::Ref<const Eigen::VectorXd>& q) const;
@@ -111,6 +124,7 @@ class MultibodyModel {
   std::vector<std::vector<int>> sources_;           ///< by velocity: the tree's that it drives
   std::vector<std::vector<bool>> moves_, related_;  ///< by velocity and link, by two velocities
   bool is_identity_ = true;
+  bool has_lines_ = false;
   Eigen::VectorXd lower_, upper_, velocity_, effort_;
 };
 

@@ -8,7 +8,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 TreeDerivatives::TreeDerivatives(const models::RobotModel& model)
-    : motion_(model), hessian_(model) {
+    : motion_(model), actuators_(model), hessian_(model) {
   const int nv = model.nv();
   mass_matrix_.setZero(nv, nv);
   derivatives_.dq = derivatives_.dv = derivatives_.da = mass_matrix_;
@@ -16,6 +16,22 @@ TreeDerivatives::TreeDerivatives(const models::RobotModel& model)
   centroidal_.momentum.setZero(6);
   centroidal_.momentum_dq.setZero(6, nv);
   centroidal_.momentum_dv.setZero(6, nv);
+}
+
+const Eigen::VectorXd& TreeDerivatives::InverseDynamics() {
+  if (actuators_.empty()) return motion_.InverseDynamics();
+  forces_ = motion_.InverseDynamics();
+  actuators_.AddTorques(&forces_);
+  return forces_;
+}
+
+const HessianProduct& TreeDerivatives::Hessian(const Eigen::Ref<const Eigen::VectorXd>& lambda,
+                                               const std::vector<PointTerm>& terms) {
+  const HessianProduct& links = hessian_.Compute(motion_, lambda, terms);
+  if (actuators_.empty()) return links;
+  with_actuators_ = links;
+  actuators_.AddHessian(lambda, &with_actuators_.vv);
+  return with_actuators_;
 }
 
 Vector3d TreeDerivatives::Position(int link, const Vector3d& p_L) const {
@@ -61,13 +77,15 @@ const Eigen::MatrixXd& TreeDerivatives::MassMatrix() {
     StoreColumn(inertia, c, &mass_matrix_);
     StoreRow(inertia, c, &mass_matrix_);
   }
+  actuators_.AddInertia(&mass_matrix_);
   return mass_matrix_;
 }
 
 const InverseDynamicsDerivatives& TreeDerivatives::Differentiate() {
-  derivatives_.forces = motion_.InverseDynamics();
+  derivatives_.forces = InverseDynamics();
   for (int i = motion_.num_links() - 1; i > 0; --i) DifferentiateJoint(i);
   DifferentiateRoot();
+  actuators_.AddDerivatives(&derivatives_.dv, &derivatives_.da);
   return derivatives_;
 }
 

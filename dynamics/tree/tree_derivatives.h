@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dynamics/tree/actuator_torques.h"
 #include "dynamics/tree/point_derivatives.h"
 #include "dynamics/tree/tree_hessian.h"
 #include "dynamics/tree/tree_motion.h"
@@ -27,7 +28,8 @@ struct CentroidalQuantities {
 };
 
 /// Inverse dynamics of a floating-base tree with exact first and second derivatives: two sweeps
-/// over the tree and one product per pair of a joint and its ancestor (docs/dynamics.md). q, v, a,
+/// over the tree and one product per pair of a joint and its ancestor (docs/dynamics.md), and what
+/// the joints' actuators add. q, v, a,
 /// generalised forces: TreeKinematics; derivatives with respect to q are with respect to a
 /// rotation vector of the root in world axes, a translation, and the joints (nv numbers).
 /// Returned references stay valid until the next call of the same function. One workspace per
@@ -46,12 +48,17 @@ class TreeDerivatives {
                 const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& a) {
     motion_.SetState(q, v, a);
+    actuators_.SetVelocity(v);
+    actuators_.SetAcceleration(a);
   }
   /// Sets another acceleration at the same q and v.
-  void SetAcceleration(const Eigen::Ref<const Eigen::VectorXd>& a) { motion_.SetAcceleration(a); }
+  void SetAcceleration(const Eigen::Ref<const Eigen::VectorXd>& a) {
+    motion_.SetAcceleration(a);
+    actuators_.SetAcceleration(a);
+  }
 
-  /// Generalised forces at the acceleration set, gravity included; nv.
-  const Eigen::VectorXd& InverseDynamics() const { return motion_.InverseDynamics(); }
+  /// Generalised forces at the acceleration set, gravity and actuators included; nv.
+  const Eigen::VectorXd& InverseDynamics();
   const Eigen::MatrixXd& MassMatrix();  ///< nv x nv
   const InverseDynamicsDerivatives& Differentiate();
 
@@ -71,9 +78,7 @@ class TreeDerivatives {
 
   /// Second derivatives of lambda' InverseDynamics + the point terms; `lambda`: nv.
   const HessianProduct& Hessian(const Eigen::Ref<const Eigen::VectorXd>& lambda,
-                                const std::vector<PointTerm>& terms) {
-    return hessian_.Compute(motion_, lambda, terms);
-  }
+                                const std::vector<PointTerm>& terms);
   /// After Hessian at the same state: TreeHessian::DifferentiateVirtualVelocity.
   const Eigen::MatrixXd& DifferentiateVirtualVelocity(int link, const Eigen::Vector3d& p_L) {
     hessian_.DifferentiateVirtualVelocity(link, p_L, &virtual_velocity_dq_);
@@ -85,6 +90,9 @@ class TreeDerivatives {
   void DifferentiateJoint(int link);
 
   TreeMotion motion_;
+  ActuatorTorques actuators_;
+  Eigen::VectorXd forces_;  // with actuators
+  HessianProduct with_actuators_;
   Eigen::MatrixXd mass_matrix_;
   InverseDynamicsDerivatives derivatives_;
   PointDerivatives point_;

@@ -31,6 +31,7 @@ constexpr Field kFields[] = {
     {"side_slope_deg", -30, 30,
      [](double value, Perturbation* p) { p->side_slope = kDegree * value; }},
     {"torque", 0.01, 10, [](double value, Perturbation* p) { p->torque = value; }},
+    {"armature", 0, 100, [](double value, Perturbation* p) { p->armature = value; }},
     {"friction", 0.01, 10, [](double value, Perturbation* p) { p->friction = value; }},
     {"push_ns", 0, 1000, [](double value, Perturbation* p) { p->push = value; }},
     {"push_direction_deg", -360, 360,

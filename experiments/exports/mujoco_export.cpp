@@ -192,6 +192,10 @@ class MujocoWriter {
     if (std::isfinite(joint.lower) && joint.lower < joint.upper && std::isfinite(joint.upper)) {
       element.Set("limited", "true").Set("range", fmt::format("{} {}", joint.lower, joint.upper));
     }
+    const models::Actuator& actuator = joint.actuator;
+    if (actuator.armature > 0) element.Set("armature", actuator.armature);
+    if (actuator.viscous_friction > 0) element.Set("damping", actuator.viscous_friction);
+    if (actuator.dry_friction > 0) element.Set("frictionloss", actuator.dry_friction);
   }
 
   void WriteInertia(const models::Inertial& inertial) {

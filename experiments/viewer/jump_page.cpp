@@ -159,7 +159,9 @@ void AddExtremes(const LoadedJump& loaded, PageHeading* heading) {
       for (int i = 0; i < loaded.robot.num_joints(); ++i) {
         const models::Joint& joint = loaded.robot.joints[i];
         speed.Consider(knot.v[6 + i], joint.velocity, joint.name, knot.t);
-        if (!joint.mimic) torque.Consider(motors[i], joint.effort, joint.name, knot.t);
+        if (joint.mimic) continue;
+        const double limit = joint.actuator.Limit(joint.effort, motors[i], knot.v[6 + i]);
+        torque.Consider(motors[i], limit, joint.name, knot.t);
       }
     }
   }

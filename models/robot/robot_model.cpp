@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "models/input/input_error.h"
 #include "models/input/nearest_name.h"
@@ -53,6 +54,17 @@ bool RobotModel::IsCoupled(int joint) const {
   return std::any_of(joints.begin(), joints.end(), [joint](const Joint& other) {
     return other.mimic && other.mimic->joint == joint;
   });
+}
+
+std::vector<int> RobotModel::LegJoints() const {
+  std::set<int> legs;
+  if (gaits.empty()) return {};
+  for (const GaitLimb& limb : gaits.front().limbs) {
+    for (const int joint : limb.joints) {
+      if (!joints[joint].mimic) legs.insert(joint);
+    }
+  }
+  return {legs.begin(), legs.end()};
 }
 
 int RobotModel::LinkIndex(const std::string& link) const {

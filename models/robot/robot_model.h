@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "models/robot/actuator.h"
 #include "models/shapes/shape.h"
 
 namespace possibility::models {
@@ -47,6 +48,7 @@ struct Joint {
   double velocity = 0;  ///< rad/s or m/s
   double effort = 0;    ///< N m or N; infinite for a mimic joint, whose master's limit counts
   std::optional<Mimic> mimic;
+  Actuator actuator = {};  ///< of the motor; a mimic joint has none
 };
 
 /// A part of the robot that may bear on the ground: the corner points of a sole, or the tip of a
@@ -145,6 +147,8 @@ struct RobotModel {
   double TotalMass() const;
   /// Whether the joint mimics another one or is mimicked.
   bool IsCoupled(int joint) const;
+  /// The joints of the limbs of the first gait, without mimic joints, in the tree's order.
+  std::vector<int> LegJoints() const;
   /// Index by name. @throws InputError naming the nearest known name.
   int LinkIndex(const std::string& name) const;
   int JointIndex(const std::string& name) const;

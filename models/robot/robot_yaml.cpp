@@ -14,6 +14,7 @@
 #include "models/input/input_error.h"
 #include "models/input/named_lookup.h"
 #include "models/input/yaml_reader.h"
+#include "models/robot/actuator_yaml.h"
 #include "models/robot/gait_yaml.h"
 #include "models/robot/mesh_shapes.h"
 #include "models/robot/urdf_reader.h"
@@ -201,23 +202,10 @@ std::vector<std::pair<int, int>> ReadSagittalPairs(const YamlNode& list, const R
   return pairs;
 }
 
-const std::vector<std::string> kRobotKeys = {"name",
-                                             "urdf",
-                                             "root_link",
-                                             "pelvis_link",
-                                             "lump",
-                                             "packages",
-                                             "friction",
-                                             "position",
-                                             "velocity",
-                                             "effort",
-                                             "shapes",
-                                             "contacts",
-                                             "gaits",
-                                             "transitions",
-                                             "jumps",
-                                             "sagittal_pairs",
-                                             "ignored_collisions"};
+const std::vector<std::string> kRobotKeys = {
+    "name",     "urdf",     "root_link",   "pelvis_link", "lump",           "packages",
+    "friction", "position", "velocity",    "effort",      "actuators",      "shapes",
+    "contacts", "gaits",    "transitions", "jumps",       "sagittal_pairs", "ignored_collisions"};
 
 /// Folders of packages, relative to the YAML.
 std::vector<std::filesystem::path> ReadPackages(const YamlNode& root,
@@ -245,6 +233,7 @@ void ReadPhysics(const YamlNode& root, const std::filesystem::path& urdf_file, U
   if (const auto efforts = root.Find("effort")) ReadEfforts(*efforts, robot);
   CheckMagnitudes(urdf_file, *robot);
   CheckEfforts(root, *robot);
+  if (const auto actuators = root.Find("actuators")) ReadActuators(*actuators, robot);
   if (const auto shapes = root.Find("shapes")) ReadShapes(*shapes, robot, &built->meshes);
 }
 

@@ -199,8 +199,8 @@ def margins(plan: Plan, *, threads: Optional[int] = None) -> Dict[str, Dict[str,
 def rollout(plan: Plan, *, threads: Optional[int] = None, **perturbation: float) -> Rollout:
     """Simulates a plan on a perturbed robot and ground, as `possibility rollout` does.
 
-    Perturbations: mass, slope_deg, side_slope_deg, torque, friction, push_ns, push_direction_deg,
-    push_share (docs/rollouts.md). None: as planned. Ctrl-C ends it.
+    Perturbations: mass, slope_deg, side_slope_deg, torque, armature, friction, push_ns,
+    push_direction_deg, push_share (docs/rollouts.md). None: as planned. Ctrl-C ends it.
     """
     text = ",".join(f"{name}={value!r}" for name, value in perturbation.items())
     try:

@@ -77,6 +77,20 @@ inline models::RobotModel RandomTree(std::mt19937* random, int num_joints) {
   return model;
 }
 
+/// The same robot with rotors, friction and torque-speed lines at some joints that mimic no other.
+inline models::RobotModel WithActuators(models::RobotModel model, std::mt19937* random) {
+  for (models::Joint& joint : model.joints) {
+    if (joint.mimic) continue;
+    models::Actuator& actuator = joint.actuator;
+    if ((*random)() % 3 != 0) actuator.armature = Uniform(random, 0.01, 2);
+    if ((*random)() % 3 != 0) actuator.viscous_friction = Uniform(random, 0.1, 5);
+    if ((*random)() % 3 != 0) actuator.dry_friction = Uniform(random, 0.1, 5);
+    actuator.dry_speed = Uniform(random, 1, 3);
+    if ((*random)() % 3 != 0) actuator.line = models::TorqueSpeedLine{600, 12};
+  }
+  return model;
+}
+
 /// A tree in the plane y = 0 with turning and sliding joints.
 inline models::RobotModel RandomPlanarTree(std::mt19937* random, int num_joints) {
   models::RobotModel tree = RandomTree(random, num_joints);

@@ -51,6 +51,28 @@ def _load(robot, joints):
     return skeleton
 
 
+class Actuators:
+    """The YAML's `actuators` (docs/file_formats.md), one number per joint of the plan. DART knows
+    no armature."""
+
+    def __init__(self, entries):
+        def column(key, default):
+            return np.array([entry.get(key, default) for entry in entries], float)
+        self.armature = column("armature", 0)
+        self._viscous, self._dry = column("viscous_friction", 0), column("dry_friction", 0)
+        self._dry_speed = column("dry_speed", 0.1)
+        self._stall, self._no_load = column("stall_torque", np.inf), column("no_load_speed", np.inf)
+
+    def torques(self, rates, accelerations):
+        return (self.armature * accelerations + self._viscous * rates +
+                self._dry * np.tanh(rates / self._dry_speed))
+
+    def limits(self, effort, torques, rates):
+        """A driving torque falls with the speed, a braking one does not."""
+        line = self._stall * (1 - np.where(torques < 0, -rates, rates) / self._no_load)
+        return np.minimum(effort, np.maximum(line, 0))
+
+
 class DartRobot:
     """A DART skeleton with a floating root. Joints that the plan does not have stay in the skeleton
     and are held at 0. Their rows are those of a lock and are not checked."""
@@ -80,6 +102,7 @@ class DartRobot:
         self.speed = np.array([dofs[name].getVelocityLimits()[1] for name in joints])
         self.effort = np.array([robot.effort.get(name, dofs[name].getForceLimits()[1])
                                 for name in joints])
+        self._actuators = Actuators([robot.actuators.get(name, {}) for name in joints])
         for name, limits in (("speed", self.speed), ("torque", self.effort)):
             if not (limits > 0).all():
                 raise InputError(f"{robot.urdf}: joint {joints[int((limits > 0).argmin())]}: "
@@ -88,6 +111,7 @@ class DartRobot:
     def set_state(self, state, with_acceleration=True):
         """Puts the skeleton there; DART turns world axes into its own coordinates."""
         n = self._skeleton.getNumDofs()
+        self._rates, self._accelerations = state.v[6:], state.a[6:]
         pose = dart.math.Isometry3(state.rotation, state.position)
         root = self._root.convertToPositions(pose)
         self._skeleton.setPositions(self._spread(n, state.joints, root))
@@ -114,7 +138,12 @@ class DartRobot:
         self._skeleton.computeInverseDynamics(True)
         answer = self._skeleton.getForces()
         self._skeleton.clearExternalForces()
-        return answer[:6], answer[self._kept]
+        taken = self._actuators.torques(self._rates, self._accelerations)
+        return answer[:6], answer[self._kept] + taken
+
+    def torque_limits(self, torques):
+        """At the rates of the state set, for torques of these signs."""
+        return self._actuators.limits(self.effort, torques, self._rates)
 
     def places(self, points):
         """World positions (n x 3)."""
@@ -138,7 +167,10 @@ class DartRobot:
             jacobian = self._skeleton.getLinearJacobian(self._bodies[patch],
                                                         self._patches[patch].points[index])
             change -= jacobian.T @ impulse
-        return change[self._rows], self._skeleton.computeKineticEnergy() - energy
+        change, gain = change[self._rows], self._skeleton.computeKineticEnergy() - energy
+        armature = self._actuators.armature
+        change[6:] += armature * (after.v[6:] - before.v[6:])
+        return change, gain + armature @ (after.v[6:]**2 - before.v[6:]**2) / 2
 
     def prescribe_joints(self):
         """From here on DART's forward dynamics takes the joints' accelerations as given."""

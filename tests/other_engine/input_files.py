@@ -33,6 +33,7 @@ class Robot:
     friction: float
     effort: dict  # joint -> limit that replaces the URDF's
     patches: dict  # name -> Patch
+    actuators: dict  # joint -> {key of the YAML: number}
 
 
 @dataclass
@@ -127,6 +128,16 @@ def _numbers(value, shape, where):
     return array.astype(float)
 
 
+def _read_actuators(node, file):
+    actuators = {}
+    for entry in _get(node, "actuators", list, file) if "actuators" in node else []:
+        where = f"{file}: actuators"
+        numbers = {key: float(_get(entry, key, float, where))
+                   for key in entry if key not in ("joints", "reason")}
+        actuators.update((joint, numbers) for joint in _names(entry, "joints", where))
+    return actuators
+
+
 def _read_robot(file):
     node = _yaml_of(file)
     patches = {}
@@ -141,7 +152,8 @@ def _read_robot(file):
         effort.update((joint, limit) for joint in _names(entry, "joints", f"{file}: effort"))
     urdf = os.path.join(os.path.dirname(file), _get(node, "urdf", str, file))
     return Robot(file, urdf, _get(node, "root_link", str, file), set(_names(node, "lump", file)),
-                 float(_get(node, "friction", float, file)), effort, patches)
+                 float(_get(node, "friction", float, file)), effort, patches,
+                 _read_actuators(node, file))
 
 
 def _read_ground(file, robots_friction):

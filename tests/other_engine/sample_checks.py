@@ -55,7 +55,8 @@ class SampleChecks:
         self._findings.note_largest("joint torque against the plan's",
                                     abs(torques - phase.tau[knot]), phase, time, joints)
         self._findings.note_largest("joint torque / limit",
-                                    abs(phase.tau[knot]) / self._robot.effort, phase, time, joints)
+                                    abs(phase.tau[knot]) /
+                                    self._robot.torque_limits(phase.tau[knot]), phase, time, joints)
         self._common(phase, time, state, torques, phase.forces[knot])
 
     def _between(self, phase, knot, rate):
@@ -104,7 +105,8 @@ class SampleChecks:
     def _common(self, phase, time, state, torques, forces):
         self.samples += 1
         robot, note_largest, joints = self._robot, self._findings.note_largest, self._plan.joints
-        note_largest("joint torque / limit", abs(torques) / robot.effort, phase, time, joints)
+        note_largest("joint torque / limit", abs(torques) / robot.torque_limits(torques), phase, time,
+                     joints)
         note_largest("joint speed / limit", abs(state.v[6:]) / robot.speed, phase, time, joints)
         beyond = np.maximum(robot.lowest - state.joints, state.joints - robot.highest)
         note_largest("joint beyond its range", np.maximum(beyond, 0), phase, time, joints)

@@ -28,6 +28,7 @@ struct Motion {
   Motion(double gap, double wildness, std::mt19937* generator) : robot(DrcHubo1()) {
     for (models::Joint& joint : robot.joints) {
       if ((*generator)() % 5 == 0) joint.type = models::JointType::kPrismatic;
+      if ((*generator)() % 5 == 0) joint.actuator = {2, 3, 4, 0.3, {}};
     }
     const int n = robot.nv();
     k0.q = Random(n + 1, 0.3, generator);
@@ -70,6 +71,10 @@ VectorXd Rest(const Motion& motion, const KnotInterpolant& interpolant, double t
   kinematics.SetPosition(knot.q);
   kinematics.SetVelocity(knot.v);
   VectorXd rest = dynamics::NewtonEuler(kinematics, knot.a);
+  for (int j = 0; j < motion.robot.num_joints(); ++j) {
+    const models::Actuator& actuator = motion.robot.joints[j].actuator;
+    rest[6 + j] += actuator.armature * knot.a[6 + j] + actuator.Friction(knot.v[6 + j]);
+  }
   for (std::size_t i = 0; i < motion.points.size(); ++i) {
     kinematics.AddPointForce(motion.points[i].link, motion.points[i].p_L,
                              -knot.forces.col(static_cast<Eigen::Index>(i)), &rest);

@@ -47,14 +47,21 @@ TEST(PerturbationTest, ScalesMassesInertiasAndLimits) {
   }
   robot.joints.resize(1);
   robot.joints[0].effort = 50;
+  robot.joints[0].actuator.armature = 0.1;
+  robot.joints[0].actuator.line = models::TorqueSpeedLine{80, 10};
+  robot.gaits.resize(1);
+  robot.gaits[0].limbs = {{0, true, {0}}};
   robot.friction = 0.7;
   Perturbation perturbation;
   perturbation.mass = 1.5;
   perturbation.torque = 0.5;
+  perturbation.armature = 0.3;
   const models::RobotModel changed = perturbation.Perturbed(robot);
   EXPECT_DOUBLE_EQ(changed.TotalMass(), 12);
   EXPECT_DOUBLE_EQ(changed.links[1].inertial.I_LC(2, 2), 1.5);
   EXPECT_DOUBLE_EQ(changed.joints[0].effort, 25);
+  EXPECT_DOUBLE_EQ(changed.joints[0].actuator.line->stall_torque, 40);
+  EXPECT_DOUBLE_EQ(changed.joints[0].actuator.armature, 0.4);
   EXPECT_DOUBLE_EQ(changed.friction, 0.7);
   perturbation.friction = 0.2;
   EXPECT_DOUBLE_EQ(perturbation.Perturbed(robot).friction, 0.2);

@@ -31,10 +31,13 @@ std::vector<ContactPoint> TwoPoints(std::mt19937* random, const RobotSystem& mod
 RobotSystem SomeSystem(std::mt19937* random, int trial) {
   const int joints = 1 + trial / 2 % 6;
   if (trial % 2 == 0) {
-    return dynamics::MultibodyModel::Planar(dynamics::RandomPlanarTree(random, joints));
+    const models::RobotModel tree = dynamics::RandomPlanarTree(random, joints);
+    return dynamics::MultibodyModel::Planar(trial % 4 == 0 ? tree
+                                                           : dynamics::WithActuators(tree, random));
   }
   models::RobotModel tree = dynamics::RandomTree(random, joints);
   if (joints > 3) tree.joints[1].mimic = models::Mimic{3, -2, 0.5};
+  if (trial % 4 == 1) tree = dynamics::WithActuators(tree, random);
   return joints > 2 ? dynamics::MultibodyModel::OnJoints(tree, {{2, 0.7}})
                     : dynamics::MultibodyModel::OnJoints(tree);
 }
@@ -50,12 +53,14 @@ TEST(MultibodyFunctionsTest, DerivativesAgreeWithDifferences) {
     const std::vector<PointOverPlane> planes = {
         {points[0], points[1], Eigen::Vector3d(0.6, 0, 0.8)},
         {points[1], {model->tree().num_links() - 1, {0.1, 0, 0}}, Eigen::Vector3d::UnitZ()}};
-    for (const auto& f : {EquationOfMotion(model, points), ActuatedMotion(model, points),
-                          PointPositions(model, points), PointPositions(model, components),
-                          PointVelocities(model, points), PointVelocities(model, components),
-                          PointAccelerations(model, points), PointAccelerations(model, components),
-                          SquaredDistance(model, points[0], points[1]),
-                          HeightsOverPlanes(model, planes), ImpactMap(model, points)}) {
+    const std::vector<TorqueSpeedRow> lines = {{model->num_joints() - 1, 0.7}, {0, 2}};
+    for (const auto& f :
+         {EquationOfMotion(model, points), EquationOfMotion(model, points, lines),
+          ActuatedMotion(model, points), PointPositions(model, points),
+          PointPositions(model, components), PointVelocities(model, points),
+          PointVelocities(model, components), PointAccelerations(model, points),
+          PointAccelerations(model, components), SquaredDistance(model, points[0], points[1]),
+          HeightsOverPlanes(model, planes), ImpactMap(model, points)}) {
       ExpectExactDerivatives(f.get(), dynamics::RandomVector(&random, f->num_inputs(), 1.5),
                              dynamics::RandomVector(&random, f->num_outputs(), 1));
     }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "dynamics/forward/forward_dynamics.h"
 #include "dynamics/simbody/simbody_dynamics.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/robot/robot_yaml.h"
@@ -75,6 +76,33 @@ TEST(SimbodyForwardDynamics, UndoesInverseDynamics) {
       ours.SetVelocity(state.v);
       simbody.SetState(state.q, state.v);
       EXPECT_LT((simbody.ForwardDynamics(NewtonEuler(ours, a)) - a).norm(), 1e-9 * a.norm());
+    }
+  }
+}
+
+/// Simbody has every rotor as a body of its own.
+TEST(SimbodyForwardDynamics, AgreesWithOursOnRobotsWithActuators) {
+  std::mt19937 random(27);
+  for (int tree = 0; tree < 20; ++tree) {
+    const models::RobotModel model =
+        WithActuators(tree % 2 == 0 ? RandomTree(&random, 1 + static_cast<int>(random() % 12))
+                                    : RandomCoupledTree(&random, 6),
+                      &random);
+    const auto coupled = MultibodyModel::Spatial(model);
+    ForwardDynamics ours(coupled);
+    SimbodyDynamics simbody(model);
+    for (int trial = 0; trial < 5; ++trial) {
+      VectorXd q = RandomVector(&random, coupled->nq(), 1);
+      q.head<4>().normalize();
+      const VectorXd v = RandomVector(&random, coupled->nv(), 3);
+      VectorXd forces = RandomVector(&random, model.nv(), 100);
+      ours.SetState(q, v);
+      simbody.SetState(coupled->TreeConfiguration(q), coupled->TreeVelocity(v));
+      const VectorXd expected =
+          coupled->TreeVelocity(ours.Free(coupled->IndependentForces(forces)));
+      EXPECT_LT((simbody.ForwardDynamics(forces) - expected).norm(), 1e-8 * expected.norm());
+      EXPECT_NEAR(simbody.KineticEnergy(), v.dot(ours.dynamics()->MassMatrix() * v) / 2,
+                  1e-9 * simbody.KineticEnergy());
     }
   }
 }

@@ -70,6 +70,29 @@ TEST_F(JointControlOfARandomTree, FeedForwardAndFeedbackAddUpWithinTheLimits) {
   EXPECT_LT((torques - expected).norm(), 1e-12);
 }
 
+TEST_F(JointControlOfARandomTree, TorqueSpeedLinesLimitDrivingTorques) {
+  models::RobotModel robot = RandomTree(&random_, 5);
+  for (models::Joint& joint : robot.joints) joint.actuator.line = models::TorqueSpeedLine{600, 12};
+  const auto driven = MultibodyModel::Spatial(robot);
+  MultibodyDynamics dynamics(driven);
+  VectorXd v = VectorXd::Zero(driven->nv());
+  v.tail(5) << 1, 6, -6, 6, 20;
+  const VectorXd q = RandomConfiguration(&random_, robot);
+  dynamics.SetState(q, v);
+  JointControl control;
+  control.damping = VectorXd::Constant(5, 1e-9);
+  control.command = [](double, JointCommand* command) {
+    command->torque << 1e4, 1e4, -1e4, -1e4, 1e4;
+  };
+  JointTorques torques(*driven, control);
+  VectorXd expected(5);
+  expected << 500, 300, -300, -500, 0;
+  EXPECT_EQ(torques.Evaluate(0, q, v, true, &dynamics), expected);
+  EXPECT_EQ(torques.Damping(), VectorXd::Zero(5));
+  EXPECT_EQ(dynamics.torque_limits(), VectorXd(expected.cwiseAbs().cwiseMin(300).array().max(0) +
+                                               VectorXd::Unit(5, 0).array() * 200));
+}
+
 TEST_F(JointControlOfARandomTree, GravityCompensationKeepsJointsFromAcceleratingAtRest) {
   JointControl control;
   control.compensates_gravity = true;

@@ -68,6 +68,19 @@ inline std::vector<ModelCase> Cases(int hubo_states, int tree_states) {
         {"tree " + number, MultibodyModel::Spatial(RandomTree(&random, joints)), tree_states});
     cases.push_back({"coupled tree " + number,
                      MultibodyModel::Spatial(CoupledTree(&random, joints)), tree_states});
+    if (i % 4 == 1) {
+      cases.push_back({"driven tree " + number,
+                       MultibodyModel::Spatial(WithActuators(RandomTree(&random, joints), &random)),
+                       tree_states});
+      cases.push_back(
+          {"driven coupled tree " + number,
+           MultibodyModel::Spatial(WithActuators(CoupledTree(&random, joints), &random)),
+           tree_states});
+      cases.push_back(
+          {"driven planar tree " + number,
+           MultibodyModel::Planar(WithActuators(RandomPlanarTree(&random, joints), &random)),
+           tree_states});
+    }
     cases.push_back({"planar tree " + number,
                      MultibodyModel::Planar(RandomPlanarTree(&random, joints)), tree_states});
   }

@@ -30,7 +30,7 @@ template <typename Function>
 std::pair<MatrixXd, MatrixXd> StateDifferences(const Function& f, int nv) {
   const VectorXd zero = VectorXd::Zero(nv);
   return {RichardsonJacobian([&](const VectorXd& d) { return f(d, zero); }, nv),
-          RichardsonJacobian([&](const VectorXd& d) { return f(zero, d); }, nv, 0.5)};
+          RichardsonJacobian([&](const VectorXd& d) { return f(zero, d); }, nv, 0.1)};
 }
 
 TEST(MultibodyDynamicsTest, InverseDynamicsDerivativesAgreeWithDifferences) {
@@ -51,7 +51,7 @@ TEST(MultibodyDynamicsTest, InverseDynamicsDerivativesAgreeWithDifferences) {
       const MatrixXd dq =
           RichardsonJacobian([&](const VectorXd& d) { return forces(d, zero, zero); }, nv);
       const MatrixXd dv =
-          RichardsonJacobian([&](const VectorXd& d) { return forces(zero, d, zero); }, nv, 0.5);
+          RichardsonJacobian([&](const VectorXd& d) { return forces(zero, d, zero); }, nv, 0.1);
       const MatrixXd da =
           RichardsonJacobian([&](const VectorXd& d) { return forces(zero, zero, d); }, nv, 1.0);
       ASSERT_LT(RelativeError(D.forces, forces(zero, zero, zero)), 1e-13) << c.name;

@@ -10,7 +10,7 @@
 #include <mujoco/mujoco.h>
 #endif
 
-#include "dynamics/tree/tree_motion.h"
+#include "dynamics/tree/tree_derivatives.h"
 #include "experiments/exports/mujoco_tree.h"
 #include "experiments/samples/quantities.h"
 #include "models/robot/robot_yaml.h"
@@ -130,8 +130,13 @@ TEST_F(MujocoExport, MujocoLoadsEveryShape) {
 }
 
 TEST_F(MujocoExport, MujocosDynamicsAreOurs) {
-  const models::RobotModel robot =
+  models::RobotModel robot =
       models::LoadRobotModel(POSSIBILITY_SOURCE_DIR "/models/drchubo1/drchubo1.yaml");
+  for (int j = 0; j < robot.num_joints(); j += 2)
+    robot.joints[j].actuator.armature = 0.1 + 0.01 * j;
+  for (int j = 0; j < robot.num_joints(); j += 3) {
+    robot.joints[j].actuator.viscous_friction = 1 + 0.1 * j;
+  }
   const actions::Plan plan = testing::SamplePlan(robot, 1, 3);
   actions::Plan standing = plan;
   for (auto& segment : standing.segments) segment.phases[0].contacts = {};
@@ -144,7 +149,7 @@ TEST_F(MujocoExport, MujocosDynamicsAreOurs) {
   ASSERT_EQ(mujoco.model()->nu, robot.num_joints());
   EXPECT_NEAR(mj_getTotalmass(mujoco.model()), robot.TotalMass(), 1e-9);
   const MujocoTree tree(robot);
-  dynamics::TreeMotion motion(robot);
+  dynamics::TreeDerivatives motion(robot);
   for (const actions::Segment& segment : standing.segments) {
     for (const actions::Knot& knot : segment.phases[0].knots) {
       motion.SetState(knot.q, knot.v, knot.a);

@@ -20,7 +20,7 @@ struct BadRobot {
   std::string message;  ///< without the folder
 };
 
-std::string MessageOf(const std::string& yaml, const std::string& urdf) {
+std::string RobotMessageOf(const std::string& yaml, const std::string& urdf) {
   const TemporaryFolder folder;
   folder.Write("robot.urdf", urdf);
   const std::filesystem::path file = folder.Write("robot.yaml", yaml);
@@ -43,13 +43,13 @@ TEST_P(RobotErrors, EachFaultIsNamedInOneLine) {
   const BadRobot& bad = GetParam();
   const std::string yaml = TwoLeggedYaml();
   const std::string urdf = TwoLeggedUrdf();
-  EXPECT_EQ(bad.in_urdf ? MessageOf(yaml, Replaced(urdf, bad.from, bad.to))
-                        : MessageOf(Replaced(yaml, bad.from, bad.to), urdf),
+  EXPECT_EQ(bad.in_urdf ? RobotMessageOf(yaml, Replaced(urdf, bad.from, bad.to))
+                        : RobotMessageOf(Replaced(yaml, bad.from, bad.to), urdf),
             bad.message);
 }
 
 TEST(RobotErrorsBaseline, TheUnspoiltRobotLoads) {
-  EXPECT_EQ(MessageOf(TwoLeggedYaml(), TwoLeggedUrdf()), "no error");
+  EXPECT_EQ(RobotMessageOf(TwoLeggedYaml(), TwoLeggedUrdf()), "no error");
 }
 
 TEST(RobotErrorsBaseline, AMissingYamlIsNamed) {
@@ -77,6 +77,11 @@ const std::string kTransition = "to: squat";
 
 const std::string kYawRest =
     "<parent link=\"base\"/><child link=\"l_hip\"/><origin xyz=\"0 0.1 0\"/>" + kYawAxis;
+
+/// A list of actuators before the shapes.
+std::string Actuators(const std::string& entry) {
+  return "actuators: [\n    {" + entry + "}]\nshapes:";
+}
 
 const BadRobot kBadYaml[] = {
     {"Empty", false, "", "", "robot.yaml: expected a YAML map, got nothing"},
@@ -127,6 +132,41 @@ const BadRobot kBadYaml[] = {
      "robot.yaml:7: effort[0].limit: expected a positive number, got -30"},
     {"EffortWithoutReason", false, ", reason: assumed", "",
      "robot.yaml:7: effort[0]: the key 'reason' is missing"},
+    {"ActuatorUnknownKey", false, "shapes:", Actuators("joints: [l_yaw], armatur: 1, reason: a"),
+     "robot.yaml:9: actuators[0]: unknown key 'armatur' (did you mean 'armature'?)"},
+    {"ActuatorUnknownJoint", false, "shapes:", Actuators("joints: [l_jaw], armature: 1, reason: a"),
+     "robot.yaml:9: actuators[0].joints[0]: unknown joint 'l_jaw' (did you mean 'l_yaw'?)"},
+    {"ActuatorNegative", false, "shapes:", Actuators("joints: [l_yaw], armature: -1, reason: a"),
+     "robot.yaml:9: actuators[0].armature: expected a number of at least 0, got -1"},
+    {"ActuatorNaN", false,
+     "shapes:", Actuators("joints: [l_yaw], viscous_friction: nan, reason: a"),
+     "robot.yaml:9: actuators[0].viscous_friction: expected a finite number, got nan"},
+    {"ActuatorWithoutReason", false, "shapes:", Actuators("joints: [l_yaw], armature: 1"),
+     "robot.yaml:9: actuators[0]: the key 'reason' is missing"},
+    {"ActuatorOfNothing", false, "shapes:", Actuators("joints: [l_yaw], reason: a"),
+     "robot.yaml:9: actuators[0]: expected at least one of armature, viscous_friction, "
+     "dry_friction, stall_torque"},
+    {"ActuatorTwice", false, "shapes:",
+     Actuators("joints: [l_yaw, r_yaw], armature: 1, reason: a},\n    {joints: [r_yaw], armature: "
+               "2, reason: b"),
+     "robot.yaml:10: actuators[1].joints: joint 'r_yaw' is listed twice"},
+    {"ActuatorDrySpeedAlone", false,
+     "shapes:", Actuators("joints: [l_yaw], armature: 1, dry_speed: 1, reason: a"),
+     "robot.yaml:9: actuators[0].dry_speed: expected dry_friction beside it"},
+    {"ActuatorDrySpeedZero", false,
+     "shapes:", Actuators("joints: [l_yaw], dry_friction: 1, dry_speed: 0, reason: a"),
+     "robot.yaml:9: actuators[0].dry_speed: expected a number from 0.001 to 1000000, got 0"},
+    {"ActuatorHalfALine", false,
+     "shapes:", Actuators("joints: [l_yaw], stall_torque: 1, reason: a"),
+     "robot.yaml:9: actuators[0]: expected both stall_torque and no_load_speed or neither"},
+    {"ActuatorLineTooShort", false,
+     "shapes:", Actuators("joints: [l_yaw], stall_torque: 29, no_load_speed: 6, reason: a"),
+     "robot.yaml:9: actuators[0].stall_torque: expected at least the torque limit of joint "
+     "'l_yaw', 30, got 29"},
+    {"ActuatorLineTooSteep", false,
+     "shapes:", Actuators("joints: [l_yaw], stall_torque: 30, no_load_speed: 4, reason: a"),
+     "robot.yaml:9: actuators[0].no_load_speed: expected more than the speed limit of joint "
+     "'l_yaw', 5, got 4"},
     {"ShapeOnUnknownLink", false, "l_foot:\n", "l_foott:\n",
      "robot.yaml:9: shapes: unknown key 'l_foott' (did you mean 'l_foot'?)"},
     {"ShapeKind", false, "shape: capsule", "shape: capsul",
