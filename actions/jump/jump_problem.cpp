@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "actions/sagittal/motion_identity.h"
 #include "collocation/problem/function.h"
 #include "collocation/robot/balance_functions.h"
@@ -31,9 +33,16 @@ constexpr double kHalfFlight = 0.65;
 
 }  // namespace
 
-JumpSettings JumpSettings::For(const NominalStance& launch, const NominalStance& landing) {
+JumpSettings JumpSettings::For(const models::RobotModel& robot, const NominalStance& launch,
+                               const NominalStance& landing) {
+  // With 90 %, motors a tenth weaker and a body 5 % heavier let jumps fall.
+  constexpr double kTorqueFraction = 0.85;
   constexpr double kTimeWeight = 0.05;  // 1/s; from 0.2 on the whole robot cannot follow
   JumpSettings settings;
+  const bool has_rotors =
+      std::any_of(robot.joints.begin(), robot.joints.end(),
+                  [](const models::Joint& joint) { return joint.actuator.armature > 0; });
+  if (has_rotors) settings.limits.torque_fraction = kTorqueFraction;
   if (landing.gait->limbs.size() == launch.gait->limbs.size()) settings.time_weight = kTimeWeight;
   return settings;
 }

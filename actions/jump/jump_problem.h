@@ -34,8 +34,9 @@ struct JumpSettings : SagittalSettings {
   double time_weight = 0;  ///< 1/s, of the duration in the cost
 
   /// The defaults. A jump that lands on its feet alone is over when it stands: its time counts,
-  /// too.
-  static JumpSettings For(const NominalStance& launch, const NominalStance& landing);
+  /// too. A robot whose rotors are known uses less of its torque.
+  static JumpSettings For(const models::RobotModel& robot, const NominalStance& launch,
+                          const NominalStance& landing);
 };
 
 /// Hash of what solved jumps from one gait to another depend on (motion_identity.h).

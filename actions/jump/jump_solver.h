@@ -55,7 +55,7 @@ class JumpSolver {
   /// With JumpSettings::For.
   JumpSolver(const models::RobotModel& robot, const NominalStance& launch,
              const NominalStance& landing)
-      : JumpSolver(robot, launch, landing, JumpSettings::For(launch, landing)) {}
+      : JumpSolver(robot, launch, landing, JumpSettings::For(robot, launch, landing)) {}
 
   const SagittalModel& model() const { return model_; }
   const JumpSettings& settings() const { return settings_; }
