@@ -20,6 +20,7 @@
 #include "actions/plan/plan_rounding.h"
 #include "actions/planner/passage_explanation.h"
 #include "actions/planner/plan_explanation.h"
+#include "actions/planner/planner_memory.h"
 #include "actions/planner/request_checks.h"
 #include "actions/planner/route_refusals.h"
 #include "actions/refinement/plan_refinement.h"
@@ -92,8 +93,8 @@ class TraversalPlanner {
         ground_(scenario.environment, robot.friction),
         world_{&scenario_.environment, &ground_},
         factories_(AllFactories()),
-        model_(BuildLocomotionModel(robot, GaitNames(), Until(deadline_), TransitionLibrary(),
-                                    request.gaits, request.threads)),
+        shared_model_(MakeModel()),
+        model_(*shared_model_),
         floods_(model_, world_, manoeuvres_, scenario.planner.flood_resolution, Until(deadline_)) {
     if (ground_.levels().empty()) {
       throw InputError(fmt::format("{}: environment: there is no level ground to stand on",
@@ -186,6 +187,17 @@ class TraversalPlanner {
       if (is_gait) names.push_back(name);
     }
     return names;
+  }
+
+  /// Gaits of the request are functions, which cannot be compared with those of another request.
+  std::shared_ptr<const LocomotionModel> MakeModel() const {
+    const CancellationToken cancellation = Until(deadline_);
+    if (request_.memory && request_.gaits.empty()) {
+      return request_.memory->ModelOf(robot_, GaitNames(), cancellation, TransitionLibrary(),
+                                      request_.threads);
+    }
+    return std::make_shared<const LocomotionModel>(BuildLocomotionModel(
+        robot_, GaitNames(), cancellation, TransitionLibrary(), request_.gaits, request_.threads));
   }
 
   void PrepareManoeuvres() {
@@ -529,6 +541,7 @@ class TraversalPlanner {
     VerifierSettings settings;
     settings.threads = request_.threads;
     settings.cancellation = Until(last_deadline_);
+    if (request_.memory) settings.store = &request_.memory->verdicts();
     settings.progress = [this](double fraction) { Report("verifying", fraction); };
     result->verification = Verify(result->plan, robot_, scenario_, settings);
     result->plan.timings.verification_s += result->verification.seconds;
@@ -598,7 +611,8 @@ class TraversalPlanner {
   models::GroundMap ground_;
   World world_;
   std::vector<ManoeuvreFactory> factories_;
-  LocomotionModel model_;
+  std::shared_ptr<const LocomotionModel> shared_model_;
+  const LocomotionModel& model_;
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;

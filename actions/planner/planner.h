@@ -17,6 +17,8 @@
 
 namespace possibility::actions {
 
+class PlannerMemory;
+
 enum class PlanStatus { kFound, kProvenInfeasible, kExhausted, kTimeLimit };
 
 /// "found", "proven_infeasible", "exhausted", "time_limit": the words of the JSON contract.
@@ -44,6 +46,9 @@ struct PlanRequest {
   PlannerPreset preset = PlannerPreset::kDefault;
   std::vector<std::string> explorers;  ///< instead of the preset's (WithExplorers) unless empty
   int plan_version = 1;  ///< format of the file that the plan is for, 1 or 2: how it is rounded
+  /// Kept between requests (planner_memory.h); null: none. Must outlive the call. The plan does not
+  /// depend on it.
+  PlannerMemory* memory = nullptr;
   std::function<void(const PlanProgress&)> progress;
   /// Asked from any thread; once it cancels, PlanTraversal throws Cancelled.
   CancellationToken cancellation;

@@ -18,7 +18,25 @@ using Eigen::Vector3d;
 constexpr double kSameHeight = 1e-3;  // m, as the verifier tolerates
 constexpr double kLightLoad = 1e-3;   // of the weight: friction of lighter points is not measured
 
+void KeepLeast(const Margin& later, Margin* margin) {
+  if (later.segment >= 0 && (margin->segment < 0 || later.value < margin->value)) *margin = later;
+}
+
+void KeepGreatest(const Margin& later, Margin* margin) {
+  if (later.segment >= 0 && (margin->segment < 0 || later.value > margin->value)) *margin = later;
+}
+
 }  // namespace
+
+void PlanMargins::Add(const PlanMargins& later) {
+  KeepLeast(later.zmp, &zmp);
+  KeepLeast(later.ground_edge, &ground_edge);
+  KeepGreatest(later.torque, &torque);
+  KeepGreatest(later.friction, &friction);
+  KeepGreatest(later.joint_speed, &joint_speed);
+  KeepLeast(later.self_distance, &self_distance);
+  KeepLeast(later.obstacle_distance, &obstacle_distance);
+}
 
 /// Measures knots, and keeps the worst of each kind.
 class MarginMeasurement {
@@ -141,6 +159,20 @@ PlanMargins InstantMargins::At(int segment, const Phase& phase, const Knot& knot
   measurement_->Clear();
   measurement_->Enter(segment, phase);
   measurement_->Measure(knot);
+  return measurement_->margins();
+}
+
+PhaseMeasurement::PhaseMeasurement(const models::RobotModel& robot,
+                                   const models::Environment& environment,
+                                   const models::GroundMap& ground)
+    : measurement_(std::make_unique<MarginMeasurement>(robot, environment, ground)) {}
+
+PhaseMeasurement::~PhaseMeasurement() = default;
+
+PlanMargins PhaseMeasurement::Of(const Phase& phase) {
+  measurement_->Clear();
+  measurement_->Enter(0, phase);
+  for (const Knot& knot : phase.knots) measurement_->Measure(knot);
   return measurement_->margins();
 }
 

@@ -31,6 +31,9 @@ struct PlanMargins {
   Margin obstacle_distance;
 
   static constexpr double kFarthest = 0.1;
+
+  /// Keeps the worse of each kind, of equals the one it has.
+  void Add(const PlanMargins& later);
 };
 
 /// `plan`: of valid structure for `robot`.
@@ -39,6 +42,20 @@ PlanMargins MeasureMargins(const Plan& plan, const models::RobotModel& robot,
                            const models::Environment& environment, const models::GroundMap& ground);
 
 class MarginMeasurement;
+
+/// The margins of single phases. One per thread. The constructor's arguments must outlive it.
+class PhaseMeasurement {
+ public:
+  PhaseMeasurement(const models::RobotModel& robot, const models::Environment& environment,
+                   const models::GroundMap& ground);
+  ~PhaseMeasurement();
+
+  /// Over all knots; Margin::segment is 0 where there is something to measure.
+  PlanMargins Of(const Phase& phase);
+
+ private:
+  std::unique_ptr<MarginMeasurement> measurement_;
+};
 
 /// The margins of single instants. One per thread. The constructor's arguments must outlive it.
 class InstantMargins {

@@ -9,6 +9,7 @@
 #include "actions/checks/problem_check.h"
 #include "actions/checks/schedule_check.h"
 #include "actions/checks/structure_check.h"
+#include "actions/verify/verifier_margins.h"
 #include "actions/verify/verifier_motion.h"
 #include "actions/verify/verifier_rollouts.h"
 #include "common/stopwatch.h"
@@ -27,10 +28,12 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
   StateEvaluator evaluator(robot);
   CheckEnds(plan, robot, scenario, &evaluator, log);
   const models::GroundMap ground(scenario.environment, robot.friction);
+  const models::LocalWorld local_world(scenario.environment, ground);
   const VerifiedPlan subject{plan,
                              robot,
                              scenario,
                              ground,
+                             local_world,
                              FollowContacts(plan, robot, ground, &evaluator),
                              FollowFlights(plan, &evaluator)};
   CheckSchedule(plan, robot, &evaluator, log);
@@ -41,7 +44,7 @@ void VerifyAll(const Plan& plan, const models::RobotModel& robot, const models::
   }
   if (report->cancelled) return;
   if (settings.measures_margins) {
-    report->margins = MeasureMargins(plan, robot, scenario.environment, ground);
+    report->margins = MarginsOf(subject, settings.store);
   }
 }
 

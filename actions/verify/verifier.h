@@ -16,6 +16,8 @@
 
 namespace possibility::actions {
 
+struct VerdictStore;
+
 struct VerificationReport {
   std::filesystem::path robot_file;  ///< used for verification; empty if not from a file
   std::filesystem::path scenario_file;
@@ -25,7 +27,9 @@ struct VerificationReport {
   /// None if the plan's structure is broken, if cancelled, or if they were not asked for.
   std::optional<PlanMargins> margins;
   std::int64_t samples = 0;
-  double resolution = 0;  ///< s, largest time between samples
+  std::int64_t kept_samples = 0;  ///< of these, whose verdict VerifierSettings::store had
+  int kept_rollouts = 0;          ///< of `rollouts`, likewise
+  double resolution = 0;          ///< s, largest time between samples
   /// Bounds on deviations from the straight line between two samples: of bearing points (m), and of
   /// joint torques and the wrench on the root (N; N m, over 1 m).
   double position_resolution = 0;
@@ -44,6 +48,10 @@ struct VerifierSettings {
   bool simulates = true;
   bool measures_margins = true;
   int threads = 1;  ///< samples are independent; the report does not depend on it
+  /// Parts accepted earlier (verdict_store.h), which are not checked again where the world about
+  /// them is the same; accepted parts are added. The report is the one without a store, except
+  /// for what was kept. Null: none. Must outlive the call.
+  VerdictStore* store = nullptr;
 };
 
 /// Verifies from the plan, the robot and the scenario alone that the plan can be executed. Never

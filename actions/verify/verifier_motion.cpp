@@ -11,6 +11,8 @@
 #include "actions/checks/limits_check.h"
 #include "actions/evidence/derivative_bounds.h"
 #include "actions/plan/interpolation.h"
+#include "actions/verify/verdict_store.h"
+#include "actions/verify/verdict_subject.h"
 #include "common/run_on_threads.h"
 #include "dynamics/tree/tree_kinematics.h"
 
@@ -28,6 +30,8 @@ constexpr double kLeastTorqueResolution = 1e-5;  // of the weight (N; N m over 1
 constexpr int kManySteps = 64;
 /// Forces that need more samples than this between two knots are thousands of times the weight.
 constexpr int kMostSteps = 2000;
+/// m, beyond what is asked: more than all tolerances of the checks.
+constexpr double kReachMargin = 2e-3;
 
 /// A run of knot intervals of one phase: the unit of work of a thread. The division does not depend
 /// on the number of threads.
@@ -57,21 +61,6 @@ std::vector<Chunk> Divide(const Plan& plan) {
   return chunks;
 }
 
-/// What has been checked, and at which resolution.
-struct Coverage {
-  std::int64_t samples = 0;
-  double time = 0;      ///< s, between samples
-  double position = 0;  ///< m, of bearing points off the line between samples
-  double force = 0;     ///< N, or N m over 1 m, likewise
-
-  void Add(const Coverage& other) {
-    samples += other.samples;
-    time = std::max(time, other.time);
-    position = std::max(position, other.position);
-    force = std::max(force, other.force);
-  }
-};
-
 /// Checks chunks with its own Simbody and Bullet systems.
 class Worker {
  public:
@@ -83,16 +72,21 @@ class Worker {
         collision_(subject.robot, subject.scenario.environment, evaluator_.link_radii()),
         bounds_(subject.robot) {}
 
-  void Verify(const Chunk& chunk) {
+  /// Returns the log of the chunk.
+  const ViolationLog& Verify(const Chunk& chunk) {
     chunk_ = &chunk;
     chunk_log_ = {};
+    coverage_ = {};
+    reach_.setEmpty();
     Sample sample;
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) VerifyInterval(i, &sample);
-    log_.Merge(chunk_log_);
+    return chunk_log_;
   }
 
-  const ViolationLog& log() const { return log_; }
-  const Coverage& coverage() const { return coverage_; }
+  /// Of the last chunk.
+  const MotionCoverage& coverage() const { return coverage_; }
+  /// Around all that the last chunk's checks have asked the world about.
+  models::WorldReach reach() const { return {reach_, reach_}; }
 
  private:
   struct Sample {
@@ -194,7 +188,19 @@ class Worker {
     sample.collision =
         collision_.Check(sample.state, interval, {chunk_->segment, knot.t}, &chunk_log_);
     ++coverage_.samples;
+    ExtendReach(sample);
     return sample;
+  }
+
+  /// Bearing points are points of links.
+  void ExtendReach(const Sample& sample) {
+    for (std::size_t link = 0; link < sample.state.X_WL.size(); ++link) {
+      const double radius =
+          evaluator_.link_radii()[link] + sample.collision.environment_threshold + kReachMargin;
+      const Eigen::Vector3d p = sample.state.X_WL[link].translation();
+      reach_.extend((p.array() - radius).matrix());
+      reach_.extend((p.array() + radius).matrix());
+    }
   }
 
   void CheckAll(const Sample& sample, bool at_knot) {
@@ -228,17 +234,29 @@ class Worker {
   DerivativeBounds bounds_;  ///< of the current interval
   const Chunk* chunk_ = nullptr;
   ViolationLog chunk_log_;
-  ViolationLog log_;
-  Coverage coverage_;
+  MotionCoverage coverage_;    ///< likewise
+  Eigen::AlignedBox3d reach_;  ///< likewise
+};
+
+/// Sums over the chunks of one thread, or of all.
+struct Sum {
+  ViolationLog log;
+  MotionCoverage coverage;
+  std::int64_t kept_samples = 0;
+
+  void Add(const Sum& other) {
+    log.Merge(other.log);
+    coverage.Add(other.coverage);
+    kept_samples += other.kept_samples;
+  }
 };
 
 /// Sums over all threads.
 class Tally {
  public:
-  void Add(const Worker& worker) {
+  void Add(const Sum& sum) {
     const std::lock_guard lock(mutex_);
-    log_.Merge(worker.log());
-    coverage_.Add(worker.coverage());
+    sum_.Add(sum);
   }
 
   void Fail(std::exception_ptr error) {
@@ -248,18 +266,57 @@ class Tally {
 
   void Finish(ViolationLog* log, VerificationReport* report) const {
     if (error_) std::rethrow_exception(error_);
-    log->Merge(log_);
-    report->samples = coverage_.samples;
-    report->resolution = coverage_.time;
-    report->position_resolution = coverage_.position;
-    report->force_resolution = coverage_.force;
+    log->Merge(sum_.log);
+    report->samples = sum_.coverage.samples;
+    report->kept_samples = sum_.kept_samples;
+    report->resolution = sum_.coverage.time;
+    report->position_resolution = sum_.coverage.position;
+    report->force_resolution = sum_.coverage.force;
   }
 
  private:
   std::mutex mutex_;
-  ViolationLog log_;
-  Coverage coverage_;
+  Sum sum_;
   std::exception_ptr error_;
+};
+
+/// Verifies chunks on one thread, except those that the store knows.
+class ChunkJudge {
+ public:
+  ChunkJudge(const VerifiedPlan& subject, const VerifierSettings& settings)
+      : subject_(subject), settings_(settings) {}
+
+  void Judge(const Chunk& chunk) {
+    const std::string key = settings_.store ? KeyOf(chunk) : std::string();
+    const auto known =
+        settings_.store ? settings_.store->motions.Find(key, subject_.local_world) : std::nullopt;
+    if (known) {
+      sum_.coverage.Add(*known);
+      sum_.kept_samples += known->samples;
+      return;
+    }
+    if (!worker_) worker_.emplace(subject_, settings_.resolution);
+    const ViolationLog& log = worker_->Verify(chunk);
+    sum_.log.Merge(log);
+    sum_.coverage.Add(worker_->coverage());
+    if (!settings_.store || !log.Worst().empty()) return;
+    settings_.store->motions.Add(key, worker_->reach(), subject_.local_world, worker_->coverage());
+  }
+
+  const Sum& sum() const { return sum_; }
+
+ private:
+  std::string KeyOf(const Chunk& chunk) const {
+    return SubjectOf(
+        KnotRun{*chunk.phase, chunk.begin, chunk.end, subject_.contacts[chunk.phase_index],
+                subject_.flights[chunk.phase_index]},
+        subject_.robot, settings_.resolution, subject_.plan.version);
+  }
+
+  const VerifiedPlan& subject_;
+  const VerifierSettings& settings_;
+  std::optional<Worker> worker_;  ///< made when there is work: it costs as much as some samples
+  Sum sum_;
 };
 
 }  // namespace
@@ -272,15 +329,15 @@ void VerifyMotion(const VerifiedPlan& subject, const VerifierSettings& settings,
   Tally tally;
   const auto work = [&] {
     try {
-      Worker worker(subject, settings.resolution);
+      ChunkJudge judge(subject, settings);
       for (std::size_t i = next++; i < chunks.size() && !cancelled; i = next++) {
-        worker.Verify(chunks[i]);
+        judge.Judge(chunks[i]);
         if (settings.progress) {
           settings.progress(static_cast<double>(i + 1) / static_cast<double>(chunks.size()));
         }
         if (!settings.cancellation.Proceed()) cancelled = true;
       }
-      tally.Add(worker);
+      tally.Add(judge.sum());
     } catch (...) {
       tally.Fail(std::current_exception());
     }

@@ -8,6 +8,7 @@
 #include "actions/evidence/violation_log.h"
 #include "actions/verify/verifier.h"
 #include "models/world/ground_map.h"
+#include "models/world/local_world.h"
 
 namespace possibility::actions {
 
@@ -17,6 +18,7 @@ struct VerifiedPlan {
   const models::RobotModel& robot;
   const models::Scenario& scenario;
   const models::GroundMap& ground;
+  const models::LocalWorld& local_world;
   std::vector<PhaseContacts> contacts;         ///< by phase, over all segments
   std::vector<std::optional<Flight>> flights;  ///< likewise
 };

@@ -12,6 +12,7 @@
 #include "experiments/bench/bench_confirmation.h"
 #include "experiments/bench/bench_dynamics.h"
 #include "experiments/bench/bench_graph.h"
+#include "experiments/bench/bench_replanning.h"
 #include "experiments/bench/benchmark.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/standard_streams.h"
@@ -28,6 +29,7 @@ struct BenchOptions {
   std::string robot = "models/drchubo1/drchubo1.yaml";
   std::string scenarios = GraphBenchSettings().scenarios;
   std::string seeds;
+  std::string moves;
   bool json = false;
 };
 
@@ -53,12 +55,23 @@ BenchmarkReport BenchGraphAsAsked(const BenchOptions& options, const models::Rob
   return BenchGraph(robot, settings, progress);
 }
 
+BenchmarkReport BenchReplanningAsAsked(const BenchOptions& options, const models::RobotModel& robot,
+                                       const Progress& progress) {
+  ReplanningBenchSettings settings;
+  settings.scenarios = options.scenarios;
+  if (!options.moves.empty()) {
+    settings.moves = static_cast<int>(ParseInteger("--moves", options.moves, 1, 100000));
+  }
+  return BenchReplanning(robot, settings, progress);
+}
+
 const std::map<std::string, Bench>& Benches() {
   static const std::map<std::string, Bench> benches = {
       {"collocation", OfRobot(&BenchCollocation)},
       {"confirmation", OfRobot(&BenchConfirmation)},
       {"dynamics", OfRobot(&BenchDynamics)},
-      {"graph", &BenchGraphAsAsked}};
+      {"graph", &BenchGraphAsAsked},
+      {"replanning", &BenchReplanningAsAsked}};
   return benches;
 }
 
@@ -104,10 +117,13 @@ ExitCode RunBench(const BenchOptions& options) {
 Command AddBenchCommand(CLI::App& program) {
   CommandOptions command(program, "bench", "Measures speed, against peers in the same run.");
   auto options = std::make_shared<BenchOptions>();
-  command.AddRequired("SUBJECT", &options->subject, "collocation, confirmation, dynamics or graph");
+  command.AddRequired("SUBJECT", &options->subject,
+                      "collocation, confirmation, dynamics, graph or replanning");
   command.AddOptional("--robot", &options->robot, "Robot YAML");
-  command.AddOptional("--scenarios", &options->scenarios, "graph: folder of the paper's scenarios");
+  command.AddOptional("--scenarios", &options->scenarios,
+                      "graph, replanning: folder of the scenarios");
   command.AddOptional("--seeds", &options->seeds, "graph: searches of each planner (default 20)");
+  command.AddOptional("--moves", &options->moves, "replanning: moved scenes (default 50)");
   command.AddFlag("--json", &options->json, "One JSON object on stdout, nothing else");
   return {command, [options] { return RunBench(*options); }};
 }

@@ -12,17 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "actions/plan/packed_writer.h"
 #include "actions/planner/planner.h"
 #include "actions/verify/verification_report.h"
 #include "experiments/report/plan_summary.h"
+#include "experiments/service/plan_output.h"
+#include "experiments/service/plan_watch.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/preset_names.h"
 #include "experiments/support/progress_line.h"
 #include "experiments/support/standard_streams.h"
-#include "experiments/viewer/viewer_page.h"
 #include "models/input/input_error.h"
 #include "models/robot/robot_model.h"
 #include "models/robot/robot_yaml.h"
@@ -42,6 +42,7 @@ struct PlanOptions {
   std::string preset;
   std::string explorers;
   std::string format;
+  bool watch = false;
   bool json = false;
 };
 
@@ -113,32 +114,41 @@ ExitCode Report(const actions::PlanResult& result, const models::RobotModel& rob
   return kNoPlan;
 }
 
-/// The folder's plan, in one of the two formats. A plan of the other one there is of an older run
-/// and would be read in its place.
-std::filesystem::path WriteOnlyPlan(const actions::Plan& plan, int version,
-                                    const std::filesystem::path& folder) {
-  const std::filesystem::path plain = folder / "plan.json";
-  const std::filesystem::path packed = folder / "plan.zip";
-  const std::filesystem::path& file = version == 2 ? packed : plain;
-  actions::WritePlanAs(plan, file);
-  std::error_code ignored;  // mostly there is none
-  std::filesystem::remove(version == 2 ? plain : packed, ignored);
-  return file;
-}
-
-ExitCode RunPlan(const PlanOptions& options) {
+/// The request for a scenario: its own settings, overlaid with the options.
+/// @throws InputError if it does not allow the options' actions.
+actions::PlanRequest RequestFor(const PlanOptions& options, const models::Scenario& scenario) {
   actions::PlanRequest request;
-  ApplyOptions(options, &request);
-  const models::Scenario scenario = models::LoadScenario(options.scenario);
-  RequireAllowed(request.actions, scenario);
-  const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
   request.seed = scenario.seed;
   request.threads = HardwareThreads();
   request.time_limit = scenario.time_limit;
-  request.library = robot.file.parent_path() / "jumps";
+  request.library = scenario.robot_file.parent_path() / "jumps";
   ApplyOptions(options, &request);
-  const std::filesystem::path folder =
-      options.out.empty() ? DefaultFolder(scenario.name) : std::filesystem::path(options.out);
+  RequireAllowed(request.actions, scenario);
+  return request;
+}
+
+std::filesystem::path FolderFor(const PlanOptions& options, const models::Scenario& scenario) {
+  return options.out.empty() ? DefaultFolder(scenario.name) : std::filesystem::path(options.out);
+}
+
+ExitCode RunWatch(const PlanOptions& options) {
+  const models::Scenario first = models::LoadScenario(options.scenario);
+  RequestFor(options, first);
+  const std::filesystem::path folder = FolderFor(options, first);
+  PrepareOutputFolder("--out", folder);
+  WatchAndPlan({options.scenario, folder, options.json,
+                [&options](const models::Scenario& now) { return RequestFor(options, now); }});
+  return kDone;
+}
+
+ExitCode RunPlan(const PlanOptions& options) {
+  actions::PlanRequest unused;
+  ApplyOptions(options, &unused);  // finds their errors before any file is read
+  if (options.watch) return RunWatch(options);
+  const models::Scenario scenario = models::LoadScenario(options.scenario);
+  const actions::PlanRequest request = RequestFor(options, scenario);
+  const models::RobotModel robot = models::LoadRobotModel(scenario.robot_file);
+  const std::filesystem::path folder = FolderFor(options, scenario);
   PrepareOutputFolder("--out", folder);
 
   const actions::PlanResult result = PlanWithProgress(robot, scenario, request);
@@ -146,9 +156,9 @@ ExitCode RunPlan(const PlanOptions& options) {
     PrintError("{}", actions::FormatText(result.verification));
     return kVerificationFailed;
   }
-  const PlanFiles files{WriteOnlyPlan(result.plan, request.plan_version, folder),
-                        folder / "plan.html"};
-  WriteOutput(files.page, ViewerPage(result.plan, robot, scenario));
+  const PlanFiles files = PlanFilesIn(folder, request.plan_version);
+  WriteOnlyPlan(result.plan, files);
+  WritePage(result.plan, robot, scenario, files);
   return Report(result, robot, files, options.json);
 }
 
@@ -172,7 +182,10 @@ Command AddPlanCommand(CLI::App& program) {
   command.AddOptional(
       "--format", &options->format,
       "1: plan.json (default); 2: plan.zip, a tenth as large and exact between knots");
-  command.AddFlag("--json", &options->json, "Print one JSON object");
+  command.AddFlag("--watch", &options->watch,
+                  "Plan again whenever the scenario's file changes, until interrupted");
+  command.AddFlag("--json", &options->json,
+                  "Print one JSON object; with --watch one a line for each plan");
   return {command, [options] { return RunPlan(*options); }};
 }
 
