@@ -331,7 +331,8 @@ class TraversalPlanner {
                                                         &steps_gave_up_));
     }
     if (!IsMixed()) return;
-    settings->explorers.push_back(StepShortcutExploration(AllSpace(), *steps_, action));
+    settings->explorers.push_back(
+        StepShortcutExploration(AllSpace(), *steps_, action, &steps_are_called_));
     settings->explorers.push_back(IslandExploration({&model_, &gaits_, &searched_}, *steps_, action,
                                                     start_, goals_, &steps_are_called_,
                                                     &steps_gave_up_));

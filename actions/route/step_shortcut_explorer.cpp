@@ -8,7 +8,7 @@ namespace possibility::actions {
 namespace {
 
 constexpr std::int64_t kStatesPerTurn = 50;
-constexpr std::int64_t kMostStates = 2000;  // of one stretch
+constexpr std::int64_t kMostStates = 1000;  // of one stretch
 
 std::vector<double> EndsOf(const graph::Edge& edge) {
   std::vector<double> numbers(edge.from.data(), edge.from.data() + edge.from.size());
@@ -19,8 +19,9 @@ std::vector<double> EndsOf(const graph::Edge& edge) {
 }  // namespace
 
 StepShortcutExplorer::StepShortcutExplorer(const RouteSpace& space, const PlannedSteps& steps,
-                                           int action, const graph::ExplorerContext& context)
-    : space_(space), steps_(steps), action_(action), context_(context) {}
+                                           int action, const bool* is_called,
+                                           const graph::ExplorerContext& context)
+    : space_(space), steps_(steps), action_(action), is_called_(is_called), context_(context) {}
 
 graph::Findings StepShortcutExplorer::Explore() {
   if (stretches_.empty()) return {graph::Outlook::kOver, {}};
@@ -112,9 +113,9 @@ void StepShortcutExplorer::AddParts(const std::vector<Stretch>& chain,
 }
 
 graph::ExplorerFactory StepShortcutExploration(const RouteSpace& space, const PlannedSteps& steps,
-                                               int action) {
+                                               int action, const bool* is_called) {
   return [=, &steps](const graph::ExplorerContext& context) {
-    return std::make_unique<StepShortcutExplorer>(space, steps, action, context);
+    return std::make_unique<StepShortcutExplorer>(space, steps, action, is_called, context);
   };
 }
 

@@ -15,17 +15,18 @@
 namespace possibility::actions {
 
 /// Proposes planned steps instead of manoeuvres of the confirmed route, where they are quicker: the
-/// first route may leap down stairs that can be walked.
+/// first route may leap down stairs that can be walked. Takes part once `*is_called`: routes that
+/// were found without steps are left alone.
 class StepShortcutExplorer : public graph::Explorer {
  public:
   /// `steps`: of some gait; `action`: its number among the search's actions. What `space` points to
   /// and `steps` must outlive the search.
   StepShortcutExplorer(const RouteSpace& space, const PlannedSteps& steps, int action,
-                       const graph::ExplorerContext& context);
+                       const bool* is_called, const graph::ExplorerContext& context);
 
   std::string name() const override { return "footsteps"; }
   bool TakesPart(graph::SearchStage stage) const override {
-    return stage == graph::SearchStage::kImprovement;
+    return *is_called_ && stage == graph::SearchStage::kImprovement;
   }
   graph::Findings Explore() override;
   double work_of_turn() const override { return 10e-3; }
@@ -48,6 +49,7 @@ class StepShortcutExplorer : public graph::Explorer {
   RouteSpace space_;
   const PlannedSteps& steps_;
   int action_;
+  const bool* is_called_;
   graph::ExplorerContext context_;
   std::deque<Stretch> stretches_;  ///< to be searched; the first one is under way
   std::optional<FootstepSearch> search_;
@@ -56,6 +58,6 @@ class StepShortcutExplorer : public graph::Explorer {
 
 /// Makes a StepShortcutExplorer.
 graph::ExplorerFactory StepShortcutExploration(const RouteSpace& space, const PlannedSteps& steps,
-                                               int action);
+                                               int action, const bool* is_called);
 
 }  // namespace possibility::actions

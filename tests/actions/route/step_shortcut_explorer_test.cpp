@@ -62,7 +62,7 @@ class StepShortcutExplorerTest : public ::testing::Test {
     search_.actions = &actions_;
     search_.deadline = &deadline_;
     explorer_ = std::make_unique<StepShortcutExplorer>(
-        RouteSpace{&WalkingHubo(), &gaits_, &manoeuvres_}, *steps_, kSteps, search_);
+        RouteSpace{&WalkingHubo(), &gaits_, &manoeuvres_}, *steps_, kSteps, &is_called_, search_);
   }
 
   graph::Point At(double x) const {
@@ -96,6 +96,7 @@ class StepShortcutExplorerTest : public ::testing::Test {
   std::shared_ptr<PlannedSteps> steps_;
   std::vector<std::shared_ptr<SearchedManoeuvre>> manoeuvres_;
   std::vector<std::shared_ptr<const graph::Action>> actions_;
+  bool is_called_ = true;
   Deadline deadline_{60};
   graph::ExplorerContext search_;
   std::unique_ptr<StepShortcutExplorer> explorer_;
@@ -138,6 +139,14 @@ TEST_F(StepShortcutExplorerTest, WaysOfTheGaitAndPlannedStepsAreLeftAlone) {
   route[0].action = 0;
   route[1].action = kSteps;
   EXPECT_FALSE(explorer_->OnRoute(route, 1));
+}
+
+TEST_F(StepShortcutExplorerTest, TakesPartOnceStepsWereNeeded) {
+  Load(0, 0.05, 20);
+  EXPECT_TRUE(explorer_->TakesPart(graph::SearchStage::kImprovement));
+  EXPECT_FALSE(explorer_->TakesPart(graph::SearchStage::kFirstRoute));
+  is_called_ = false;
+  EXPECT_FALSE(explorer_->TakesPart(graph::SearchStage::kImprovement));
 }
 
 TEST_F(StepShortcutExplorerTest, StepsSlowerThanTheHopsAreNotMade) {
