@@ -17,6 +17,17 @@ def test_a_robot_has_names_and_limits():
     assert robot.mass == pytest.approx(43.98, abs=0.01)
 
 
+def test_a_robot_has_the_actuators_of_its_file(tmp_path):
+    assert possibility.load_robot(ROBOT).actuators == {}
+    text = ROBOT.read_text().replace("urdf: ", f"urdf: {ROBOT.parent}/")
+    file = tmp_path / "robot.yaml"
+    file.write_text(text + "actuators: [{joints: [LKP], armature: 0.3, dry_friction: 2, "
+                           "stall_torque: 150, no_load_speed: 20, reason: assumed}]\n")
+    assert possibility.load_robot(file).actuators == {"LKP": {
+        "armature": 0.3, "viscous_friction": 0, "dry_friction": 2, "dry_speed": 0.1,
+        "stall_torque": 150, "no_load_speed": 20}}
+
+
 def test_a_missing_robot_is_an_input_error():
     with pytest.raises(possibility.InputError) as error:
         possibility.load_robot("nowhere.yaml")
