@@ -305,7 +305,7 @@ std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
   const double spared = kLeastLoad / 4;
   return {{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, 0, false},
           {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, 0, false},
-          {tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, kSway, false},
+          {tall, 0, 0.16, 0.99, kSelfDistance, kLeastLoad, 0, 1, kSway},
           {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, kZmpAhead, 1, 0},
           {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin, 0}};
 }
@@ -316,6 +316,7 @@ std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  int* first) const {
   const std::vector<Style> styles = Styles();
   FootstepError fault("no steps", -1);
+  bool sways = false;  // in the style of that fault
   for (int i = *first; i < static_cast<int>(styles.size()); ++i) {
     if (!MayHelp(styles[i], fault.limit())) continue;
     try {
@@ -323,7 +324,12 @@ std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
       *first = i;
       return motion;
     } catch (const FootstepError& error) {
-      if (fault.step() < 0 || error.step() >= 0) fault = error;
+      // Of a robot whose hips are spared by swaying, other styles fail at the first step.
+      const bool came_less_far = sways && error.step() < fault.step();
+      if (fault.step() < 0 || (error.step() >= 0 && !came_less_far)) {
+        fault = error;
+        sways = styles[i].sway != 0;
+      }
     }
   }
   throw FootstepError(fault);

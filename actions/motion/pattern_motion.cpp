@@ -79,7 +79,7 @@ class OutOfReach : public MotionError {
 };
 
 /// Share of a swing in which the root still rolls from the one before, and so at its end.
-constexpr double kRolling = 0.25;
+constexpr double kRolling = 0.05;
 
 /// What the tasks of an interval need, besides the centre of mass.
 struct Interval {
