@@ -99,6 +99,10 @@ std::optional<FixedManoeuvre::Execution> FixedManoeuvre::AsExecution(
   return execution;
 }
 
+double FixedManoeuvre::GreatestSpeed() const {
+  return shape_.displacement.position().norm() / shape_.duration;
+}
+
 bool FixedManoeuvre::CN(const graph::Edge& edge) const {
   const std::optional<Execution> execution = AsExecution(edge);
   if (!execution || !launch_gait().CS(edge.from) || !landing_gait().CS(edge.to)) return false;

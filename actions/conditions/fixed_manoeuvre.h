@@ -55,6 +55,9 @@ class FixedManoeuvre final : public Manoeuvre {
   /// @throws std::invalid_argument if it is reversible and ends in another gait.
   FixedManoeuvre(const PlanningContext& context, FixedManoeuvreShape shape, MotionAtOrigin motion);
 
+  /// As expected.
+  double GreatestSpeed() const override;
+
   using Manoeuvre::CN;
   bool CN(const graph::Edge& edge) const override;
   graph::Point ExtendTowards(const graph::Point& v0, const graph::Point& v1) const override;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -85,6 +86,10 @@ class Manoeuvre : public graph::NonholonomicAction {
   /// Replaces guessed bounds by valid ones and returns whether they changed. Called before the
   /// planner answers "no". @throws Cancelled.
   virtual bool ReplaceGuesses(const CancellationToken& cancellation);
+
+  /// Greatest mean speed over the ground from launch to landing, seen from above, of all motions
+  /// known so far, m/s; infinite unless overridden. For lower bounds of durations.
+  virtual double GreatestSpeed() const { return std::numeric_limits<double>::infinity(); }
 
   /// Reports that the motion of a confirmed edge has a fault that does not depend on the place. A
   /// manoeuvre that has the same motion elsewhere should exclude it there. Does nothing unless

@@ -7,7 +7,6 @@
 
 #include "actions/flood/block_flood.h"
 #include "actions/flood/blocks_from_above.h"
-#include "actions/flood/pelvis_cells.h"
 
 namespace possibility::actions {
 namespace {
@@ -63,12 +62,33 @@ Barrier BarrierOf(const PelvisCells& cells, const BlocksFromAbove& view, const B
 
 }  // namespace
 
+PelvisCells PelvisCellsOf(const LocomotionModel& model, const World& world, double resolution,
+                          const std::vector<FlightBounds>& flights) {
+  return PelvisCells(model, world, resolution, FarthestBearing(model), FarthestFlight(flights));
+}
+
+std::optional<std::vector<CellBlock>> ReachedCells(const PelvisCells& cells,
+                                                   const GroundedStance& start,
+                                                   const FloodLimits& limits) {
+  if (!(cells.num_cells().z() <= CellQuadtrees::kMostAlong)) return std::nullopt;
+  BlockFlood flood(
+      static_cast<int>(cells.num_cells().z()), cells.num_cells().x(), cells.num_cells().y(),
+      [&](const CellBlock& block) { return cells.Judge(block); }, limits);
+  const FloodEnd end = flood.Run(
+      cells.CellOf(start), [](const CellBlock&) { return false; },
+      [](const CellBlock&) { return 0.0; },
+      [&](const CellBlock& block) { OfferNeighbours(block, &flood); }, [](const CellBlock&) {});
+  if (end == FloodEnd::kCutShort) return std::nullopt;
+  std::vector<CellBlock> blocks;
+  for (const BlockFlood::Reached& reached : flood.reached()) blocks.push_back(reached.block);
+  return blocks;
+}
+
 FloodResult FloodNecessary(const LocomotionModel& model, const World& world,
                            const GroundedStance& start, const std::vector<GroundedStance>& goals,
                            double resolution, const FloodLimits& limits,
                            const std::vector<FlightBounds>& flights) {
-  const PelvisCells cells(model, world, resolution, FarthestBearing(model),
-                          FarthestFlight(flights));
+  const PelvisCells cells = PelvisCellsOf(model, world, resolution, flights);
   FloodResult result;
   result.is_cut_short = true;
   if (!(cells.num_cells().z() <= CellQuadtrees::kMostAlong)) return result;

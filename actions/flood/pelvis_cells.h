@@ -31,6 +31,8 @@ class PelvisCells {
   const Eigen::Vector3d& size() const { return size_; }   ///< of a cell, m
   const Eigen::Vector3d& origin() const { return low_; }  ///< of the first cell
 
+  /// The centre of the ball in a stance, world, m.
+  Eigen::Vector3d BallAt(const GroundedStance& stance) const;
   /// The cell of the ball in a stance.
   CellBlock CellOf(const GroundedStance& stance) const { return CellOf(BallAt(stance)); }
   Eigen::Vector3d Centre(const CellBlock& block) const;
@@ -50,7 +52,6 @@ class PelvisCells {
   static Ball LargestBall(const models::PosedShape& posed);
   static Ball LargestBall(const models::Link& link);
 
-  Eigen::Vector3d BallAt(const GroundedStance& stance) const;
   CellBlock CellOf(const Eigen::Vector3d& p) const;
   Eigen::Vector3d Corner(int side) const;
   double ShrunkRadius(double to_corner) const;

@@ -91,6 +91,8 @@ double FootstepMotion::ExpectedDuration(const std::vector<Footstep>& steps) {
   return duration;
 }
 
+double FootstepMotion::LeastStepTime() { return kLevelSwing + kDoubleSupport; }
+
 int FootstepMotion::StepOfPhase(int phase, int steps) {
   // Phases alternate: all limbs bear, one swings, ...
   return std::clamp((phase - 1) / 2, 0, steps - 1);

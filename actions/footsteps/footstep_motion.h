@@ -53,6 +53,9 @@ class FootstepMotion {
   /// Of the motion, if no step has to be slower, s.
   static double ExpectedDuration(const std::vector<Footstep>& steps);
 
+  /// From one step to the next at least, s.
+  static double LeastStepTime();
+
   /// Index of the step in which phase `phase` of such a motion swings, or that it follows or leads
   /// to.
   static int StepOfPhase(int phase, int steps);

@@ -71,6 +71,11 @@ bool PlannedSteps::CN(const graph::Edge& edge) const {
   return launch_gait().CS(edge.from) && landing_gait().CS(edge.to);
 }
 
+double PlannedSteps::GreatestSpeed() const {
+  const double longest = std::hypot(limits_.forward, limits_.lateral) + FootholdGround::kMostShift;
+  return longest / FootstepMotion::LeastStepTime();
+}
+
 double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
   const EdgeKey key = KeyOf(edge);
   if (const std::optional<double> known = DurationOfOutcome(key)) return *known;

@@ -51,6 +51,9 @@ class PlannedSteps final : public Manoeuvre {
   std::vector<Phase> Motion(const graph::Edge& edge,
                             const CancellationToken& cancellation) const override;
 
+  /// Of the longest steps, each with the least time.
+  double GreatestSpeed() const override;
+
   bool TestsItsMotions() const override { return true; }
 
   /// Steps that a search has found from one end of an edge to the other: its job tries them first,

@@ -376,6 +376,25 @@ double LongJump::ExpectedDuration(const graph::Edge& edge) const {
   return rest_time + kNominalDuration;
 }
 
+double LongJump::GreatestSpeed() const {
+  const double beyond = transition_ ? transition_->displacement.position().norm() : 0;
+  double greatest = 0;
+  for (const double height : RisesOf(world().ground->levels())) {
+    const auto distances = reach_.Distances(height);
+    if (!distances) continue;
+    for (double distance = distances->first;
+         distance < distances->second + JumpLibrary::kDistanceStep / 2;
+         distance += JumpLibrary::kDistanceStep) {
+      const std::optional<JumpAnswer> answer =
+          library_->Find(JumpLibrary::OnGrid({distance, height}));
+      if (!answer || !answer->jump) continue;
+      const double seconds = answer->jump->duration() - answer->jump->preparation();
+      greatest = std::max(greatest, (distance + beyond) / seconds);
+    }
+  }
+  return greatest;
+}
+
 std::unique_ptr<graph::ConfirmationJob> LongJump::SpawnConfirmationJob(
     const graph::Edge& edge) const {
   const std::optional<Leap> leap = AsLeap(edge);

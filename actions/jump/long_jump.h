@@ -57,6 +57,9 @@ class LongJump : public Manoeuvre {
   /// Replaces a guessed reach by solving. Must not run while FindPath explores in another thread.
   bool ReplaceGuesses(const CancellationToken& cancellation) override;
 
+  /// Of the jumps between the levels of the world that the library knows.
+  double GreatestSpeed() const override;
+
   /// Excludes every jump of the same distance and height.
   void RefuteEverywhere(const graph::Edge& edge) override;
 

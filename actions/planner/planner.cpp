@@ -18,10 +18,12 @@
 #include "actions/jump/long_jump.h"
 #include "actions/motion/motion_schedule.h"
 #include "actions/plan/plan_rounding.h"
+#include "actions/planner/least_duration.h"
 #include "actions/planner/passage_explanation.h"
 #include "actions/planner/plan_explanation.h"
 #include "actions/planner/planner_memory.h"
 #include "actions/planner/request_checks.h"
+#include "actions/planner/route_improvement.h"
 #include "actions/planner/route_refusals.h"
 #include "actions/refinement/plan_refinement.h"
 #include "actions/route/footstep_explorer.h"
@@ -43,6 +45,11 @@ namespace {
 
 /// Minimum time allowed for motion and verification after the time limit, s.
 constexpr double kLeastToFinish = 10;
+
+/// Gain in duration that is worth another plan, s.
+constexpr double kLeastGain = 1e-3;
+/// Time for one random exploration of another route, s.
+constexpr double kElsewhere = 2;
 
 /// Whether the same motion may be free of this violation elsewhere.
 bool DependsOnPlace(ViolationKind kind) {
@@ -136,7 +143,10 @@ class TraversalPlanner {
       Record(path, &result);
       if (path.status != graph::PathStatus::kFound) return result;
       try {
-        if (Realise(path, &result)) return result;
+        if (Realise(path, &result)) {
+          if (request_.improved) Improve(path, &result);
+          return result;
+        }
       } catch (const Cancelled&) {
         request_.cancellation.ThrowIfCancelled();
         DropMotion(&result.plan);
@@ -493,6 +503,63 @@ class TraversalPlanner {
     return moved && IsVerified(route, result);
   }
 
+  /// PlanRequest::improved. Routes are changed at random, and now and then another is explored.
+  void Improve(const graph::PathResult& path, PlanResult* best) {
+    best->least_duration =
+        LeastDuration({model_, world_, manoeuvres_, steps_.get(), scenario_.planner}, start_,
+                      goals_, Until(deadline_));
+    request_.improved(*best);
+    is_improving_ = true;
+    RouteImprovement improvement(AllSpace(), RouteAlong(model_, all_manoeuvres_, path.path),
+                                 request_.seed,
+                                 [this](std::uint64_t round) { return ExploreElsewhere(round); });
+    try {
+      while (best->plan.duration() > best->least_duration && !deadline_.Passed()) {
+        const std::optional<Route> route = improvement.Next(Until(deadline_));
+        if (!route) break;
+        PlanResult quicker = *best;
+        quicker.plan.timings.motion_s = quicker.plan.timings.verification_s = 0;
+        if (!RealiseQuicker(*route, best->plan.duration(), &quicker)) continue;
+        improvement.Accept(*route);
+        *best = std::move(quicker);
+        request_.improved(*best);
+      }
+    } catch (const Cancelled&) {
+      request_.cancellation.ThrowIfCancelled();  // otherwise time is up
+    }
+  }
+
+  /// Whether the route leads to a verified plan shorter than `duration` (s).
+  bool RealiseQuicker(const Route& route, double duration, PlanResult* result) {
+    const Stopwatch motion_clock;
+    if (!Generate(route, &result->plan)) return false;
+    result->plan.timings.motion_s = motion_clock.Seconds();
+    if (!(result->plan.duration() < duration - kLeastGain)) return false;
+    AddSchedule(&result->plan);
+    if (!IsVerified(route, result)) return false;
+    result->plan.search->duration = ExpectedDuration(model_, route);
+    return true;
+  }
+
+  /// The route that random exploration alone finds in a short time; empty if none.
+  Route ExploreElsewhere(std::uint64_t round) {
+    graph::FindPathSettings settings = SearchSettings(round);
+    settings.time_limit = std::min(settings.time_limit, kElsewhere);
+    settings.improvement_share = 0;
+    settings.explorers = {graph::RandomExploration()};
+    std::vector<std::shared_ptr<const graph::Action>> actions(gaits_.begin(), gaits_.end());
+    actions.insert(actions.end(), searched_.begin(), searched_.end());
+    const graph::PathResult path =
+        graph::FindPath(PointOf(start_), GoalPoints(), actions, *space_, settings);
+    if (path.status != graph::PathStatus::kFound) return {};
+    return RouteAlong(model_, all_manoeuvres_, path.path);
+  }
+
+  /// Of motion and verification.
+  CancellationToken UntilTheEnd() const {
+    return Until(is_improving_ ? deadline_ : last_deadline_);
+  }
+
   /// Motion of other programs may be malformed. It gets no schedule, and the verifier rejects it.
   void AddSchedule(actions::Plan* plan) const {
     ViolationLog log;
@@ -524,9 +591,9 @@ class TraversalPlanner {
 
   bool Generate(const Route& route, actions::Plan* plan) {
     try {
-      plan->segments = GenerateMotion(
-          model_, scenario_.environment, route, request_.threads, Until(last_deadline_),
-          [this](double fraction) { Report("generating motion", fraction); });
+      plan->segments =
+          GenerateMotion(model_, scenario_.environment, route, request_.threads, UntilTheEnd(),
+                         [this](double fraction) { Report("generating motion", fraction); });
       RoundToFile(plan);
       return true;
     } catch (const LegError& error) {
@@ -541,7 +608,7 @@ class TraversalPlanner {
   bool IsVerified(const Route& route, PlanResult* result) {
     VerifierSettings settings;
     settings.threads = request_.threads;
-    settings.cancellation = Until(last_deadline_);
+    settings.cancellation = UntilTheEnd();
     if (request_.memory) settings.store = &request_.memory->verdicts();
     settings.progress = [this](double fraction) { Report("verifying", fraction); };
     result->verification = Verify(result->plan, robot_, scenario_, settings);
@@ -631,6 +698,7 @@ class TraversalPlanner {
   GroundedStance start_;
   std::vector<GroundedStance> goals_;
   double preparation_s_ = 0;
+  bool is_improving_ = false;  ///< a plan is found; a quicker one is looked for
   mutable std::mutex progress_mutex_;
 };
 

@@ -19,6 +19,8 @@ namespace possibility::actions {
 
 class PlannerMemory;
 
+struct PlanResult;
+
 enum class PlanStatus { kFound, kProvenInfeasible, kExhausted, kTimeLimit };
 
 /// "found", "proven_infeasible", "exhausted", "time_limit": the words of the JSON contract.
@@ -49,6 +51,10 @@ struct PlanRequest {
   /// Kept between requests (planner_memory.h); null: none. Must outlive the call. The plan does not
   /// depend on it.
   PlannerMemory* memory = nullptr;
+  /// If set, planning goes on after the first plan until the time limit, or until the plan is as
+  /// quick as any can be, verification included. Called with the first plan and with each
+  /// that is quicker; all are verified. The result is the last of them.
+  std::function<void(const PlanResult&)> improved;
   std::function<void(const PlanProgress&)> progress;
   /// Asked from any thread; once it cancels, PlanTraversal throws Cancelled.
   CancellationToken cancellation;
@@ -61,6 +67,9 @@ struct PlanResult {
   /// One paragraph: which conditions rejected what, and where. If kFound: the manoeuvres refuted
   /// and the jobs failed during the search; empty if none.
   std::string explanation;
+  /// Lower bound of the duration of all plans that the planner could make (LeastDuration), s; 0:
+  /// not asked for. Set if PlanRequest::improved is.
+  double least_duration = 0;
 };
 
 /// Plans, generates the motion and verifies it. A plan that fails verification is never returned:

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/stopwatch.h"
+#include "experiments/bench/bench_anytime.h"
 #include "experiments/bench/bench_collocation.h"
 #include "experiments/bench/bench_confirmation.h"
 #include "experiments/bench/bench_dynamics.h"
@@ -30,6 +31,8 @@ struct BenchOptions {
   std::string scenarios = GraphBenchSettings().scenarios;
   std::string seeds;
   std::string moves;
+  std::string time_limit;
+  std::string plot;
   bool json = false;
 };
 
@@ -65,8 +68,20 @@ BenchmarkReport BenchReplanningAsAsked(const BenchOptions& options, const models
   return BenchReplanning(robot, settings, progress);
 }
 
+BenchmarkReport BenchAnytimeAsAsked(const BenchOptions& options, const models::RobotModel& robot,
+                                    const Progress& progress) {
+  AnytimeBenchSettings settings;
+  settings.scenarios = options.scenarios;
+  settings.plot = options.plot;
+  if (!options.time_limit.empty()) {
+    settings.time_limit = ParseSeconds("--time-limit", options.time_limit);
+  }
+  return BenchAnytime(robot, settings, progress);
+}
+
 const std::map<std::string, Bench>& Benches() {
   static const std::map<std::string, Bench> benches = {
+      {"anytime", &BenchAnytimeAsAsked},
       {"collocation", OfRobot(&BenchCollocation)},
       {"confirmation", OfRobot(&BenchConfirmation)},
       {"dynamics", OfRobot(&BenchDynamics)},
@@ -118,11 +133,13 @@ Command AddBenchCommand(CLI::App& program) {
   CommandOptions command(program, "bench", "Measures speed, against peers in the same run.");
   auto options = std::make_shared<BenchOptions>();
   command.AddRequired("SUBJECT", &options->subject,
-                      "collocation, confirmation, dynamics, graph or replanning");
+                      "anytime, collocation, confirmation, dynamics, graph or replanning");
   command.AddOptional("--robot", &options->robot, "Robot YAML");
   command.AddOptional("--scenarios", &options->scenarios,
-                      "graph, replanning: folder of the scenarios");
+                      "anytime, graph, replanning: folder of the scenarios");
   command.AddOptional("--seeds", &options->seeds, "graph: searches of each planner (default 20)");
+  command.AddOptional("--time-limit", &options->time_limit, "anytime: s, of each plan (30)");
+  command.AddOptional("--plot", &options->plot, "anytime: SVG of durations over time");
   command.AddOptional("--moves", &options->moves, "replanning: moved scenes (default 50)");
   command.AddFlag("--json", &options->json, "One JSON object on stdout, nothing else");
   return {command, [options] { return RunBench(*options); }};

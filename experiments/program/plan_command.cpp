@@ -15,6 +15,7 @@
 #include "actions/planner/planner.h"
 #include "actions/verify/verification_report.h"
 #include "experiments/report/plan_summary.h"
+#include "experiments/service/anytime.h"
 #include "experiments/service/plan_output.h"
 #include "experiments/service/plan_watch.h"
 #include "experiments/support/hardware_threads.h"
@@ -43,6 +44,7 @@ struct PlanOptions {
   std::string explorers;
   std::string format;
   bool watch = false;
+  bool anytime = false;
   bool json = false;
 };
 
@@ -144,6 +146,9 @@ ExitCode RunWatch(const PlanOptions& options) {
 ExitCode RunPlan(const PlanOptions& options) {
   actions::PlanRequest unused;
   ApplyOptions(options, &unused);  // finds their errors before any file is read
+  if (options.watch && options.anytime) {
+    throw InputError("--anytime: cannot be combined with --watch, expected one of them");
+  }
   if (options.watch) return RunWatch(options);
   const models::Scenario scenario = models::LoadScenario(options.scenario);
   const actions::PlanRequest request = RequestFor(options, scenario);
@@ -151,14 +156,18 @@ ExitCode RunPlan(const PlanOptions& options) {
   const std::filesystem::path folder = FolderFor(options, scenario);
   PrepareOutputFolder("--out", folder);
 
-  const actions::PlanResult result = PlanWithProgress(robot, scenario, request);
+  const PlanFiles files = PlanFilesIn(folder, request.plan_version);
+  const actions::PlanResult result =
+      options.anytime ? PlanAnytime(robot, scenario, request, files, options.json)
+                      : PlanWithProgress(robot, scenario, request);
   if (result.status == actions::PlanStatus::kFound && !result.verification.accepted()) {
     PrintError("{}", actions::FormatText(result.verification));
     return kVerificationFailed;
   }
-  const PlanFiles files = PlanFilesIn(folder, request.plan_version);
   WriteOnlyPlan(result.plan, files);
   WritePage(result.plan, robot, scenario, files);
+  // Its objects are printed.
+  if (options.anytime && options.json && result.status == actions::PlanStatus::kFound) return kDone;
   return Report(result, robot, files, options.json);
 }
 
@@ -184,8 +193,10 @@ Command AddPlanCommand(CLI::App& program) {
       "1: plan.json (default); 2: plan.zip, a tenth as large and exact between knots");
   command.AddFlag("--watch", &options->watch,
                   "Plan again whenever the scenario's file changes, until interrupted");
+  command.AddFlag("--anytime", &options->anytime,
+                  "After the first plan look for quicker ones until the time limit");
   command.AddFlag("--json", &options->json,
-                  "Print one JSON object; with --watch one a line for each plan");
+                  "Print one JSON object; with --watch or --anytime one a line for each plan");
   return {command, [options] { return RunPlan(*options); }};
 }
 

@@ -29,6 +29,8 @@ inline const std::vector<CommandRule>& CommandRules() {
       {"README.md", "sh cmake/build_release.sh", kExempt, "installs and builds"},
       {"README.md", "PYTHONPATH=", kExempt, "python.pytest runs the example"},
       {"CONTRIBUTING.md", "./test", kExempt, "installs, builds and runs all tests"},
+      {"docs/anytime.md", "./run plan", kLong, "plans for half a minute"},
+      {"docs/anytime.md", "./run bench", kExempt, "plans every scene for half a minute"},
       {"docs/cluster.md", "possibility table", kExempt, "takes hours"},
       {"docs/cluster.md", "possibility merge", kExempt, "merges what takes hours"},
       {"docs/cluster.md", "mkdir", kExempt, "needs a cluster; Slurm.JobArray has the like"},

@@ -23,6 +23,8 @@ class PlanWatch : public testing::ProgramRun {
  protected:
   void SetUp() override {
     ProgramRun::SetUp();
+    // Ignored where tests run in the background, and programs inherit that.
+    std::signal(SIGINT, SIG_DFL);
     text_ = ReadText(fs::path(POSSIBILITY_SOURCE_DIR) / "experiments/scenarios/crack.yaml");
     const std::string robot = "robot: ../../";
     text_.replace(text_.find(robot), robot.size(), "robot: " POSSIBILITY_SOURCE_DIR "/");

@@ -414,9 +414,10 @@ TEST_F(Program, BenchDynamicsPrintsRowsAndRatios) {
 TEST_F(Program, BenchRefusesAnUnknownSubjectByName) {
   const Outcome outcome = Run("bench dynamix");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(outcome.err,
-            "bench: unknown subject 'dynamix', expected collocation, confirmation, dynamics, graph "
-            "(did you mean 'dynamics'?)\n");
+  EXPECT_EQ(
+      outcome.err,
+      "bench: unknown subject 'dynamix', expected anytime, collocation, confirmation, dynamics, "
+      "graph, replanning (did you mean 'dynamics'?)\n");
   EXPECT_EQ(Run("bench dynamics --robot no_such_robot.yaml").code, 1);
 }
 
