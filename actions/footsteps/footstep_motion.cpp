@@ -47,6 +47,8 @@ constexpr double kLeastMargin = 0.67;
 
 /// A hip that bears holds the trunk up sideways. It is spared by a trunk that rolls over it, rad.
 constexpr double kSway = 0.08;
+/// It rolls from one side to the other while both feet bear, which takes so many times as long.
+constexpr double kSwayingSupport = 2;
 
 /// Of every bearing point, as a share of the weight. On steep ground it costs friction: what a
 /// point bears at least has no part in balance.
@@ -99,7 +101,7 @@ int FootstepMotion::StepOfPhase(int phase, int steps) {
 }
 
 models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& slowness,
-                                                   const Foothold& start,
+                                                   const Style& style, const Foothold& start,
                                                    const std::vector<Footstep>& steps) const {
   models::ContactSchedule schedule;
   models::ContactInterval standing;
@@ -115,7 +117,8 @@ models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& sl
     swing.duration = slowness[i] * SwingDuration(steps[i]);
     schedule.intervals.push_back(std::move(swing));
     standing.bearing[steps[i].limb] = PatchPoseOf(*stance_, steps[i].limb, steps[i].to);
-    standing.duration = slowness[i] * DoubleSupport(steps, i);
+    standing.duration =
+        slowness[i] * (style.sway != 0 ? kSwayingSupport : 1) * DoubleSupport(steps, i);
     schedule.intervals.push_back(standing);
   }
   schedule.intervals.back().duration = kStart;
@@ -162,8 +165,8 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slo
     pattern.lifts.push_back(step.lift);
     pattern.lifts.push_back(0);
   }
-  std::vector<MotionPhase> phases =
-      PatternPhases(*robot_, *stance_, ScheduleOf(slowness, start, steps), pattern, cancellation);
+  std::vector<MotionPhase> phases = PatternPhases(
+      *robot_, *stance_, ScheduleOf(slowness, style, start, steps), pattern, cancellation);
   SetFriction(start, steps, &phases);
   return phases;
 }

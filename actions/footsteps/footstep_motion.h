@@ -100,7 +100,8 @@ class FootstepMotion {
   void RequireRoughSelfClearance(const Style& style, const Foothold& start,
                                  const std::vector<Footstep>& steps,
                                  const CancellationToken& cancellation) const;
-  models::ContactSchedule ScheduleOf(const std::vector<double>& slowness, const Foothold& start,
+  models::ContactSchedule ScheduleOf(const std::vector<double>& slowness, const Style& style,
+                                     const Foothold& start,
                                      const std::vector<Footstep>& steps) const;
   void RequireSelfClearance(const std::vector<Phase>& motion, double distance, int steps) const;
 
