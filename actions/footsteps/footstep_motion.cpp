@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actions/footsteps/sideways_load.h"
 #include "actions/motion/pattern_motion.h"
 #include "actions/wholebody/motion_error.h"
 #include "dynamics/tree/tree_kinematics.h"
@@ -45,7 +46,9 @@ constexpr double kZmpAhead = 0.03;
 /// the gait's margin of the zero moment point.
 constexpr double kLeastMargin = 0.67;
 
-/// A hip that bears holds the trunk up sideways. It is spared by a trunk that rolls over it, rad.
+/// A hip that bears holds the trunk up sideways. Where that takes more than this share of its
+/// torque (SidewaysLoad), it is spared by a trunk that rolls over it, rad.
+constexpr double kHeavySideways = 0.8;
 constexpr double kSway = 0.08;
 /// It rolls from one side to the other while both feet bear, which takes so many times as long.
 constexpr double kSwayingSupport = 2;
@@ -82,7 +85,10 @@ FootstepError::Part PartOf(const MotionError& error) {
 }  // namespace
 
 FootstepMotion::FootstepMotion(const models::RobotModel& robot, const NominalStance& stance)
-    : robot_(&robot), stance_(&stance), self_clearance_(robot, {stance.q}) {}
+    : robot_(&robot),
+      stance_(&stance),
+      self_clearance_(robot, {stance.q}),
+      sideways_load_(SidewaysLoad(robot, stance)) {}
 
 double FootstepMotion::ExpectedDuration(const std::vector<Footstep>& steps) {
   double duration = 2 * kStart;
@@ -308,11 +314,16 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
 std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
   const double tall = kTall * stance_->gait->posture.root_height;
   const double spared = kLeastLoad / 4;
-  return {{tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, 0, false},
-          {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, 0, false},
-          {tall, 0, 0.16, 0.99, kSelfDistance, kLeastLoad, 0, 1, kSway},
-          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, kZmpAhead, 1, 0},
-          {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin, 0}};
+  std::vector<Style> styles = {
+      {tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, 0, false},
+      {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, 0, false},
+      {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, kZmpAhead, 1, 0},
+      {tall, -0.15, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin, 0}};
+  if (sideways_load_ > kHeavySideways) {
+    const Style swaying = {tall, 0, 0.16, 0.99, kSelfDistance, kLeastLoad, 0, 1, kSway};
+    styles.insert(styles.begin() + 2, swaying);
+  }
+  return styles;
 }
 
 std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,

@@ -108,6 +108,7 @@ class FootstepMotion {
   const models::RobotModel* robot_;
   const NominalStance* stance_;
   SelfClearance self_clearance_;
+  double sideways_load_;
 };
 
 }  // namespace possibility::actions
