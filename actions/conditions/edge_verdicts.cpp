@@ -21,6 +21,11 @@ void EdgeVerdicts::Record(const graph::Edge& edge, bool possible, const std::str
   verdicts_.push_back({edge, possible, reason});
 }
 
+void EdgeVerdicts::Forget(const graph::Edge& edge) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(verdicts_, [&](const Verdict& verdict) { return SameEdge(verdict.edge, edge); });
+}
+
 std::optional<bool> EdgeVerdicts::On(const graph::Edge& edge) const {
   const std::lock_guard lock(mutex_);
   for (const Verdict& verdict : verdicts_) {

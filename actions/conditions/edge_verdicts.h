@@ -21,6 +21,8 @@ class EdgeVerdicts {
   /// The last verdict on an edge counts. Edges are the same if their ends are (IsSamePose).
   void Record(const graph::Edge& edge, bool possible, const std::string& reason);
 
+  void Forget(const graph::Edge& edge);
+
   /// Whether the edge is possible; none if nobody has decided.
   std::optional<bool> On(const graph::Edge& edge) const;
 

@@ -80,6 +80,9 @@ class Manoeuvre : public graph::NonholonomicAction {
   /// need not test it again.
   virtual bool TestsItsMotions() const { return false; }
 
+  /// Whether `Motion` ends by itself after a stated effort, so that jobs need no time limit.
+  virtual bool BoundsItsEffort() const { return false; }
+
   /// Bounds that the floods may rely on; none unless overridden.
   virtual ManoeuvreBounds Bounds() const { return {}; }
 

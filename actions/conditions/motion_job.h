@@ -20,6 +20,7 @@ class MotionJob : public graph::ConfirmationJob {
 
   graph::JobVerdict Run(graph::JobControl* control) override;
   double work_of_checkpoint() const override { return 0.1e-3; }
+  bool bounds_its_effort() const override { return manoeuvre_.BoundsItsEffort(); }
   std::string reason() const override { return reason_; }
 
  private:

@@ -44,6 +44,7 @@ class RecordedJob : public graph::ConfirmationJob {
     return verdict;
   }
   double work_of_checkpoint() const override { return job_->work_of_checkpoint(); }
+  bool bounds_its_effort() const override { return job_->bounds_its_effort(); }
   std::string reason() const override { return job_->reason(); }
 
  private:
@@ -120,6 +121,8 @@ void SearchedManoeuvre::Forbid(const Edge& edge, const std::string& reason, bool
   verdicts_.Record(edge, false, reason);
   if (everywhere) manoeuvre_->RefuteEverywhere(edge);
 }
+
+void SearchedManoeuvre::Forget(const Edge& edge) { verdicts_.Forget(edge); }
 
 template <typename At, typename Call>
 std::invoke_result_t<Call> SearchedManoeuvre::Guard(const char* function, const At& at,

@@ -60,6 +60,8 @@ class SearchedManoeuvre final : public graph::NonholonomicAction {
   /// Marks an edge as impossible because its motion failed. `everywhere`: the fault does not depend
   /// on the place, so the manoeuvre is told as well.
   void Forbid(const graph::Edge& edge, const std::string& reason, bool everywhere);
+  /// Nobody has decided on the edge any more: its job may be asked again.
+  void Forget(const graph::Edge& edge);
   /// Edges that jobs refuted or the planner forbade, in that order.
   std::vector<Refusal> Refusals() const { return verdicts_.Refusals(); }
 

@@ -100,8 +100,9 @@ Foothold FootholdGround::On(int limb, const PlanarPose& stance, int plane) const
 bool FootholdGround::Holds(int limb, int plane, const Foothold& place) const {
   const std::vector<Vector2d>& points = stance_.bearing_points[limb];
   if (place.IsLevel()) {
+    const Eigen::Isometry2d X = place.stance.Transform();
     return std::all_of(points.begin(), points.end(), [&](const Vector2d& p) {
-      return world_.ground->Clearance(plane, place.stance * p) >= margin_;
+      return world_.ground->Clearance(plane, X * p) >= margin_;
     });
   }
   const Eigen::Isometry3d X_WS = FrameOf(stance_, limb, place);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "actions/footsteps/sideways_load.h"
 #include "actions/motion/pattern_motion.h"
@@ -47,7 +48,8 @@ constexpr double kZmpAhead = 0.03;
 constexpr double kLeastMargin = 0.67;
 
 /// A hip that bears holds the trunk up sideways. Where that takes more than this share of its
-/// torque (SidewaysLoad), it is spared by a trunk that rolls over it, rad.
+/// torque (SidewaysLoad), it is spared by a trunk that rolls over it, rad. So is the range of a hip
+/// that swings far aside.
 constexpr double kHeavySideways = 0.8;
 constexpr double kSway = 0.08;
 /// It rolls from one side to the other while both feet bear, which takes so many times as long.
@@ -106,8 +108,8 @@ int FootstepMotion::StepOfPhase(int phase, int steps) {
   return std::clamp((phase - 1) / 2, 0, steps - 1);
 }
 
-models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& slowness,
-                                                   const Style& style, const Foothold& start,
+models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<Pace>& paces,
+                                                   const Foothold& start,
                                                    const std::vector<Footstep>& steps) const {
   models::ContactSchedule schedule;
   models::ContactInterval standing;
@@ -120,11 +122,11 @@ models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<double>& sl
   for (std::size_t i = 0; i < steps.size(); ++i) {
     models::ContactInterval swing = standing;
     swing.bearing[steps[i].limb].reset();
-    swing.duration = slowness[i] * SwingDuration(steps[i]);
+    swing.duration = paces[i].slowness * SwingDuration(steps[i]);
     schedule.intervals.push_back(std::move(swing));
     standing.bearing[steps[i].limb] = PatchPoseOf(*stance_, steps[i].limb, steps[i].to);
-    standing.duration =
-        slowness[i] * (style.sway != 0 ? kSwayingSupport : 1) * DoubleSupport(steps, i);
+    const bool rolls = paces[i].sway != 0 || (i + 1 < steps.size() && paces[i + 1].sway != 0);
+    standing.duration = paces[i].slowness * (rolls ? kSwayingSupport : 1) * DoubleSupport(steps, i);
     schedule.intervals.push_back(standing);
   }
   schedule.intervals.back().duration = kStart;
@@ -148,7 +150,7 @@ void FootstepMotion::RequireSelfClearance(const std::vector<Phase>& motion, doub
   }
 }
 
-std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slowness,
+std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<Pace>& paces,
                                                   const Style& style, double grid,
                                                   int filter_passes, const Foothold& start,
                                                   const std::vector<Footstep>& steps,
@@ -160,19 +162,19 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<double>& slo
   pattern.rise = style.rise;
   pattern.lean = style.lean;
   pattern.zmp_ahead = style.zmp_ahead;
-  pattern.sway = style.sway;
   pattern.rise_time = kStart;
   pattern.height_spacing = style.spacing;
   pattern.grid = grid;
   pattern.filter_passes = filter_passes;
   pattern.coarse_stride = kCoarseStride;
   pattern.lifts.push_back(0);
-  for (const Footstep& step : steps) {
-    pattern.lifts.push_back(step.lift);
-    pattern.lifts.push_back(0);
+  pattern.sways.push_back(0);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    pattern.lifts.insert(pattern.lifts.end(), {steps[i].lift, 0});
+    pattern.sways.insert(pattern.sways.end(), {paces[i].sway, 0});
   }
-  std::vector<MotionPhase> phases = PatternPhases(
-      *robot_, *stance_, ScheduleOf(slowness, style, start, steps), pattern, cancellation);
+  std::vector<MotionPhase> phases =
+      PatternPhases(*robot_, *stance_, ScheduleOf(paces, start, steps), pattern, cancellation);
   SetFriction(start, steps, &phases);
   return phases;
 }
@@ -204,8 +206,8 @@ void FootstepMotion::RequireRoughSelfClearance(const Style& style, const Foothol
                                                const CancellationToken& cancellation) const {
   std::vector<Phase> motion;
   try {
-    const auto phases = PhasesOf(std::vector<double>(steps.size(), 1), style, kRoughGrid, 1, start,
-                                 steps, cancellation);
+    const auto phases = PhasesOf(std::vector<Pace>(steps.size(), Pace{1, style.sway}), style,
+                                 kRoughGrid, 1, start, steps, cancellation);
     WholeBodySolver solver(*robot_);
     Eigen::VectorXd guess = GuessAt(start);
     for (const MotionPhase& phase : phases) {
@@ -228,7 +230,7 @@ void FootstepMotion::RequireRoughSelfClearance(const Style& style, const Foothol
   RequireSelfClearance(motion, style.self_distance - kRoughness, static_cast<int>(steps.size()));
 }
 
-std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, const Style& style,
+std::vector<Phase> FootstepMotion::BuildAt(const std::vector<Pace>& paces, const Style& style,
                                            const Foothold& start,
                                            const std::vector<Footstep>& steps,
                                            const CancellationToken& cancellation) const {
@@ -239,7 +241,7 @@ std::vector<Phase> FootstepMotion::BuildAt(const std::vector<double>& slowness, 
   settings.minimum_intervals = kLeastIntervals;
   std::vector<Phase> motion =
       MotionBuilder(*robot_, settings)
-          .Build(PhasesOf(slowness, style, kKnotSpacing, kFilterPasses, start, steps, cancellation),
+          .Build(PhasesOf(paces, style, kKnotSpacing, kFilterPasses, start, steps, cancellation),
                  GuessAt(start), cancellation);
   RequireSelfClearance(motion, style.self_distance, static_cast<int>(steps.size()));
   return motion;
@@ -259,27 +261,36 @@ bool FootstepMotion::MayHelp(const Style& style, MotionError::Limit limit) {
          (style.least_load < kLeastLoad && style.zmp_ahead == 0);
 }
 
+bool FootstepMotion::Ease(const MotionError& error, const Style& style, int step,
+                          std::vector<Pace>* paces) {
+  if (error.limit() == MotionError::Limit::kJointRange) {
+    return std::exchange((*paces)[step].sway, kSway) != kSway;
+  }
+  if (!SpeedMatters(style, error.limit())) return false;
+  if ((*paces)[step].slowness * kSlower > kSlowest) return false;
+  const int last = static_cast<int>(paces->size()) - 1;
+  for (int i = std::max(0, step - 1); i <= std::min(step + 1, last); ++i) {
+    (*paces)[i].slowness = std::min(kSlowest, (*paces)[i].slowness * kSlower);
+  }
+  return true;
+}
+
 std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& start,
                                            const std::vector<Footstep>& steps,
                                            const CancellationToken& cancellation) const {
   const int count = static_cast<int>(steps.size());
-  std::vector<double> slowness(steps.size(), 1);
+  std::vector<Pace> paces(steps.size(), Pace{1, style.sway});
   RequireRoughSelfClearance(style, start, steps, cancellation);
   for (;;) {
     try {
-      return BuildAt(slowness, style, start, steps, cancellation);
+      return BuildAt(paces, style, start, steps, cancellation);
     } catch (const FootstepError&) {
       throw;  // no question of speed
     } catch (const MotionError& error) {
       if (error.phase() < 0) throw FootstepError(error.what(), -1);
       const int step = StepOfPhase(error.phase(), count);
-      const bool may_be_slower =
-          SpeedMatters(style, error.limit()) && slowness[step] * kSlower <= kSlowest;
-      if (!may_be_slower) {
+      if (!Ease(error, style, step, &paces)) {
         throw FootstepError(error.what(), step, false, PartOf(error), error.limit());
-      }
-      for (int i = std::max(0, step - 1); i <= std::min(step + 1, count - 1); ++i) {
-        slowness[i] = std::min(kSlowest, slowness[i] * kSlower);
       }
     }
   }

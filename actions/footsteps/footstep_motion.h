@@ -71,8 +71,14 @@ class FootstepMotion {
     double least_load = 0;     ///< MotionSettings::normal_reserve
     double zmp_ahead = 0;      ///< PatternSettings
     double zmp_margin = 0;     ///< of PatternSettings, as a share of the gait's
-    double sway = 0;           ///< PatternSettings
+    double sway = 0;           ///< of all steps: PatternSettings
     bool is_patient = true;    ///< steps that need too much torque or friction are slowed down
+  };
+
+  /// How a single step is carried out.
+  struct Pace {
+    double slowness = 1;  ///< times its duration
+    double sway = 0;      ///< rad, PatternSettings
   };
 
   std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,
@@ -85,11 +91,15 @@ class FootstepMotion {
   std::vector<Phase> BuildIn(const Style& style, const Foothold& start,
                              const std::vector<Footstep>& steps,
                              const CancellationToken& cancellation) const;
-  std::vector<Phase> BuildAt(const std::vector<double>& slowness, const Style& style,
+  /// Changes the paces of steps so that a motion may keep a limit that it exceeded at one of them.
+  /// False if nothing is left to change.
+  static bool Ease(const MotionError& error, const Style& style, int step,
+                   std::vector<Pace>* paces);
+  std::vector<Phase> BuildAt(const std::vector<Pace>& paces, const Style& style,
                              const Foothold& start, const std::vector<Footstep>& steps,
                              const CancellationToken& cancellation) const;
-  std::vector<MotionPhase> PhasesOf(const std::vector<double>& slowness, const Style& style,
-                                    double grid, int filter_passes, const Foothold& start,
+  std::vector<MotionPhase> PhasesOf(const std::vector<Pace>& paces, const Style& style, double grid,
+                                    int filter_passes, const Foothold& start,
                                     const std::vector<Footstep>& steps,
                                     const CancellationToken& cancellation) const;
   /// Of the footholds, in the phases of the motion.
@@ -100,8 +110,7 @@ class FootstepMotion {
   void RequireRoughSelfClearance(const Style& style, const Foothold& start,
                                  const std::vector<Footstep>& steps,
                                  const CancellationToken& cancellation) const;
-  models::ContactSchedule ScheduleOf(const std::vector<double>& slowness, const Style& style,
-                                     const Foothold& start,
+  models::ContactSchedule ScheduleOf(const std::vector<Pace>& paces, const Foothold& start,
                                      const std::vector<Footstep>& steps) const;
   void RequireSelfClearance(const std::vector<Phase>& motion, double distance, int steps) const;
 

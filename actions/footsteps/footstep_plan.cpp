@@ -236,30 +236,44 @@ struct FootstepSearch::Search {
     const std::optional<double> squat = rules.Squat(limb, node.feet[limb], other);
     if (!squat) return;
     node.squat = *squat;
+    const std::vector<StepRules::Place> places = PlacesOf(node);
     for (const int layer : LayersNear(node)) {
-      Branch branch{index, layer, CandidatesOf(node, layer)};
+      Branch branch{index, layer, CandidatesOf(node, places, layer)};
       if (branch.candidates.empty()) continue;
       branches.push_back(std::move(branch));
       PushCandidate(static_cast<int>(branches.size()) - 1);
     }
   }
 
-  std::vector<Candidate> CandidatesOf(const Node& node, int layer) {
+  /// All of them; PlaceOf gives single ones.
+  std::vector<StepRules::Place> PlacesOf(const Node& node) const {
+    const PlanarPose& other = node.feet[1 - node.next].stance;
+    std::vector<StepRules::Place> places = rules.PlacesAbout(node.next, other);
+    for (StepRules::Place& place : places) place.number += NumGoals();
+    for (int goal = 0; goal < NumGoals(); ++goal) {
+      const std::optional<PlanarPose> there = PlaceOf(node, goal);
+      if (there) places.push_back({goal, *there, (other.Inverse() * *there).x});
+    }
+    return places;
+  }
+
+  std::vector<Candidate> CandidatesOf(const Node& node, const std::vector<StepRules::Place>& places,
+                                      int layer) {
     const int limb = node.next;
     const Foothold& other = node.feet[1 - limb];
+    const int plane = rules.ground().planes()[layer];
     std::vector<Candidate> candidates;
-    const int places = NumGoals() + rules.NumPlaces(limb);
-    for (int place = 0; place < places; ++place) {
-      const std::optional<PlanarPose> there = PlaceOf(node, place);
-      if (!there) continue;
-      const Foothold foothold = rules.ground().On(limb, *there, rules.ground().planes()[layer]);
+    for (const auto& [number, there, ahead] : places) {
+      const Foothold foothold = rules.ground().On(limb, there, plane);
       if (std::abs(foothold.z - other.z) > rules.limits().rise + 1e-6) continue;
-      const bool is_goal = place < NumGoals();
-      const int steps_left = !is_goal ? 2 : node.goals[1 - limb] == place ? 0 : 1;
+      const bool is_goal = number < NumGoals();
+      const int steps_left = !is_goal ? 2 : node.goals[1 - limb] == number ? 0 : 1;
       const double time =
-          heuristic->At(layer, Interpolate(other.stance, *there, 0.5)) + kLevelStep * steps_left;
+          heuristic->At(layer, Interpolate(other.stance, there, 0.5)) + kLevelStep * steps_left;
       if (!std::isfinite(time)) continue;
-      candidates.push_back({CostOf(node, foothold, node.squat) + kGreed * time, place});
+      const double cost =
+          node.cost + rules.Cost(limb, node.feet[limb], foothold, ahead, other, node.squat);
+      candidates.push_back({cost + kGreed * time, number});
     }
     std::make_heap(candidates.begin(), candidates.end(), std::greater<>());
     return candidates;
@@ -392,6 +406,8 @@ FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const Wor
 FootstepSearch::~FootstepSearch() = default;
 
 std::int64_t FootstepSearch::states() const { return search_->expanded; }
+
+bool FootstepSearch::ProvesNone() const { return search_->may_reach && !*search_->may_reach; }
 
 std::optional<Footstep> FootstepSearch::StepBetween(int limb, const Foothold& from,
                                                     const Foothold& to,

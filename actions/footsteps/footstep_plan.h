@@ -54,6 +54,7 @@ class FootstepSearch {
   int goal() const { return goal_; }                             ///< index; once found
   const GroundedStance& start() const { return start_; }         ///< of the steps; once found
   std::int64_t states() const;                                   ///< expanded so far
+  bool ProvesNone() const;  ///< once exhausted: there is a proof that no steps exist
 
   /// A step from place to place, with its lift, while the other limb bears at `other`. None if the
   /// limb does not reach, or hits the other one or an obstacle.

@@ -11,10 +11,11 @@
 namespace possibility::actions {
 namespace {
 
-// Effort of one job.
-constexpr int kAttempts = 24;                      // sequences of steps
-constexpr std::int64_t kStates = 16000;            // expanded in each search at most
-constexpr std::int64_t kStatesFartherAway = 4000;  // and in one of steps farther from obstacles
+// Effort of one job, before it is doubled.
+constexpr int kSequences = 24;
+constexpr std::int64_t kStates = 120000;       // expanded in all its searches
+constexpr std::int64_t kStatesOfOne = 16000;   // and in each of them
+constexpr std::int64_t kShareFartherAway = 4;  // steps farther from obstacles: a fourth of that
 constexpr std::int64_t kStatesPerQuestion = 50;
 
 // Where the robot hits something, the swing is raised, and then the trunk kept away; m.
@@ -149,10 +150,11 @@ PlannedSteps::Suggestion PlannedSteps::SuggestedFor(const EdgeKey& key) const {
 std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const GroundedStance& to,
                                            const FootstepLimits& limits,
                                            const StepRefusals& refusals, std::int64_t states,
+                                           Effort* effort,
                                            const CancellationToken& cancellation) const {
   FootstepSearch search(model(), this->from(), world(), FootstepEnds{{from}, {to}, {}, {}}, limits,
                         known_ground(), cancellation);
-  search.most_states = states;
+  search.most_states = std::min(states, effort->states);
   search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
     return refusals.Refuses(step, other);
   };
@@ -160,6 +162,8 @@ std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const Gro
   while (status == FootstepSearch::Status::kSearching) {
     status = search.Advance(kStatesPerQuestion, cancellation);
   }
+  effort->states -= search.states();
+  effort->proves_none = search.ProvesNone();
   return status == FootstepSearch::Status::kFound ? search.steps() : std::vector<Footstep>();
 }
 
@@ -168,32 +172,55 @@ std::vector<Footstep> PlannedSteps::StepsFartherAway(const GroundedStance& from,
                                                      const GroundedStance& to,
                                                      const std::vector<Footstep>& steps,
                                                      const StepRefusals& refusals,
-                                                     FootstepLimits* limits,
+                                                     FootstepLimits* limits, Effort* effort,
                                                      const CancellationToken& cancellation) const {
   while (limits->trunk_margin < kFarthestAway) {
     limits->trunk_margin += kAway;
     std::vector<Footstep> others =
-        Search(from, to, *limits, refusals, kStatesFartherAway, cancellation);
+        Search(from, to, *limits, refusals, effort->each / kShareFartherAway, effort, cancellation);
     if (!AreSame(others, steps)) return others;
   }
   return {};
 }
 
+void PlannedSteps::Refuse(const FootstepError& error, const Footstep& step, const Foothold& other,
+                          StepRefusals* refusals) {
+  switch (error.part()) {
+    case FootstepError::Part::kStep:
+      refusals->Add(step, other);
+      break;
+    case FootstepError::Part::kFrom:
+      refusals->AddEnd(step.from, other);
+      break;
+    case FootstepError::Part::kTo:
+      refusals->AddEnd(step.to, other);
+      break;
+  }
+}
+
+PlannedSteps::Effort PlannedSteps::FullEffort() const {
+  const int doublings = doublings_;
+  return {kSequences << doublings, kStates << doublings, kStatesOfOne << doublings};
+}
+
 PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const GroundedStance& to,
                                          Suggestion suggestion,
                                          const CancellationToken& cancellation) const {
+  using Breadth = StepRefusals::Breadth;
+  Effort effort = FullEffort();
   std::vector<Footstep> steps = std::move(suggestion.steps);
-  StepRefusals refusals;
+  StepRefusals refusals(doublings_ > 0 ? Breadth::kSame : Breadth::kBeyond);
   FootstepLimits limits = limits_;
   Outcome outcome;
   outcome.fault = "no footholds";
   const double upright = stance().gait->posture.root_height;
   int taller = 0;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  while (effort.sequences-- > 0) {
     if (steps.empty()) {
-      steps = Search(from, to, limits, refusals, kStates, cancellation);
+      steps = Search(from, to, limits, refusals, effort.each, &effort, cancellation);
       if (steps.empty()) {
-        if (limits.lowest_root == limits_.lowest_root) return outcome;
+        outcome.is_decided = effort.proves_none;
+        if (outcome.is_decided || limits.lowest_root == limits_.lowest_root) return outcome;
         limits.lowest_root = limits_.lowest_root;
         taller = kMostTaller;
         continue;
@@ -201,6 +228,7 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
     }
     if (FootstepMotion::ExpectedDuration(steps) > suggestion.most_duration) {
       outcome.fault += "; other steps take too long";
+      outcome.is_decided = true;
       return outcome;
     }
     try {
@@ -212,7 +240,7 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
       if (error.step() < 0) return outcome;
       if (error.is_hit()) {
         std::vector<Footstep> away =
-            StepsFartherAway(from, to, steps, refusals, &limits, cancellation);
+            StepsFartherAway(from, to, steps, refusals, &limits, &effort, cancellation);
         if (!away.empty()) {
           steps = std::move(away);
           continue;
@@ -220,17 +248,7 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
       }
       const Footstep& step = steps[error.step()];
       const Foothold other = OtherAt(from, steps, error.step());
-      switch (error.part()) {
-        case FootstepError::Part::kStep:
-          refusals.Add(step, other);
-          break;
-        case FootstepError::Part::kFrom:
-          refusals.AddEnd(step.from, other);
-          break;
-        case FootstepError::Part::kTo:
-          refusals.AddEnd(step.to, other);
-          break;
-      }
+      Refuse(error, step, other, &refusals);
       const double root = reach_.HighestRoot(step, other).value_or(limits.lowest_root);
       if (root < upright && taller < kMostTaller) {
         ++taller;
@@ -240,6 +258,21 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
     }
   }
   return outcome;
+}
+
+bool PlannedSteps::AskAgain(std::vector<graph::Edge>* edges) {
+  if (doublings_ == kMostDoublings) return false;
+  edges->clear();
+  const std::lock_guard lock(mutex_);
+  std::erase_if(outcomes_, [edges](const auto& entry) {
+    const Outcome& outcome = entry.second;
+    if (outcome.fault.empty() || outcome.is_decided) return false;
+    edges->push_back(outcome.edge);
+    return true;
+  });
+  if (edges->empty() && !is_cut_short_.exchange(false)) return false;
+  ++doublings_;
+  return true;
 }
 
 std::vector<Phase> PlannedSteps::Motion(const graph::Edge& edge,
@@ -257,6 +290,7 @@ std::vector<Phase> PlannedSteps::Motion(const graph::Edge& edge,
     }
   }
   Outcome outcome = Plan(*from, *to, SuggestedFor(key), cancellation);
+  outcome.edge = edge;
   const std::lock_guard lock(mutex_);
   const Outcome& kept = outcomes_.emplace(key, std::move(outcome)).first->second;
   if (!kept.fault.empty()) throw MotionError(kept.fault);

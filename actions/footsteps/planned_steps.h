@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -20,7 +21,8 @@ namespace possibility::actions {
 /// Steps of a gait where C_S of the gait says no: over cracks, sills and stairs, through doors and
 /// from stone to stone. An edge joins two nominal stances that meet C_S. Its job is contact
 /// planning: it searches footholds, makes a motion of them and tests it, and asks for other
-/// footholds where a step is beyond the robot. In a plan the motion is one of the gait.
+/// footholds where a step is beyond the robot. It ends after a stated effort. In a plan the motion
+/// is one of the gait.
 class PlannedSteps final : public Manoeuvre {
  public:
   /// `gait`: index of a gait whose steps can be searched (FootstepSearch::Knows).
@@ -55,6 +57,16 @@ class PlannedSteps final : public Manoeuvre {
   double GreatestSpeed() const override;
 
   bool TestsItsMotions() const override { return true; }
+  bool BoundsItsEffort() const override { return true; }
+
+  /// A search for steps has ended for want of effort.
+  void OnCutShort() const { is_cut_short_ = true; }
+  /// Doubles the effort, if that may help: `edges` are those that failed with the former one, which
+  /// are forgotten. The effort ends after kMostDoublings.
+  bool AskAgain(std::vector<graph::Edge>* edges);
+  static constexpr int kMostDoublings = 1;
+  /// How often the effort has been doubled.
+  int doublings() const { return doublings_; }
 
   /// Steps that a search has found from one end of an edge to the other: its job tries them first,
   /// and searches others only if they are beyond the robot. To be called before the edge is
@@ -77,9 +89,20 @@ class PlannedSteps final : public Manoeuvre {
 
   /// What is known of an edge.
   struct Outcome {
+    graph::Edge edge;
     std::vector<Phase> motion;
-    std::string fault;  ///< why there is none; empty if there is one
+    std::string fault;        ///< why there is none; empty if there is one
+    bool is_decided = false;  ///< more effort would not change it
   };
+
+  /// What a job may still do.
+  struct Effort {
+    int sequences = 0;         ///< of steps, of which a motion is made
+    std::int64_t states = 0;   ///< of all its searches
+    std::int64_t each = 0;     ///< of a search
+    bool proves_none = false;  ///< the last search has a proof that no steps exist
+  };
+  Effort FullEffort() const;
 
   static EdgeKey KeyOf(const graph::Edge& edge);
   /// Of the planned motion, s, if there is one.
@@ -93,21 +116,28 @@ class PlannedSteps final : public Manoeuvre {
                                 const CancellationToken& cancellation) const;
   const NominalStance& stance() const { return model().gaits[from()]->stance; }
 
-  /// Empty if none are found.
+  /// Empty if none are found with at most so many states. `effort`: less what it takes.
   std::vector<Footstep> Search(const GroundedStance& from, const GroundedStance& to,
                                const FootstepLimits& limits, const StepRefusals& refusals,
-                               std::int64_t states, const CancellationToken& cancellation) const;
+                               std::int64_t states, Effort* effort,
+                               const CancellationToken& cancellation) const;
   /// Other steps, with the trunk farther from obstacles. Empty if there are none.
   std::vector<Footstep> StepsFartherAway(const GroundedStance& from, const GroundedStance& to,
                                          const std::vector<Footstep>& steps,
                                          const StepRefusals& refusals, FootstepLimits* limits,
+                                         Effort* effort,
                                          const CancellationToken& cancellation) const;
+  /// Refuses what a motion failed at.
+  static void Refuse(const FootstepError& error, const Footstep& step, const Foothold& other,
+                     StepRefusals* refusals);
 
   FootstepLimits limits_;
   StepReach reach_;
   FootstepMotion motion_;
   mutable std::once_flag ground_is_known_;
   mutable std::shared_ptr<const StepGround> known_ground_;
+  std::atomic<int> doublings_ = 0;
+  mutable std::atomic<bool> is_cut_short_ = false;
   mutable std::mutex mutex_;
   mutable std::map<EdgeKey, Outcome> outcomes_;
   mutable std::map<EdgeKey, Suggestion> suggested_;

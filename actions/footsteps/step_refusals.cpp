@@ -9,20 +9,26 @@ namespace {
 /// Steps that differ by less are the same, m and rad.
 constexpr double kSame = 0.01;
 
+using Breadth = StepRefusals::Breadth;
+
 double TiltOf(const Foothold& place) {
   return std::atan2(place.normal.head<2>().norm(), place.normal.z());
 }
 
 template <typename Measures>
-bool IsAtLeast(const Measures& measures, const Measures& refused) {
+bool IsRefusedBy(const Measures& refused, const Measures& measures, Breadth breadth) {
   return std::equal(measures.begin(), measures.end(), refused.begin(),
-                    [](double measure, double least) { return measure >= least - kSame; });
+                    [breadth](double measure, double least) {
+                      return measure >= least - kSame &&
+                             (breadth == Breadth::kBeyond || measure <= least + kSame);
+                    });
 }
 
 template <typename Measures>
-bool IsAtLeastOneOf(const Measures& measures, const std::vector<Measures>& refused) {
+bool IsRefusedByOneOf(const std::vector<Measures>& refused, const Measures& measures,
+                      Breadth breadth) {
   return std::any_of(refused.begin(), refused.end(),
-                     [&measures](const Measures& one) { return IsAtLeast(measures, one); });
+                     [&](const Measures& one) { return IsRefusedBy(one, measures, breadth); });
 }
 
 }  // namespace
@@ -58,9 +64,10 @@ StepRefusals::EndMeasures StepRefusals::Of(const Foothold& place, const Foothold
 }
 
 bool StepRefusals::Refuses(const Footstep& step, const Foothold& other) const {
-  if (IsAtLeastOneOf(Of(step, other), steps_)) return true;
+  if (IsRefusedByOneOf(steps_, Of(step, other), breadth_)) return true;
   if (ends_.empty()) return false;
-  return IsAtLeastOneOf(Of(step.from, other), ends_) || IsAtLeastOneOf(Of(step.to, other), ends_);
+  return IsRefusedByOneOf(ends_, Of(step.from, other), breadth_) ||
+         IsRefusedByOneOf(ends_, Of(step.to, other), breadth_);
 }
 
 }  // namespace possibility::actions

@@ -7,10 +7,15 @@
 
 namespace possibility::actions {
 
-/// What the robot could not do: a step that is at least as long, as high and as tilted in every
-/// respect as one that failed is refused, too.
+/// What the robot could not do, and what is refused because of that.
 class StepRefusals {
  public:
+  enum class Breadth {
+    kBeyond,  ///< all that is at least as long, as high and as tilted in every respect
+    kSame,    ///< only what is nearly the same: rules out less, and leaves more to try
+  };
+  explicit StepRefusals(Breadth breadth) : breadth_(breadth) {}
+
   /// A step as a whole. `other`: where the other limb bears.
   void Add(const Footstep& step, const Foothold& other) { steps_.push_back(Of(step, other)); }
   /// A posture in which one limb is about to leave its place or has just reached it while the other
@@ -22,12 +27,13 @@ class StepRefusals {
   /// Distances and heights of both ends of the step from the other limb, and the lift, m; tilts of
   /// the three footholds, rad.
   using StepMeasures = std::array<double, 10>;
-  /// Ahead, behind, aside, up and down from the other limb, m; turn away from it and towards it, and
-  /// tilts of both footholds, rad.
+  /// Ahead, behind, aside, up and down from the other limb, m; turn away from it and towards it,
+  /// and tilts of both footholds, rad.
   using EndMeasures = std::array<double, 9>;
   static StepMeasures Of(const Footstep& step, const Foothold& other);
   static EndMeasures Of(const Foothold& place, const Foothold& other);
 
+  Breadth breadth_;
   std::vector<StepMeasures> steps_;
   std::vector<EndMeasures> ends_;
 };

@@ -33,8 +33,9 @@ constexpr double kAside[] = {0, 0.35, 0.7, 1};
 constexpr double kTurning[] = {0, 0.5, -0.5, 1, -1};
 
 std::vector<Vector2d> PatchAt(const NominalStance& stance, int limb, const PlanarPose& at) {
+  const Eigen::Isometry2d X = at.Transform();
   std::vector<Vector2d> points;
-  for (const Vector2d& p : stance.bearing_points[limb]) points.push_back(at * p);
+  for (const Vector2d& p : stance.bearing_points[limb]) points.push_back(X * p);
   return points;
 }
 
@@ -109,19 +110,36 @@ int StepRules::NumPlaces(int limb) const {
   return static_cast<int>((headings_.size() + 1) * displacements_[limb].size());
 }
 
-std::optional<PlanarPose> StepRules::PlaceAbout(int limb, const PlanarPose& other,
-                                                int number) const {
+std::optional<PlanarPose> StepRules::Displacement(int limb, double yaw, int number) const {
   const int each = static_cast<int>(displacements_[limb].size());
   const int heading = number / each;
   PlanarPose displacement = displacements_[limb][number % each];
-  if (heading < static_cast<int>(headings_.size())) {
-    if (displacement.yaw != 0) return std::nullopt;
-    displacement.yaw = WrapAngle(4 * (headings_[heading] - other.yaw)) / 4;
-    if (std::abs(displacement.yaw) > limits_.turn || std::abs(displacement.yaw) < 1e-6) {
-      return std::nullopt;
-    }
+  if (heading == static_cast<int>(headings_.size())) return displacement;
+  if (displacement.yaw != 0) return std::nullopt;
+  displacement.yaw = WrapAngle(4 * (headings_[heading] - yaw)) / 4;
+  if (std::abs(displacement.yaw) > limits_.turn || std::abs(displacement.yaw) < 1e-6) {
+    return std::nullopt;
   }
-  return other * displacement;
+  return displacement;
+}
+
+std::optional<PlanarPose> StepRules::PlaceAbout(int limb, const PlanarPose& other,
+                                                int number) const {
+  const std::optional<PlanarPose> displacement = Displacement(limb, other.yaw, number);
+  if (!displacement) return std::nullopt;
+  return other * *displacement;
+}
+
+std::vector<StepRules::Place> StepRules::PlacesAbout(int limb, const PlanarPose& other) const {
+  const Eigen::Isometry2d X = other.Transform();
+  std::vector<Place> places;
+  for (int number = 0; number < NumPlaces(limb); ++number) {
+    const std::optional<PlanarPose> displacement = Displacement(limb, other.yaw, number);
+    if (!displacement) continue;
+    const Vector2d at = X * displacement->position();
+    places.push_back({number, {at.x(), at.y(), other.yaw + displacement->yaw}, displacement->x});
+  }
+  return places;
 }
 
 std::optional<double> StepRules::Squat(int limb, const Foothold& place,
@@ -166,9 +184,14 @@ std::optional<Footstep> StepRules::StepBetween(int limb, const Foothold& from, c
 
 double StepRules::Cost(int limb, const Foothold& from, const Foothold& to, const Foothold& other,
                        double squat) const {
+  return Cost(limb, from, to, (other.stance.Inverse() * to.stance).x, other, squat);
+}
+
+double StepRules::Cost(int limb, const Foothold& from, const Foothold& to, double ahead,
+                       const Foothold& other, double squat) const {
   const bool is_level = to.IsLevel() && other.IsLevel() && to.z == other.z;
   return ExpectedDuration({limb, from, to, 0}) + kSecondsPerSquat * squat +
-         StrideTime((other.stance.Inverse() * to.stance).x, is_level);
+         StrideTime(ahead, is_level);
 }
 
 double StepRules::StrideTime(double ahead, bool is_level) const {

@@ -39,6 +39,13 @@ class StepRules {
   int NumPlaces(int limb) const;
   /// One of these; none if it does not exist about `other`.
   std::optional<PlanarPose> PlaceAbout(int limb, const PlanarPose& other, int number) const;
+  struct Place {
+    int number = 0;
+    PlanarPose stance;
+    double ahead = 0;  ///< m, of the other limb
+  };
+  /// All that exist about `other`: one sine and cosine for all of them.
+  std::vector<Place> PlacesAbout(int limb, const PlanarPose& other) const;
   /// StepGround
   const std::vector<double>& headings() const { return headings_; }
 
@@ -63,11 +70,16 @@ class StepRules {
   /// Cost of a step of `limb`, s. `squat`: m, the greater one before and after it.
   double Cost(int limb, const Foothold& from, const Foothold& to, const Foothold& other,
               double squat) const;
+  /// `ahead`: m, of `to`, as the other limb sees it.
+  double Cost(int limb, const Foothold& from, const Foothold& to, double ahead,
+              const Foothold& other, double squat) const;
   /// What a long stride takes beyond a short one, s. `ahead`: m, of the other limb.
   double StrideTime(double ahead, bool is_level) const;
 
  private:
   std::vector<PlanarPose> DisplacementsOf(int limb) const;
+  /// Of place `number` about another limb with heading `yaw`; none if there is no such place.
+  std::optional<PlanarPose> Displacement(int limb, double yaw, int number) const;
   /// 1 if the limb is on the left of the other one, else -1.
   double SideOf(int limb) const;
 

@@ -173,7 +173,7 @@ class Pattern {
     task.root_pitch =
         Blend(stance_.gait->posture.root_pitch, stance_.gait->posture.root_pitch + settings_.lean,
               Raised(interval.start + t));
-    if (settings_.sway != 0) {
+    if (!rolls_.empty()) {
       task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, RootRoll(interval.start + t));
     }
     task.root_height = RootHeight(interval.start + t);
@@ -339,17 +339,17 @@ class Pattern {
 
   /// Towards the side of the support, from one swing to the next; none at rest.
   void LayOutRolls() {
-    if (settings_.sway == 0) return;
+    if (settings_.sways.empty()) return;
     double roll = 0;
     double start = 0;
     const auto roll_to = [&](double end, double next) {
-      rolls_.push_back({start, end - start, next - roll});
+      if (next != roll) rolls_.push_back({start, end - start, next - roll});
       roll = next;
     };
     for (int k = 0; k < num_intervals(); ++k) {
       if (AllBear(k)) continue;
       const Interval& swing = intervals_[k];
-      roll_to(swing.start + kRolling * swing.duration, -SideOf(k) * settings_.sway);
+      roll_to(swing.start + kRolling * swing.duration, -SideOf(k) * settings_.sways[k]);
       start = swing.start + (1 - kRolling) * swing.duration;
     }
     roll_to(intervals_.back().start + intervals_.back().duration, 0);

@@ -30,9 +30,10 @@ struct PatternSettings {
   /// that it is higher. Always so on uneven ground, and with `lifts`.
   bool keeps_reach = false;
   double lean = 0;  ///< rad: pitch of the root beyond the stance's, forward, like `rise`
-  /// rad: roll of the root towards the limbs that bear in a swing. The trunk comes over them, which
-  /// spares a hip that must hold it up sideways.
-  double sway = 0;
+  /// rad, for each interval of the schedule; empty: none. Roll of the root towards the limbs that
+  /// bear in a swing. The trunk comes over them, which spares a hip that must hold it up sideways,
+  /// and leaves the limb that swings more of its hip's range.
+  std::vector<double> sways;
   double rise_time = 0.35;  ///< s: to get there from the start, and back to the end; at most half
   /// s, between the coefficients of the root's height where the ground is uneven or swings are high
   /// (SmoothUnder). More is gentler, less follows the limbs' reach more closely.

@@ -30,6 +30,16 @@ PlannerSwitches SwitchesOf(const PlanRequest& request) {
                                    : WithExplorers(switches, request.explorers, "explorers");
 }
 
+/// A search's result, with what the one before it took added to its account.
+graph::PathResult After(const graph::PathResult& before, graph::PathResult result) {
+  result.seconds += before.seconds;
+  result.first_path_seconds += before.seconds;
+  result.confirmations.insert(result.confirmations.begin(), before.confirmations.begin(),
+                              before.confirmations.end());
+  for (const auto& [name, count] : before.counters) result.counters[name] += count;
+  return result;
+}
+
 }  // namespace
 
 RouteSearch::RouteSearch(const models::RobotModel& robot, const models::Scenario& scenario,
@@ -165,21 +175,41 @@ std::vector<GroundedStance> RouteSearch::GoalsOfSteps() const {
 }
 
 graph::PathResult RouteSearch::Find(std::uint64_t attempt) {
+  graph::PathResult path = FindOnce(attempt);
+  while (path.status == graph::PathStatus::kExhausted && MayAskAgain()) {
+    path = After(path, ExploreSteps(attempt));
+    if (path.status != graph::PathStatus::kFound) {
+      path.status =
+          deadline_.Passed() ? graph::PathStatus::kTimeLimit : graph::PathStatus::kExhausted;
+    }
+  }
+  return path;
+}
+
+bool RouteSearch::MayAskAgain() {
+  std::vector<graph::Edge> edges;
+  if (!steps_ || deadline_.Passed() || !steps_->AskAgain(&edges)) return false;
+  for (const graph::Edge& edge : edges) all_manoeuvres_.back()->Forget(edge);
+  return true;
+}
+
+graph::PathResult RouteSearch::FindOnce(std::uint64_t attempt) {
   const bool nobody_else_explores = !switches_.straight && !switches_.lattice && !switches_.random;
   if (StepsMayHelp() && nobody_else_explores) {
     AskFloods();
     needs_steps_ = *oracle_answer_ != graph::RouteOracleAnswer::kProvenInfeasible;
   }
+  graph::PathResult path;
   if (!needs_steps_) {
     ends_at_oracle_ = StepsMayHelp();
-    graph::PathResult path = Explore(attempt);
+    path = Explore(attempt);
     ends_at_oracle_ = false;
     if (path.status == graph::PathStatus::kFound || !needs_steps_) return path;
   }
-  graph::PathResult path = ExploreSteps(attempt);
+  path = After(path, ExploreSteps(attempt));
   if (path.status == graph::PathStatus::kFound) return path;
   const bool is_open = *oracle_answer_ == graph::RouteOracleAnswer::kUnknown;
-  if (is_open && !deadline_.Passed()) return Explore(attempt);
+  if (is_open && !deadline_.Passed()) return After(path, Explore(attempt));
   path.status = is_open ? graph::PathStatus::kTimeLimit : graph::PathStatus::kExhausted;
   return path;
 }

@@ -33,7 +33,8 @@ class RouteSearch {
   /// First through C_S and manoeuvres. Where the floods find no route there, or cannot tell,
   /// contacts are planned as well: beside manoeuvres in the same search, otherwise in a search of
   /// their own. If that leads nowhere either, the search goes on as long as the floods leave it
-  /// open and its effort lasts. `attempt` changes the seed.
+  /// open and its effort lasts. At last contacts are planned again, with twice the effort.
+  /// `attempt` changes the seed.
   graph::PathResult Find(std::uint64_t attempt);
   /// The route that random exploration alone finds in a short time; empty if none.
   Route FindElsewhere(std::uint64_t round);
@@ -81,7 +82,10 @@ class RouteSearch {
   graph::RouteOracleAnswer AskFloods();
   /// The way that the floods consider open shows random exploration where to go.
   void GuideExploration();
+  graph::PathResult FindOnce(std::uint64_t attempt);
   graph::PathResult ExploreSteps(std::uint64_t attempt);
+  /// Whether planned steps may be worth another search with more effort.
+  bool MayAskAgain();
   void AddStepExplorers(graph::FindPathSettings* settings);
   /// Empty: none.
   std::filesystem::path TransitionLibrary() const;

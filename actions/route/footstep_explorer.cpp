@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kStatesPerTurn = 50;
 /// Where the search has neither found steps nor a proof that there are none, it goes on beside the
-/// islands, with twice as many states each time, up to so many.
+/// islands, with twice as many states each time, up to so many (PlannedSteps::doublings: twice).
 constexpr std::int64_t kMostStates = 16000;
 
 /// Of a manoeuvre of planned steps, s: coming to rest and starting again.
@@ -68,7 +68,10 @@ graph::Findings FootstepExplorer::Explore() {
 bool FootstepExplorer::MayGoOn() {
   const bool is_cut_short = search_->states() >= search_->most_states;
   search_->most_states *= 2;
-  return is_cut_short && search_->most_states <= kMostStates;
+  if (!is_cut_short) return false;
+  if (search_->most_states <= kMostStates << steps_.doublings()) return true;
+  steps_.OnCutShort();
+  return false;
 }
 
 bool FootstepExplorer::OnRefuted() {

@@ -136,7 +136,7 @@ bool IslandExplorer::BeginToLeave(const CancellationToken& cancellation) {
   for (const GroundedStance& stance : beyond_) ends.goal_times.push_back(TimeLeft(stance));
   crossing_.emplace(*lattice_.model, steps_.from(), gait().world(), std::move(ends),
                     steps_.limits(), steps_.known_ground(), cancellation);
-  crossing_->most_states = kStates;
+  crossing_->most_states = kStates << steps_.doublings();
   return true;
 }
 

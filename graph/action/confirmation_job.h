@@ -32,6 +32,10 @@ class ConfirmationJob {
   virtual double work_of_checkpoint() const { return kWorkOfCheckpoint; }
   static constexpr double kWorkOfCheckpoint = 3e-3;  ///< s
 
+  /// Whether the job bounds its effort itself, in work and not in time. No time limit of its own
+  /// ends it then, so its verdict does not depend on how busy the machine is.
+  virtual bool bounds_its_effort() const { return false; }
+
   /// Why the job refuted the edge or could not tell, for reports. Called after Run, on the same
   /// thread.
   virtual std::string reason() const { return {}; }

@@ -91,7 +91,7 @@ bool ConfirmationQueue::RunTurn(const Deadline& deadline, int length) {
   const auto has_stopped = [job] {
     return job->state == State::kEnded || job->state == State::kPaused;
   };
-  wait_for(settings_.job_time_limit - job->seconds, has_stopped);
+  wait_for(TimeLeft(*job), has_stopped);
   if (!has_stopped()) {
     EndSlice(job);
     wait_for(kForever, has_stopped);
@@ -160,7 +160,7 @@ void ConfirmationQueue::EndSlice(QueuedJob* job) {
   job->AddUp();
   ++job->slices;
   const bool somebody_waits = NumWithState(State::kWaiting, State::kPaused) > 0;
-  if (job->seconds >= settings_.job_time_limit) {
+  if (TimeLeft(*job) <= 0) {
     job->Overrule(JobOutcome::kFailed, NoVerdictAfter(job->seconds, ""));
   } else if ((somebody_waits || workers_ == 0) && !job->overruling) {
     job->state = State::kPausing;
@@ -214,6 +214,10 @@ void ConfirmationQueue::Reap() {
   if (std::erase_if(jobs_, has_ended) > 0) {
     result_.notify_all();
   }
+}
+
+double ConfirmationQueue::TimeLeft(const QueuedJob& job) const {
+  return job.bounds_its_effort ? kForever : settings_.job_time_limit - job.seconds;
 }
 
 std::int64_t ConfirmationQueue::CheckpointsOfTurn(const QueuedJob& job, int length) const {

@@ -81,6 +81,7 @@ class ConfirmationQueue {
   void GrantPermits();
   bool Grant(QueuedJob* job, std::optional<std::int64_t> checkpoints = std::nullopt);
   void Reap();
+  double TimeLeft(const QueuedJob& job) const;  ///< s, until the limit of single jobs
   std::int64_t CheckpointsOfTurn(const QueuedJob& job, int length) const;
   int NumWithState(QueuedJob::State a, QueuedJob::State b) const;
   std::optional<QueuedJob::Clock::time_point> NextSliceEnd() const;

@@ -17,7 +17,8 @@ struct RotationSettings {
   int rotating_jobs_per_worker = 2;
   int slices_per_fair_slice = 8;
   int max_threads = 32;        ///< jobs begun and not ended; the slowest gives way to new ones
-  double job_time_limit = 30;  ///< s of its own running time, after which a job has failed
+  double job_time_limit = 30;  ///< s of its own running time, after which a job has failed,
+                               ///< unless it bounds its effort itself
 };
 
 /// Picks the next job by the queue's policy (see ConfirmationQueue); null if none is runnable.

@@ -11,6 +11,7 @@ QueuedJob::QueuedJob(int tag_in, std::unique_ptr<ConfirmationJob> job_in, double
     : tag(tag_in),
       cost(cost_in),
       work_of_checkpoint(job_in->work_of_checkpoint()),
+      bounds_its_effort(job_in->bounds_its_effort()),
       job(std::move(job_in)),
       control([this, on_held = std::move(on_held)] { on_held(this); }) {}
 

@@ -48,6 +48,7 @@ struct QueuedJob {
   int tag;
   double cost;
   double work_of_checkpoint;  ///< the job's own, which ends before this, s
+  bool bounds_its_effort;     ///< ConfirmationJob
   std::unique_ptr<ConfirmationJob> job;
   JobControl control;
   State state = State::kWaiting;

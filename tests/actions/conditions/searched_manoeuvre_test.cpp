@@ -48,6 +48,9 @@ TEST(SearchedManoeuvreTest, TheLatestVerdictOnAnEdgeHolds) {
   EXPECT_FALSE(leap.Explorable(edge));
   ASSERT_EQ(leap.Refusals().size(), 1u);
   EXPECT_EQ(leap.Refusals().front().reason, "a reason");
+  leap.Forget(edge);
+  EXPECT_TRUE(leap.Explorable(edge));
+  EXPECT_TRUE(leap.Refusals().empty());
 }
 
 /// A manoeuvre that remembers which edges have a fault everywhere.

@@ -245,7 +245,7 @@ TEST_F(StripsTest, WhatIsCrossedOnALineIsFound) {
 }
 
 TEST(StepRefusalsTest, ALongerOrHigherStepThanOneThatFailedIsRefused) {
-  StepRefusals refusals;
+  StepRefusals refusals(StepRefusals::Breadth::kBeyond);
   const Footstep failed{0, {{-0.2, 0, 0}, 0}, {{0.25, 0, 0}, 0.1}, 0};
   const Foothold other{{0, 0, 0}, 0};
   refusals.Add(failed, other);
@@ -265,7 +265,7 @@ TEST(StepRefusalsTest, ALongerOrHigherStepThanOneThatFailedIsRefused) {
 
 /// The posture at the beginning of a step is as bad at the end of another one.
 TEST(StepRefusalsTest, AnEndThatFailedIsRefusedInEveryStep) {
-  StepRefusals refusals;
+  StepRefusals refusals(StepRefusals::Breadth::kBeyond);
   const Foothold other{{1, 2, 0.5}, 0.1};
   const auto at = [&other](double ahead, double aside, double turn, double z) {
     return Foothold{other.stance * PlanarPose{ahead, aside, turn}, z};
@@ -282,7 +282,7 @@ TEST(StepRefusalsTest, AnEndThatFailedIsRefusedInEveryStep) {
 
 /// Toes that point away from the other foot are another matter than toes that point at it.
 TEST(StepRefusalsTest, AnEndIsRefusedOnBothSidesButTurnedOneWayOnly) {
-  StepRefusals refusals;
+  StepRefusals refusals(StepRefusals::Breadth::kBeyond);
   const Foothold other{{1, 2, 0.5}, 0.1};
   const auto at = [&other](double aside, double turn) {
     return Foothold{other.stance * PlanarPose{0.1, aside, turn}, 0.1};

@@ -15,7 +15,7 @@ namespace {
 
 class PlannedStepsTest : public ::testing::Test {
  protected:
-  const PlannedSteps& StepsIn(UnevenWorld* world) {
+  PlannedSteps& StepsIn(UnevenWorld* world) {
     PlanningContext context;
     context.model = &WalkingHubo();
     context.world = world->Built();
@@ -158,6 +158,47 @@ TEST_F(PlannedStepsTest, WithoutFootholdsThereIsNoMotion) {
   EXPECT_THROW(
       StepsIn(&world).Motion(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(1.5)), {}),
       MotionError);
+}
+
+TEST_F(PlannedStepsTest, WhatAProofRefusesIsNotAskedAgain) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.8, 4, 0);
+  PlannedSteps& steps = StepsIn(&world);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(1.5));
+  EXPECT_THROW(steps.Motion(edge, {}), MotionError);
+  std::vector<graph::Edge> edges;
+  EXPECT_FALSE(steps.AskAgain(&edges));
+  EXPECT_EQ(steps.doublings(), 0);
+}
+
+/// Without bounds nothing can be proved.
+TEST_F(PlannedStepsTest, WhatFailsWithoutAProofIsAskedAgainWithTwiceTheEffort) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.8, 4, 0);
+  PlannedSteps& steps = StepsIn(&world);
+  world.environment.bounds.setEmpty();
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(1.5));
+  EXPECT_THROW(steps.Motion(edge, {}), MotionError);
+  std::vector<graph::Edge> edges;
+  ASSERT_TRUE(steps.AskAgain(&edges));
+  ASSERT_EQ(edges.size(), 1u);
+  EXPECT_EQ(edges[0].from, edge.from);
+  EXPECT_EQ(edges[0].to, edge.to);
+  EXPECT_EQ(steps.doublings(), 1);
+  EXPECT_THROW(steps.Motion(edge, {}), MotionError);
+  EXPECT_FALSE(steps.AskAgain(&edges)) << "the effort is limited";
+}
+
+TEST_F(PlannedStepsTest, WhatIsFoundIsNotAskedAgain) {
+  UnevenWorld world;
+  world.Ground(-3, 0, 0).Ground(0.05, 4, 0);
+  PlannedSteps& steps = StepsIn(&world);
+  steps.Motion(EdgeOf(UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(0.8)), {});
+  std::vector<graph::Edge> edges;
+  EXPECT_FALSE(steps.AskAgain(&edges));
+  steps.OnCutShort();
+  EXPECT_TRUE(steps.AskAgain(&edges)) << "an explorer's search was cut short";
+  EXPECT_TRUE(edges.empty());
 }
 
 TEST_F(PlannedStepsTest, CancellationEndsTheJob) {

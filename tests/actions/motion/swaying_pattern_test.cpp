@@ -18,10 +18,10 @@ class SwayingPatternTest : public ::testing::Test {
     const PlanarPose start{0.4, -0.3, 0.8};
     const PlanarPose goal = start * PlanarPose{0.5, 0, 0};
     PatternSettings settings;
-    settings.sway = sway;
     const models::ContactSchedule schedule = ScheduleOf(
         robot_, stance_, groups, start,
         PlanSteps(stance_, groups, {start, goal}, {0.28, 0.25, 0.4}), {0.6, 0.4, 0.15, 0.6});
+    settings.sways.assign(schedule.intervals.size(), sway);
     VectorXd guess = stance_.q;
     guess.segment<2>(4) = start.position();
     MotionSettings motion;

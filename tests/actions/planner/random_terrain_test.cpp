@@ -42,7 +42,8 @@ bool IsPlanned(unsigned seed) {
   const RandomTerrain terrain(seed);
   PlanRequest request;
   request.library = DrcHubo1Library();
-  request.time_limit = 60;
+  // Jobs bound their effort in work: the limit is for machines that do much else.
+  request.time_limit = 300;
   const PlanResult result = PlanTraversal(DrcHubo1(), terrain.Scenario(), request);
   EXPECT_NE(result.status, PlanStatus::kTimeLimit) << "terrain " << seed;
   if (result.status != PlanStatus::kFound) return false;
@@ -68,9 +69,10 @@ Tally PlanAll(unsigned last) {
 TEST(RandomTerrain, IsWalkedOrRefusedWithoutATimeLimit) { EXPECT_FALSE(PlanAll(3).found.empty()); }
 
 /// Terrain 5 was refused by a simulation in which toes caught on an edge beside them; on 60 the
-/// guessed root was out of the legs' reach, on 146 a knee needed 101 of 100 N m.
+/// guessed root was out of the legs' reach, on 146 a knee needed 101 of 100 N m, on 116 a hip 0.527
+/// of 0.520 rad.
 TEST(RandomTerrain, GroundThatTakesAllThatTheRobotHasIsWalked) {
-  for (const unsigned seed : {5, 60, 146}) EXPECT_TRUE(IsPlanned(seed)) << "terrain " << seed;
+  for (const unsigned seed : {5, 60, 116, 146}) EXPECT_TRUE(IsPlanned(seed)) << "terrain " << seed;
 }
 
 TEST(RandomTerrainLong, IsWalkedOrRefusedAndBruteForceAgrees) {
@@ -90,8 +92,8 @@ TEST(RandomTerrainLong, IsWalkedOrRefusedAndBruteForceAgrees) {
   });
   std::printf("found %zu, refused %zu; of %zu of these, steps exist on %d\n", tally.found.size(),
               refused, tally.refused.size(), despite_steps.load());
-  EXPECT_GE(tally.found.size(), 190u);
-  EXPECT_LE(despite_steps.load(), 1);
+  EXPECT_GE(tally.found.size(), 194u);
+  EXPECT_EQ(despite_steps.load(), 0);
 }
 
 }  // namespace

@@ -135,6 +135,25 @@ TEST_P(WithWorkers, ACancelledJobEndsAndTheOthersGoOn) {
   }
 }
 
+/// Its verdict would depend on how busy the machine is.
+TEST_P(WithWorkers, AJobThatBoundsItsEffortHasNoTimeLimit) {
+  class Bounded : public ScriptedJob {
+   public:
+    Bounded() : ScriptedJob(Ending::kConfirm, 30, milliseconds(2)) {}
+    bool bounds_its_effort() const override { return true; }
+  };
+  ConfirmationQueue queue({.slice = milliseconds(1),
+                           .slices_per_turn = 10,
+                           .checkpoints_per_turn = 20,
+                           .job_time_limit = 0.005});
+  queue.LaunchThreads(GetParam());
+  queue.Insert(0, std::make_unique<Bounded>(), 0);
+  const auto results = Collect(&queue, GetParam(), 1);
+  ASSERT_EQ(results.size(), 1);
+  EXPECT_EQ(results[0].outcome, JobOutcome::kConfirmed) << results[0].reason;
+  EXPECT_GT(results[0].seconds, 0.005);
+}
+
 TEST_P(WithWorkers, AJobThatTakesTooLongFails) {
   ConfirmationQueue queue({.slice = milliseconds(1),
                            .slices_per_turn = 10,
