@@ -131,11 +131,8 @@ JumpAnswer JumpSolver::Realise(const JumpTask& task,
 
 void JumpSolver::RequireSound(const SolvedJump& jump) const {
   const auto [distance, height] = jump.task;
-  std::string fault =
+  const std::string fault =
       FaultOnBareGround(robot_, model_, launch_, landing_, distance, height, jump.phases, true);
-  if (fault.empty()) {
-    fault = FallOnBareGround(robot_, model_, launch_, landing_, distance, height, jump.phases);
-  }
   if (!fault.empty()) throw MotionError(fault);
 }
 

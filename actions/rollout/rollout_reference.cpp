@@ -52,6 +52,27 @@ Vector3d Inside(const models::ContactPatch& patch, std::size_t point) {
                             : patch.Centre();
 }
 
+/// The robot's tree at the configuration that was asked for last: a simulation asks for all
+/// contacts at one configuration.
+class LastPose {
+ public:
+  explicit LastPose(const dynamics::MultibodyModel& model)
+      : model_(model), kinematics_(model.tree()) {}
+
+  const dynamics::TreeKinematics& At(const VectorXd& q) {
+    if (q_.size() != q.size() || q_ != q) {
+      q_ = q;
+      kinematics_.SetPosition(model_.TreeConfiguration(q));
+    }
+    return kinematics_;
+  }
+
+ private:
+  const dynamics::MultibodyModel& model_;
+  dynamics::TreeKinematics kinematics_;
+  VectorXd q_;
+};
+
 double Turned(const Eigen::Ref<const VectorXd>& q, const VectorXd& planned) {
   return Quaterniond(q[0], q[1], q[2], q[3])
       .normalized()
@@ -126,7 +147,7 @@ VectorXd RolloutReference::Velocity(const Knot& knot) const {
 
 std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
   const models::RobotModel& robot = model_->tree();
-  const auto kinematics = std::make_shared<dynamics::TreeKinematics>(robot);
+  const auto pose = std::make_shared<LastPose>(*model_);
   std::vector<dynamics::RolloutContact> contacts;
   for (const int index : planes_) {
     const models::GroundPlane& plane = ground_.planes()[index];
@@ -138,12 +159,11 @@ std::vector<dynamics::RolloutContact> RolloutReference::Contacts() const {
         contact.offset = plane.offset - plane.normal.dot(origin_);
         contact.friction = std::min(robot.friction, plane.friction);
         if (planes_.size() > 1) {
-          contact.lands = [this, kinematics, index, point = contact.point,
+          contact.lands = [this, pose, index, point = contact.point,
                            inside = Inside(patch, i)](const VectorXd& q) {
-            kinematics->SetPosition(model_->TreeConfiguration(q));
+            const dynamics::TreeKinematics& kinematics = pose->At(q);
             const auto clearance = [&](const Vector3d& p_L) {
-              const Vector3d p =
-                  origin_ + tilt_.transpose() * kinematics->Position(point.link, p_L);
+              const Vector3d p = origin_ + tilt_.transpose() * kinematics.Position(point.link, p_L);
               return ground_.Clearance(index, p.head<2>());
             };
             const double here = clearance(point.p_L);

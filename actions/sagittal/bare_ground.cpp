@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <thread>
 
-#include "actions/rollout/perturbed_rollouts.h"
+#include "actions/rollout/dynamic_stretch.h"
+#include "actions/rollout/perturbed_rollout.h"
+#include "actions/rollout/rollout_check.h"
 #include "actions/sagittal/sagittal_problem.h"
 #include "actions/verify/verifier.h"
+#include "actions/verify/verifier_rollouts.h"
+#include "actions/wholebody/motion_error.h"
+#include "common/run_on_threads.h"
+#include "models/world/ground_map.h"
 #include "models/world/scenario.h"
 
 namespace possibility::actions {
@@ -15,6 +23,10 @@ namespace {
 constexpr double kVast = 20;               // m
 constexpr const char* kMotion = "motion";  // action name in the plan
 constexpr double kHeavier = 0.01;          // share of all masses
+/// m: a hand that slides in the simulation has no sole that reaches back across the edge.
+constexpr double kSlides = 0.01;
+/// Simulations at once.
+constexpr int kThreads = 3;
 
 models::Obstacle Floor(const std::string& name, double x, double height) {
   models::Obstacle floor;
@@ -51,12 +63,58 @@ Plan PlanOnBareGround(const models::RobotModel& robot, const models::Scenario& s
   return plan;
 }
 
+std::string TextOf(const Violation& fault) {
+  return fmt::format("{}: {}, {:.4g} {} (limit {:.4g}) at {:.2f} s", ToString(fault.kind),
+                     fault.quantity, fault.value, fault.unit, fault.limit, fault.time);
+}
+
+std::string FaultWithoutSimulation(const Plan& plan, const models::RobotModel& robot,
+                                   const models::Scenario& scenario) {
+  VerifierSettings settings;
+  settings.simulates = false;
+  settings.measures_margins = false;
+  const VerificationReport report = Verify(plan, robot, scenario, settings);
+  return report.accepted() ? std::string() : TextOf(report.violations.front());
+}
+
+std::string FaultInSimulation(const DynamicStretch& stretch, const models::RobotModel& robot,
+                              const models::GroundMap& ground) {
+  const std::vector<Violation> faults = RolloutViolations(
+      {stretch.first_segment, stretch.last_segment, RollOutSegment(stretch.motion, robot, ground)});
+  return faults.empty() ? std::string() : TextOf(faults.front());
+}
+
+std::string FallWith(double mass, const DynamicStretch& stretch, const models::RobotModel& robot,
+                     const models::GroundMap& ground) {
+  Perturbation perturbation;
+  perturbation.mass = mass;
+  if (RollOutPerturbed(stretch.motion, robot, ground, perturbation).survives()) return {};
+  return fmt::format("falls over with {:.0f} % of its mass", 100 * mass);
+}
+
+/// Returns a fault; empty if there is none.
+using Trial = std::function<std::string()>;
+
+/// Begins no trial after one has failed.
+std::string FirstFault(const std::vector<Trial>& trials) {
+  const int threads = std::min(kThreads, static_cast<int>(std::thread::hardware_concurrency()));
+  try {
+    ForEachOnThreads(threads, trials.size(), [&trials](std::size_t i) {
+      if (const std::string fault = trials[i](); !fault.empty()) throw MotionError(fault);
+    });
+  } catch (const MotionError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace
 
-models::Environment BareGround(const SagittalModel& model, double distance, double height) {
+models::Environment BareGround(const SagittalModel& model, double distance, double height,
+                               double farther) {
   const collocation::Bounds gap = GapBetween(model, distance);
   // If the floors overlapped, one would lie on top of the other.
-  const double landing_begin = std::max(gap.lower, gap.upper);
+  const double landing_begin = std::max(gap.lower, gap.upper - farther);
   models::Environment environment;
   environment.obstacles = {Floor("launch ground", gap.lower - kVast / 2, 0),
                            Floor("landing ground", landing_begin + kVast / 2, height)};
@@ -69,29 +127,17 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
                               bool simulates) {
   const models::Scenario scenario = ScenarioOnBareGround(model, launch, landing, distance, height);
   const Plan plan = PlanOnBareGround(robot, scenario, phases);
-  VerifierSettings settings;
-  settings.simulates = simulates;
-  settings.measures_margins = false;
-  const VerificationReport report = Verify(plan, robot, scenario, settings);
-  if (report.accepted()) return {};
-  const Violation& worst = report.violations.front();
-  return fmt::format("{}: {}, {:.4g} {} (limit {:.4g}) at {:.2f} s", ToString(worst.kind),
-                     worst.quantity, worst.value, worst.unit, worst.limit, worst.time);
-}
-
-std::string FallOnBareGround(const models::RobotModel& robot, const SagittalModel& model,
-                             const NominalStance& launch, const NominalStance& landing,
-                             double distance, double height, const std::vector<Phase>& phases) {
-  const models::Scenario scenario = ScenarioOnBareGround(model, launch, landing, distance, height);
-  std::vector<Perturbation> perturbations(2);
-  perturbations[0].mass = 1 - kHeavier;
-  perturbations[1].mass = 1 + kHeavier;
-  for (const PerturbedRollout& rollout : RollOutPerturbed(PlanOnBareGround(robot, scenario, phases),
-                                                          robot, scenario, perturbations)) {
-    if (rollout.survives()) continue;
-    return fmt::format("falls over with {:.0f} % of its mass", 100 * rollout.perturbation.mass);
+  std::vector<Trial> trials = {[&] { return FaultWithoutSimulation(plan, robot, scenario); }};
+  const models::GroundMap ground(BareGround(model, distance, height, kSlides), robot.friction);
+  const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
+  for (const DynamicStretch& stretch : stretches) {
+    if (!simulates) break;
+    for (const double mass : {1 - kHeavier, 1 + kHeavier}) {
+      trials.push_back([&, mass] { return FallWith(mass, stretch, robot, ground); });
+    }
+    trials.push_back([&] { return FaultInSimulation(stretch, robot, ground); });
   }
-  return {};
+  return FirstFault(trials);
 }
 
 }  // namespace possibility::actions

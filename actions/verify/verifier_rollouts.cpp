@@ -105,4 +105,10 @@ void VerifyRollouts(const VerifiedPlan& subject, const VerifierSettings& setting
   report->kept_rollouts = kept;
 }
 
+std::vector<Violation> RolloutViolations(const StretchRollout& rollout) {
+  ViolationLog log;
+  Judge(rollout, &log);
+  return log.Worst();
+}
+
 }  // namespace possibility::actions

@@ -11,4 +11,8 @@ namespace possibility::actions {
 void VerifyRollouts(const VerifiedPlan& subject, const VerifierSettings& settings,
                     ViolationLog* log, VerificationReport* report);
 
+/// What a simulation violates, the worst of each kind. The simulated stretch has no other
+/// violation.
+std::vector<Violation> RolloutViolations(const StretchRollout& rollout);
+
 }  // namespace possibility::actions

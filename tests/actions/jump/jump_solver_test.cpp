@@ -360,29 +360,50 @@ TEST_F(JumpLibraryTest, MalformedTableIsAnInputError) {
   EXPECT_THROW(Library(), InputError);
 }
 
-/// All jumps that the reach table promises over level ground.
-std::vector<std::shared_ptr<const SolvedJump>> ShippedJumps() {
+/// All jumps that the reach table promises to ground of a height.
+std::vector<std::shared_ptr<const SolvedJump>> ShippedJumps(double height = 0) {
   JumpLibrary library(Solver(), DrcHubo1().file.parent_path() / "jumps");
   EXPECT_TRUE(library.reach_is_derived());
-  const auto [shortest, farthest] = library.reach().Distances(0).value();
+  const auto [shortest, farthest] = library.reach().Distances(height).value();
   const auto first = std::lround(shortest / JumpLibrary::kDistanceStep);
   const auto last = std::lround(farthest / JumpLibrary::kDistanceStep);
   std::vector<std::shared_ptr<const SolvedJump>> jumps;
   for (auto step = first; step <= last; ++step) {
-    const JumpTask task = JumpLibrary::OnGrid({step * JumpLibrary::kDistanceStep, 0});
+    const JumpTask task = JumpLibrary::OnGrid({step * JumpLibrary::kDistanceStep, height});
     const auto answer = library.Find(task);
     if (answer && answer->jump) jumps.push_back(answer->jump);
-    EXPECT_TRUE(answer && answer->jump) << task.distance << " m";
+    EXPECT_TRUE(answer && answer->jump) << task.distance << " m by " << height << " m";
   }
   return jumps;
 }
 
+constexpr double kShippedHeights[] = {-0.2, -0.1, 0, 0.1, 0.2};  // m
+
+std::string FaultOf(const SolvedJump& jump, bool simulates) {
+  return FaultOnBareGround(DrcHubo1(), Solver().model(), Stance("walk"), Stance("crawl"),
+                           jump.task.distance, jump.task.height, jump.phases, simulates);
+}
+
 TEST_F(JumpLibraryTest, TheVerifierAcceptsEveryShippedJump) {
-  for (const auto& jump : ShippedJumps()) {
-    EXPECT_EQ(FaultOnBareGround(DrcHubo1(), Solver().model(), Stance("walk"), Stance("crawl"),
-                                jump->task.distance, jump->task.height, jump->phases),
-              "")
-        << jump->task.distance << " m";
+  for (const double height : kShippedHeights) {
+    for (const auto& jump : ShippedJumps(height)) {
+      EXPECT_EQ(FaultOf(*jump, false), "") << jump->task.distance << " m by " << height << " m";
+    }
+  }
+}
+
+// Their hands come down at the edge of the ground, and slide.
+TEST_F(JumpLibraryTest, SimulationsFollowTheShortestShippedJumpToEachHeight) {
+  for (const double height : kShippedHeights) {
+    EXPECT_EQ(FaultOf(*ShippedJumps(height).front(), true), "") << height << " m";
+  }
+}
+
+TEST(ShippedJumpsLong, SimulationsFollowAllOfThem) {
+  for (const double height : kShippedHeights) {
+    for (const auto& jump : ShippedJumps(height)) {
+      EXPECT_EQ(FaultOf(*jump, true), "") << jump->task.distance << " m by " << height << " m";
+    }
   }
 }
 
@@ -398,6 +419,19 @@ TEST_F(JumpLibraryTest, NoShippedJumpFliesBeyondItsBound) {
       EXPECT_LT(std::min(up.z(), down.z()), bounds.rise);
     }
   }
+}
+
+TEST(BareGroundTest, LandingGroundReachesFartherButNotIntoTheLaunchGround) {
+  const auto begin = [](double distance, double farther) {
+    const models::Obstacle landing =
+        BareGround(Solver().model(), distance, 0.1, farther).obstacles.at(1);
+    return landing.X_WO.translation().x() - 10;  // m: floors are 20 m long
+  };
+  const double launch_end =
+      BareGround(Solver().model(), 0.6, 0.1).obstacles.at(0).X_WO.translation().x() + 10;
+  EXPECT_NEAR(begin(0.6, 0.01), begin(0.6, 0) - 0.01, 1e-12);
+  EXPECT_GT(begin(0.6, 0.01), launch_end);
+  EXPECT_NEAR(begin(0.6, 1), launch_end, 1e-12);
 }
 
 TEST(JumpReachTest, BetweenTwoHeightsTheReachOfEitherIsAllowed) {
