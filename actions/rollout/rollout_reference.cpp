@@ -102,10 +102,10 @@ RolloutReference::RolloutReference(const Segment& segment, const models::RobotMo
     : segment_(segment),
       ground_(ground),
       perturbation_(perturbation),
-      gains_(gains),
+      stiffness_(JointStiffness(robot, gains)),
+      damping_time_(gains.damping_time),
       origin_(segment.phases.front().knots.front().q.segment<3>(4)),
       tilt_(perturbation.Tilt()),
-      planned_(dynamics::MultibodyModel::Spatial(robot)),
       model_(dynamics::MultibodyModel::Spatial(perturbation.Perturbed(robot))),
       track_(segment),
       planes_(PlanesUsed(segment, robot, ground)) {}
@@ -191,10 +191,8 @@ RootTilt RolloutReference::Tilt(double t, const VectorXd& q, const VectorXd& v) 
 
 dynamics::JointControl RolloutReference::Control(const StepFeedback* steps) const {
   dynamics::JointControl control;
-  control.stiffness = planned_->effort() / gains_.full_effort_error;
-  // Joints without a limit would get an infinite gain.
-  for (double& k : control.stiffness) k = std::isfinite(k) ? k : 0;
-  control.damping = gains_.damping_time * control.stiffness;
+  control.stiffness = stiffness_(model_->joints());
+  control.damping = damping_time_ * control.stiffness;
   control.command = [this, steps](double t, dynamics::JointCommand* command) {
     const Knot knot = track_.At(t);
     const int n = model_->num_joints();

@@ -9,6 +9,7 @@
 #include "actions/plan/plan.h"
 #include "actions/rollout/perturbation.h"
 #include "actions/rollout/rollout_drift.h"
+#include "actions/rollout/rollout_gains.h"
 #include "actions/rollout/step_feedback.h"
 #include "dynamics/rollout/joint_control.h"
 #include "dynamics/rollout/robot_rollout.h"
@@ -20,13 +21,6 @@ namespace possibility::actions {
 
 /// A plan's points bear within 1 mm of their ground.
 inline constexpr double kTouching = 1.1e-3;  // m
-
-/// Joint feedback of the simulated robot.
-struct RolloutGains {
-  /// rad or m: joint error at which feedback alone would demand the full effort.
-  double full_effort_error = 0.02;
-  double damping_time = 0.03;  ///< s, damping over stiffness
-};
 
 /// A segment as a simulation follows it: the simulated robot, the ground, the motion, and the
 /// control that follows it by joint torques alone. The ground has the planes on which the plan
@@ -90,10 +84,10 @@ class RolloutReference {
   const Segment& segment_;
   const models::GroundMap& ground_;
   const Perturbation& perturbation_;
-  RolloutGains gains_;
+  Eigen::VectorXd stiffness_;  ///< joints of the tree
+  double damping_time_ = 0;    ///< s
   Eigen::Vector3d origin_;  ///< m
   Eigen::Matrix3d tilt_;    ///< of the perturbation
-  std::shared_ptr<const dynamics::MultibodyModel> planned_;
   std::shared_ptr<const dynamics::MultibodyModel> model_;  ///< perturbed
   Track track_;
   std::set<int> planes_;  ///< of the ground, on which the segment bears

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace possibility::experiments {
 namespace {
 
@@ -102,14 +100,8 @@ const std::vector<MarginQuantity>& MarginQuantities() {
 }
 
 JointGains GainsOf(const models::RobotModel& robot, const actions::RolloutGains& gains) {
-  JointGains result;
-  result.stiffness.setZero(robot.num_joints());
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    const double effort = robot.joints[j].effort;
-    if (std::isfinite(effort)) result.stiffness[j] = effort / gains.full_effort_error;
-  }
-  result.damping = gains.damping_time * result.stiffness;
-  return result;
+  const Eigen::VectorXd stiffness = actions::JointStiffness(robot, gains);
+  return {stiffness, gains.damping_time * stiffness};
 }
 
 }  // namespace possibility::experiments

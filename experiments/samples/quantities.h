@@ -6,7 +6,7 @@
 
 #include "actions/evidence/verifier_state.h"
 #include "actions/plan/plan.h"
-#include "actions/rollout/rollout_reference.h"
+#include "actions/rollout/rollout_gains.h"
 #include "actions/verify/plan_margins.h"
 #include "models/robot/robot_model.h"
 

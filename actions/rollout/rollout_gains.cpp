@@ -1,0 +1,27 @@
+#include "actions/rollout/rollout_gains.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/tree/tree_kinematics.h"
+
+namespace possibility::actions {
+
+Eigen::VectorXd JointStiffness(const models::RobotModel& robot, const RolloutGains& gains) {
+  Eigen::VectorXd stiffness(robot.num_joints());
+  // Joints without a limit would get an infinite gain.
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const double effort = robot.joints[j].effort;
+    stiffness[j] = std::isfinite(effort) ? effort / gains.full_effort_error : 0;
+  }
+  if (robot.gaits.empty()) return stiffness;
+  const double tipping =
+      robot.TotalMass() * dynamics::kGravity * robot.gaits.front().posture.root_height;
+  for (const int j : robot.LegJoints()) {
+    if (robot.joints[j].type == models::JointType::kPrismatic || stiffness[j] == 0) continue;
+    stiffness[j] = std::max(stiffness[j], gains.standing_stiffness * tipping);
+  }
+  return stiffness;
+}
+
+}  // namespace possibility::actions
