@@ -10,6 +10,7 @@
 #include "actions/onboarding/refit_draft.h"
 #include "actions/planner/planner.h"
 #include "experiments/robots/scaled_scenes.h"
+#include "experiments/robots/winding_ways.h"
 #include "experiments/support/hardware_threads.h"
 #include "models/input/input_error.h"
 
@@ -57,6 +58,7 @@ class AbilityTrial {
     const StepsUp three{3, one.height, one.depth};
     const double width = kCrackWidth * leg;
     Try(gait.name + ": flat", FlatScene(robot_, gait.name, kFlatWay * leg));
+    TryWindingWays(gait, leg);
     Try(fmt::format("{}: one step of {:.3f} m", gait.name, one.height),
         StepsScene(robot_, gait.name, one, leg));
     Try(fmt::format("{}: three steps of {:.3f} m by {:.2f} m", gait.name, three.height,
@@ -64,6 +66,17 @@ class AbilityTrial {
         StepsScene(robot_, gait.name, three, leg));
     Try(fmt::format("{}: crack of {:.3f} m", gait.name, width),
         CrackScene(robot_, gait.name, width, leg));
+  }
+
+  void TryWindingWays(const models::Gait& gait, double leg) {
+    const std::string subject = gait.name + ": winding ways";
+    try {
+      const WindingWays ways = WalkWindingWays(robot_, gait.name, library_, leg);
+      Add(subject, fmt::format("{} of {} verified{}{}", ways.verified, ways.tried,
+                               ways.AllVerified() ? "" : ": ", ways.refusal));
+    } catch (const InputError& error) {
+      Add(subject, fmt::format("none: {}", error.what()));
+    }
   }
 
   void Try(const std::string& subject, const models::Scenario& scenario) {

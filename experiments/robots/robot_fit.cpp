@@ -14,6 +14,7 @@
 #include "actions/onboarding/refit_draft.h"
 #include "actions/planner/planner.h"
 #include "experiments/robots/scaled_scenes.h"
+#include "experiments/robots/winding_ways.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/standard_streams.h"
 #include "models/input/atomic_file.h"
@@ -56,7 +57,7 @@ class Fit {
   }
 
  private:
-  /// Mean speed of the verified walk, m/s; 0 if there is none.
+  /// Mean speed of the verified walk, m/s; 0 if there is none, or a winding way is refused.
   double SpeedOf(const models::RobotModel& robot) {
     actions::PlanRequest request;
     request.threads = HardwareThreads();
@@ -65,10 +66,14 @@ class Fit {
     try {
       const actions::PlanResult result =
           actions::PlanTraversal(robot, FlatScene(robot, options_.gait, distance_), request);
-      if (result.status == actions::PlanStatus::kFound && result.verification.accepted()) {
-        return distance_ / result.plan.duration();
+      if (result.status != actions::PlanStatus::kFound || !result.verification.accepted()) {
+        reason_ = result.explanation;
+        return 0;
       }
-      reason_ = result.explanation;
+      const WindingWays winding =
+          WalkWindingWays(robot, options_.gait, Library(), draft_.leg_length);
+      if (winding.AllVerified()) return distance_ / result.plan.duration();
+      reason_ = winding.refusal;
     } catch (const InputError& error) {
       reason_ = error.what();
     }

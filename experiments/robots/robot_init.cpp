@@ -12,6 +12,7 @@
 #include "actions/onboarding/robot_yaml_writer.h"
 #include "actions/plan/plan_writer.h"
 #include "actions/planner/planner.h"
+#include "experiments/robots/winding_ways.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
@@ -52,7 +53,7 @@ class Init {
     if (!options_.json) PrintFindings();
     std::vector<actions::FittedGait> fits = Fit();
     if (fits.empty()) return ReportNoWalk();
-    // The quickest gait may be refused by the verifier.
+    // The verifier may refuse the quickest gait.
     for (std::size_t i = 0; i + 1 < fits.size(); ++i) {
       if (Plan(fits[i])) return Report(true);
     }
@@ -81,7 +82,8 @@ class Init {
     return kNoPlan;
   }
 
-  /// Writes the robot with this gait and plans its walk. Whether that is found and verified.
+  /// Writes the robot with this gait and plans its walk. Whether that is found and verified, and
+  /// winding ways are.
   bool Plan(const actions::FittedGait& fitted) {
     gait_findings_ = FindingsOf(fitted);
     WriteFiles(fitted);
@@ -94,13 +96,21 @@ class Init {
     request.time_limit = kTimeLimit;
     request.library = library;
     result_ = actions::PlanTraversal(robot, scenario, request);
-    if (result_.status != actions::PlanStatus::kFound || !result_.verification.accepted()) {
-      PrintError("refused: {}\n", result_.explanation);
-      return false;
+    const bool is_found = result_.status == actions::PlanStatus::kFound;
+    if (!is_found || !result_.verification.accepted()) {
+      return Refuse(fmt::format("{}: {}", actions::ToString(result_.status), result_.explanation));
     }
+    winding_ = WalkWindingWays(robot, robot.gaits.front().name, library, draft_.leg_length);
+    if (!winding_.AllVerified()) return Refuse(winding_.refusal);
     actions::WritePlan(result_.plan, options_.out / "plan.json");
     WriteOutput(options_.out / "plan.html", ViewerPage(result_.plan, robot, scenario));
     return true;
+  }
+
+  bool Refuse(const std::string& why) {
+    refusal_ = why;
+    PrintError("refused: {}\n", why);
+    return false;
   }
 
   void WriteFiles(const actions::FittedGait& fitted) {
@@ -148,18 +158,22 @@ class Init {
                                                   {"distance", distance},
                                                   {"speed", speed},
                                                   {"expected_speed", expected},
+                                                  {"winding_ways", winding_.tried},
+                                                  {"winding_ways_verified", winding_.verified},
                                                   {"findings", findings},
                                                   {"warnings", draft_.warnings}}));
     }
     if (!found) {
-      PrintError("no plan: {}: {}\n", actions::ToString(result_.status), result_.explanation);
+      PrintError("no walk: {}\n", refusal_);
       return kNoPlan;
     }
     if (options_.json) return kDone;
     for (const std::string& finding : gait_findings_) PrintOut("{}\n", finding);
     PrintOut(
-        "walks {:.2f} m in {:.1f} s, verified: {:.2f} m/s (0.15 sqrt(g l) is {:.2f})\n{}\n{}\n",
-        distance, result_.plan.duration(), speed, expected, RobotFile().string(),
+        "walks {:.2f} m in {:.1f} s, verified: {:.2f} m/s (0.15 sqrt(g l) is {:.2f}); also {} "
+        "winding "
+        "ways\n{}\n{}\n",
+        distance, result_.plan.duration(), speed, expected, winding_.verified, RobotFile().string(),
         (options_.out / "plan.html").string());
     return kDone;
   }
@@ -172,6 +186,8 @@ class Init {
   std::vector<FitTrial> trials_;
   std::vector<std::string> gait_findings_;  ///< of the gait planned with last
   actions::PlanResult result_;
+  WindingWays winding_;
+  std::string refusal_;  ///< of the gait planned with last
 };
 
 }  // namespace

@@ -63,6 +63,7 @@ TEST_F(RobotCommandLong, DrcHubo1WalksFromItsUrdfAlone) {
   const auto report = nlohmann::json::parse(outcome.out);
   EXPECT_TRUE(report["verified"]);
   EXPECT_GT(report["speed"], report["expected_speed"]);
+  EXPECT_EQ(report["winding_ways_verified"], report["winding_ways"]);
   for (const std::string file : {"robot.yaml", "drchubo1.urdf", "flat.yaml", "plan.html"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "hubo" / file)) << file;
   }
