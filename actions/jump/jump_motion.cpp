@@ -78,8 +78,15 @@ JumpMotion::JumpMotion(const models::RobotModel& robot, const SagittalModel& mod
                        const NominalStance& launch, const NominalStance& landing)
     : stance_(robot, model, launch, landing), spatial_(dynamics::MultibodyModel::Spatial(robot)) {}
 
+// If joints turned while the robot crouches, the simulation would follow 35 jumps instead of 37.
+std::optional<Phase> JumpMotion::Prepare() const {
+  if (!stance_.NeedsPreparation()) return std::nullopt;
+  return stance_.Prepare();
+}
+
 std::vector<Phase> JumpMotion::Realise(const JumpProblem& problem,
                                        const collocation::Trajectory& trajectory,
+                                       const std::optional<Phase>& preparation,
                                        JumpMotionReport* report) {
   JumpMotionReport unused;
   if (!report) report = &unused;
@@ -89,9 +96,8 @@ std::vector<Phase> JumpMotion::Realise(const JumpProblem& problem,
   const Support all = stance_.LandingAll(task.distance, task.height);
   std::vector<Phase> motion;
   const auto last = [&motion]() -> const Knot& { return motion.back().knots.back(); };
-  // If joints turned while the robot crouches, the simulation would follow 35 jumps instead of 37.
-  if (stance_.NeedsPreparation()) {
-    Append(stance_.Prepare(), &motion);
+  if (preparation) {
+    Append(*preparation, &motion);
     report->preparation = last().t;
   }
   const PhaseTrajectory& crouch = plans[JumpProblem::kCrouch];
@@ -161,7 +167,7 @@ Phase JumpMotion::Fly(const PhaseTrajectory& rise, const PhaseTrajectory& descen
       return (stance_.StateAt(landing, feet).q - landing.q).tail(n);
     };
     correction = fixed_point.Solve(change, correction, error);
-    phase.knots = flight.Fly(joints, duration, intervals);  // the last pass counts
+    if (spacing == kFlightSpacing) phase.knots = flight.Fly(joints, duration, intervals);
   }
   report->landing_correction = correction.lpNorm<Eigen::Infinity>();
   return phase;

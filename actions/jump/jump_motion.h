@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "actions/jump/jump_problem.h"
@@ -28,9 +29,14 @@ class JumpMotion {
   JumpMotion(const models::RobotModel& robot, const SagittalModel& model,
              const NominalStance& launch, const NominalStance& landing);
 
+  /// The first phase of every jump, which turns joints; none if they need not turn.
+  /// @throws MotionError as Realise.
+  std::optional<Phase> Prepare() const;
   /// From rest in the launch stance to rest in the landing stance; times start at 0.
+  /// `preparation`: of Prepare.
   /// @throws MotionError naming what the whole robot cannot do.
   std::vector<Phase> Realise(const JumpProblem& problem, const collocation::Trajectory& trajectory,
+                             const std::optional<Phase>& preparation,
                              JumpMotionReport* report = nullptr);
 
  private:

@@ -136,6 +136,11 @@ void JumpSolver::RequireSound(const SolvedJump& jump) const {
   if (!fault.empty()) throw MotionError(fault);
 }
 
+const std::optional<Phase>& JumpSolver::Preparation(const JumpMotion& motion) const {
+  std::call_once(prepared_, [&] { preparation_ = motion.Prepare(); });
+  return preparation_;
+}
+
 void JumpSolver::RealiseInSpace(const JumpProblem& problem,
                                 const collocation::Trajectory& trajectory, bool is_new,
                                 JumpAnswer* answer) const {
@@ -144,7 +149,7 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
   jump->task = problem.task();
   try {
     JumpMotion motion(robot_, model_, launch_, landing_);
-    jump->phases = motion.Realise(problem, trajectory, &jump->report);
+    jump->phases = motion.Realise(problem, trajectory, Preparation(motion), &jump->report);
     if (is_new) RequireSound(*jump);
     answer->jump = std::move(jump);
     answer->reason.clear();

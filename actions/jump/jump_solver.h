@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,6 +78,8 @@ class JumpSolver {
   void RealiseInSpace(const JumpProblem& problem, const collocation::Trajectory& trajectory,
                       bool is_new, JumpAnswer* answer) const;
 
+  /// The same for all jumps, so it is computed once. @throws MotionError
+  const std::optional<Phase>& Preparation(const JumpMotion& motion) const;
   /// On its bare ground: verified, and simulated as planned and with a slightly different mass.
   /// @throws MotionError naming the fault.
   void RequireSound(const SolvedJump& jump) const;
@@ -86,6 +89,8 @@ class JumpSolver {
   const NominalStance& landing_;
   JumpSettings settings_;
   SagittalModel model_;
+  mutable std::once_flag prepared_;
+  mutable std::optional<Phase> preparation_;
 };
 
 }  // namespace possibility::actions
