@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "collocation/solver/conflict.h"
+#include "collocation/diagnosis/conflict.h"
 #include "collocation/transcription/transcription.h"
 
 namespace possibility::collocation {

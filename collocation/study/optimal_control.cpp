@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "collocation/solver/conflict.h"
+#include "collocation/diagnosis/conflict.h"
 #include "collocation/study/conflict_text.h"
 #include "collocation/study/mesh_refinement.h"
 #include "collocation/study/scale_check.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "collocation/diagnosis/stationary_point.h"
 #include "collocation/problem/optimal_control_problem.h"
 #include "collocation/solver/nonlinear_solver.h"
 #include "collocation/solver/solver.h"
-#include "collocation/solver/stationary_point.h"
 #include "collocation/study/control_jumps.h"
 #include "collocation/study/mesh_error.h"
 #include "collocation/study/stored_solution.h"

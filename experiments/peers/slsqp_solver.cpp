@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "collocation/solver/multiplier_estimate.h"
+#include "collocation/diagnosis/multiplier_estimate.h"
 #include "collocation/solver/solve_clock.h"
 #include "collocation/solver/solver_input.h"
 #include "collocation/solver/violation.h"

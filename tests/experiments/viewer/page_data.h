@@ -53,8 +53,8 @@ std::vector<Number> Unpacked(const std::string& base64) {
   return numbers;
 }
 
-/// The numbers of all knots of a page's motion, knot by knot, as experiments/viewer/kinematics.js
-/// reads them.
+/// The numbers of all knots of a page's motion, knot by knot, as
+/// experiments/viewer/page/kinematics.js reads them.
 struct PageMotion {
   explicit PageMotion(const nlohmann::json& data) : num_joints(data["joints"].size()) {
     const auto begins = Unpacked<std::int32_t>(data["courses"]["begins"]);

@@ -1,4 +1,4 @@
-#include "collocation/solver/multiplier_estimate.h"
+#include "collocation/diagnosis/multiplier_estimate.h"
 
 #include <gtest/gtest.h>
 

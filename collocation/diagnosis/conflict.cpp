@@ -1,9 +1,9 @@
-#include "collocation/solver/conflict.h"
+#include "collocation/diagnosis/conflict.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "collocation/solver/elastic_program.h"
+#include "collocation/diagnosis/elastic_program.h"
 
 namespace possibility::collocation {
 namespace {

@@ -1,5 +1,5 @@
 // Minima and saddles, against dense eigenvalues of the Hessian along the active constraints.
-#include "collocation/solver/stationary_point.h"
+#include "collocation/diagnosis/stationary_point.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Kind = StationaryPoint;
+using Extremum = StationaryPoint;
 using Numbers = std::vector<Hyper>;
 
 const std::pair<double, double> kAnyNumber{-kUnbounded, kUnbounded};
@@ -43,14 +43,14 @@ StationaryPoint ClassifyAt(SmallProgram program, const VectorXd& x, const Vector
 
 TEST(StationaryPointTest, AMaximumWhereTheSolverStartedIsASaddle) {
   const SmallProgram hill({{-1, 1}}, [](const Numbers& x) { return -(x[0] * x[0]); });
-  EXPECT_EQ(SolveAndClassify(hill, VectorXd::Zero(1)), Kind::kSaddle);
+  EXPECT_EQ(SolveAndClassify(hill, VectorXd::Zero(1)), Extremum::kSaddle);
   // From beside it, the solver goes to a bound.
-  EXPECT_EQ(SolveAndClassify(hill, VectorXd::Constant(1, 0.1)), Kind::kMinimum);
+  EXPECT_EQ(SolveAndClassify(hill, VectorXd::Constant(1, 0.1)), Extremum::kMinimum);
 }
 
 TEST(StationaryPointTest, AnIndefiniteHessianIsAMinimumWhereItsRowsAllowNoDescent) {
   // x^2 - y^2 on the line y = x / 2: 3/4 x^2; on the line y = 2 x: -3 x^2.
-  for (const auto& [slope, kind] : {std::pair{0.5, Kind::kMinimum}, {2.0, Kind::kSaddle}}) {
+  for (const auto& [slope, kind] : {std::pair{0.5, Extremum::kMinimum}, {2.0, Extremum::kSaddle}}) {
     SmallProgram line({kAnyNumber, kAnyNumber},
                       [](const Numbers& x) { return x[0] * x[0] - x[1] * x[1]; });
     line.Add(0, 0, [slope = slope](const Numbers& x) { return x[1] - slope * x[0]; });
@@ -60,7 +60,8 @@ TEST(StationaryPointTest, AnIndefiniteHessianIsAMinimumWhereItsRowsAllowNoDescen
 
 TEST(StationaryPointTest, TheCurvatureOfConstraintsCounts) {
   // The vertex of a parabola is the nearest point to (0, 1) unless the parabola is steep.
-  for (const auto& [curvature, kind] : {std::pair{0.4, Kind::kMinimum}, {0.6, Kind::kSaddle}}) {
+  for (const auto& [curvature, kind] :
+       {std::pair{0.4, Extremum::kMinimum}, {0.6, Extremum::kSaddle}}) {
     SmallProgram parabola({kAnyNumber, kAnyNumber}, [](const Numbers& x) {
       return x[0] * x[0] + (x[1] - 1.0) * (x[1] - 1.0);
     });
@@ -75,31 +76,32 @@ TEST(StationaryPointTest, TheCurvatureOfConstraintsCounts) {
 TEST(StationaryPointTest, AFlatDirectionIsUnknown) {
   const SmallProgram valley({kAnyNumber, kAnyNumber},
                             [](const Numbers& x) { return (x[0] - x[1]) * (x[0] - x[1]); });
-  EXPECT_EQ(SolveAndClassify(valley, VectorXd::Ones(2)), Kind::kUnknown);
+  EXPECT_EQ(SolveAndClassify(valley, VectorXd::Ones(2)), Extremum::kUnknown);
   const SmallProgram quartic({kAnyNumber},
                              [](const Numbers& x) { return -((x[0] * x[0]) * (x[0] * x[0])); });
-  EXPECT_EQ(ClassifyAt(quartic, VectorXd::Zero(1), {}), Kind::kUnknown);
+  EXPECT_EQ(ClassifyAt(quartic, VectorXd::Zero(1), {}), Extremum::kUnknown);
 }
 
 /// x >= 0 holds at the stationary point 0 without a multiplier. Only one side is feasible.
 TEST(StationaryPointTest, ABoundWithoutAMultiplierProvesNothingByItself) {
   const std::pair<double, double> positive{0, kUnbounded};
   const SmallProgram up({positive}, [](const Numbers& x) { return x[0] * x[0]; });
-  EXPECT_EQ(ClassifyAt(up, VectorXd::Zero(1), {}), Kind::kMinimum);
+  EXPECT_EQ(ClassifyAt(up, VectorXd::Zero(1), {}), Extremum::kMinimum);
   // Downhill on the feasible side, but along the bound there is no direction at all.
   const SmallProgram down({positive}, [](const Numbers& x) { return -(x[0] * x[0]); });
-  EXPECT_EQ(ClassifyAt(down, VectorXd::Zero(1), {}), Kind::kUnknown);
+  EXPECT_EQ(ClassifyAt(down, VectorXd::Zero(1), {}), Extremum::kUnknown);
   // x y has descent for x > 0 and y < 0 only if the bound is left.
   const SmallProgram twist({positive, kAnyNumber}, [](const Numbers& x) { return x[0] * x[1]; });
-  EXPECT_EQ(ClassifyAt(twist, VectorXd::Zero(2), {}), Kind::kUnknown);
+  EXPECT_EQ(ClassifyAt(twist, VectorXd::Zero(2), {}), Extremum::kUnknown);
   // Here it need not be left.
   const SmallProgram along({positive, kAnyNumber},
                            [](const Numbers& x) { return x[0] * x[0] - x[1] * x[1]; });
-  EXPECT_EQ(ClassifyAt(along, VectorXd::Zero(2), {}), Kind::kSaddle);
+  EXPECT_EQ(ClassifyAt(along, VectorXd::Zero(2), {}), Extremum::kSaddle);
 }
 
 TEST(StationaryPointTest, DependentRowsMayProveAMinimumButNoSaddle) {
-  for (const auto& [sign, kind] : {std::pair{1.0, Kind::kMinimum}, {-1.0, Kind::kUnknown}}) {
+  for (const auto& [sign, kind] :
+       {std::pair{1.0, Extremum::kMinimum}, {-1.0, Extremum::kUnknown}}) {
     SmallProgram twice({kAnyNumber, kAnyNumber}, [sign = sign](const Numbers& x) {
       return sign * (x[1] * x[1]) - x[0] * x[0];
     });
@@ -112,7 +114,7 @@ TEST(StationaryPointTest, DependentRowsMayProveAMinimumButNoSaddle) {
 
 TEST(StationaryPointTest, APointWithoutFreedomIsAMinimum) {
   const SmallProgram fixed({{2, 2}, {0, 1}}, [](const Numbers& x) { return x[0] * x[1]; });
-  EXPECT_EQ(SolveAndClassify(fixed, VectorXd::Constant(2, 0.5)), Kind::kMinimum);
+  EXPECT_EQ(SolveAndClassify(fixed, VectorXd::Constant(2, 0.5)), Extremum::kMinimum);
 }
 
 TEST(StationaryPointTest, UnsolvedOrWithoutExactHessianIsUnknown) {
@@ -120,10 +122,10 @@ TEST(StationaryPointTest, UnsolvedOrWithoutExactHessianIsUnknown) {
   SolverResult result = Solve(&bowl, {VectorXd::Ones(1), {}, {}, {}});
   SolverOptions limited;
   limited.hessian = HessianMode::kLimitedMemory;
-  EXPECT_EQ(ClassifyStationaryPoint(&bowl, result, {}), Kind::kMinimum);
-  EXPECT_EQ(ClassifyStationaryPoint(&bowl, result, limited), Kind::kUnknown);
+  EXPECT_EQ(ClassifyStationaryPoint(&bowl, result, {}), Extremum::kMinimum);
+  EXPECT_EQ(ClassifyStationaryPoint(&bowl, result, limited), Extremum::kUnknown);
   result.status = SolverStatus::kIterationLimit;
-  EXPECT_EQ(ClassifyStationaryPoint(&bowl, result, {}), Kind::kUnknown);
+  EXPECT_EQ(ClassifyStationaryPoint(&bowl, result, {}), Extremum::kUnknown);
 }
 
 /// Least eigenvalue of H in the directions that keep the given rows; 1 if there is no direction.
@@ -150,8 +152,8 @@ struct DenseHold {
     }
   }
   StationaryPoint Classify(const MatrixXd& h) const {
-    if (LeastCurvature(h, firm) > 0) return Kind::kMinimum;
-    return LeastCurvature(h, all) < 0 ? Kind::kSaddle : Kind::kUnknown;
+    if (LeastCurvature(h, firm) > 0) return Extremum::kMinimum;
+    return LeastCurvature(h, all) < 0 ? Extremum::kSaddle : Extremum::kUnknown;
   }
 };
 
@@ -217,7 +219,7 @@ TEST(StationaryPointTest, AgreesWithDenseEigenvaluesOfRandomQuadraticPrograms) {
     EXPECT_EQ(ClassifyStationaryPoint(&made.program, made.result, {}), expected) << sample;
     ++count[expected];
   }
-  for (const Kind kind : {Kind::kMinimum, Kind::kSaddle, Kind::kUnknown}) {
+  for (const Extremum kind : {Extremum::kMinimum, Extremum::kSaddle, Extremum::kUnknown}) {
     EXPECT_GE(count[kind], 10) << StationaryPointName(kind);
   }
 }
@@ -256,7 +258,7 @@ TEST(StationaryPointTest, TheMotionOfAPendulumChainIsAMinimum) {
   PendulumChain chain({.pendulums = 3, .knots = 40, .target = 0.5});
   const SolverResult result = Solve(&chain, {chain.Guess(), {}, {}, {}});
   ASSERT_TRUE(result.succeeded()) << result.message;
-  EXPECT_EQ(ClassifyStationaryPoint(&chain, result, {}), Kind::kMinimum);
+  EXPECT_EQ(ClassifyStationaryPoint(&chain, result, {}), Extremum::kMinimum);
 }
 
 TEST(StationaryPointTest, ACancelledCheckThrows) {

@@ -1,4 +1,4 @@
-#include "collocation/solver/elastic_program.h"
+#include "collocation/diagnosis/elastic_program.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "collocation/solver/active_set.h"
+#include "collocation/diagnosis/active_set.h"
 
 #include <algorithm>
 #include <cmath>

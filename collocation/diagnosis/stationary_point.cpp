@@ -1,4 +1,4 @@
-#include "collocation/solver/stationary_point.h"
+#include "collocation/diagnosis/stationary_point.h"
 
 #include <cmath>
 #include <optional>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "collocation/diagnosis/active_set.h"
 #include "collocation/kkt/kkt_factorisation.h"
-#include "collocation/solver/active_set.h"
 
 namespace possibility::collocation {
 namespace {
