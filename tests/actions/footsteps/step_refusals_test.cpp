@@ -16,7 +16,7 @@ Footstep StepOf(double from, double to, double lift = 0) {
   return step;
 }
 
-class StepRefusalsTest : public ::testing::Test {
+class RefusalBreadthTest : public ::testing::Test {
  protected:
   bool Refuses(Breadth breadth, const Footstep& step) const {
     StepRefusals refusals(breadth);
@@ -26,14 +26,14 @@ class StepRefusalsTest : public ::testing::Test {
   Foothold other_;
 };
 
-TEST_F(StepRefusalsTest, WhatFailedIsRefused) {
+TEST_F(RefusalBreadthTest, WhatFailedIsRefused) {
   for (const Breadth breadth : {Breadth::kBeyond, Breadth::kSame}) {
     EXPECT_TRUE(Refuses(breadth, StepOf(-0.3, 0.3, 0.06)));
     EXPECT_TRUE(Refuses(breadth, StepOf(-0.301, 0.305, 0.065)));
   }
 }
 
-TEST_F(StepRefusalsTest, WhatIsEasierInAnyRespectIsNot) {
+TEST_F(RefusalBreadthTest, WhatIsEasierInAnyRespectIsNot) {
   for (const Breadth breadth : {Breadth::kBeyond, Breadth::kSame}) {
     EXPECT_FALSE(Refuses(breadth, StepOf(-0.2, 0.4, 0.09)));
     EXPECT_FALSE(Refuses(breadth, StepOf(-0.4, 0.2, 0.09)));
@@ -41,12 +41,12 @@ TEST_F(StepRefusalsTest, WhatIsEasierInAnyRespectIsNot) {
   }
 }
 
-TEST_F(StepRefusalsTest, WhatIsHarderInEveryRespectIsRefusedIfRefusalsAreBroad) {
+TEST_F(RefusalBreadthTest, WhatIsHarderInEveryRespectIsRefusedIfRefusalsAreBroad) {
   EXPECT_TRUE(Refuses(Breadth::kBeyond, StepOf(-0.4, 0.4, 0.09)));
   EXPECT_FALSE(Refuses(Breadth::kSame, StepOf(-0.4, 0.4, 0.09)));
 }
 
-TEST_F(StepRefusalsTest, APostureIsRefusedWhateverTheRestOfTheStep) {
+TEST_F(RefusalBreadthTest, APostureIsRefusedWhateverTheRestOfTheStep) {
   StepRefusals refusals(Breadth::kSame);
   refusals.AddEnd(StepOf(0, 0.3).to, other_);
   EXPECT_TRUE(refusals.Refuses(StepOf(-0.1, 0.3), other_));
