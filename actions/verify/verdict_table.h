@@ -34,9 +34,9 @@ class VerdictTable {
       const std::vector<Entry>& entries = place->second;
       const auto entry = std::find_if(entries.rbegin(), entries.rend(), is_same);
       if (entry == entries.rend()) continue;
-      const Entry found = *entry;
-      if (generation == &old_) Insert(subject, found);
-      return found.result;
+      Result result = entry->result;  // kept: Insert may drop the old generation
+      if (generation == &old_) Insert(subject, *entry);
+      return result;
     }
     return std::nullopt;
   }

@@ -31,6 +31,7 @@ struct Sides {
 std::vector<Sides> SidesOf(const VectorXd& lower, const VectorXd& upper, const VectorXd& value,
                            double distance) {
   std::vector<Sides> sides;
+  sides.reserve(value.size());
   for (int i = 0; i < value.size(); ++i) {
     sides.push_back({value[i] - lower[i] <= distance, upper[i] - value[i] <= distance});
   }

@@ -76,6 +76,7 @@ class HeldSystem {
   template <typename Condition>
   std::vector<int> Number(const std::vector<Hold>& holds, const Condition& counts) {
     std::vector<int> place;
+    place.reserve(holds.size());
     for (const Hold hold : holds) place.push_back(counts(hold) ? size_++ : -1);
     return place;
   }
