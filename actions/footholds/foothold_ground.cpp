@@ -26,24 +26,91 @@ constexpr double kBeyondMargin = 1e-5;
 constexpr double kProbe = 1e-4;
 constexpr int kSwingSamples = 12;
 
+/// The link of a limb that does not hold its orientation turns about its contact by so much while
+/// the rest of the robot moves on, rad.
+constexpr double kFreeTurn = 0.3;
+constexpr int kParts = 4;  ///< of its shapes: a box about all of a slanting shank is much too large
+
 /// Of the friction coefficient, for slopes: the rest is for motion.
 constexpr double kUsableFriction = 0.85;
 
 bool IsUpright(const Eigen::Isometry3d& X) { return X.linear().col(2) == Vector3d::UnitZ(); }
 
-/// Around the shapes of the limb's link, in the nominal posture.
-Eigen::AlignedBox3d FootBox(const models::RobotModel& robot, const NominalStance& stance,
-                            int limb) {
-  dynamics::TreeKinematics kinematics(robot);
-  kinematics.SetPosition(stance.q);
+/// A box about shapes of the limb's link in the nominal posture, made larger by what is kept free
+/// on its sides and smaller by what is not tested below.
+Eigen::AlignedBox3d Padded(Eigen::AlignedBox3d box) {
+  box.min() -= Vector3d(kSide, kSide, 0);
+  box.max() += Vector3d(kSide, kSide, 0);
+  box.min().z() = std::max(box.min().z(), kGap);
+  return box;
+}
+
+/// Around the shapes of a link that holds its orientation.
+std::vector<Eigen::AlignedBox3d> BoxesOfHeldLink(const models::RobotModel& robot,
+                                                 const NominalStance& stance, int limb,
+                                                 const Eigen::Isometry3d& X_SL) {
   const int link = robot.contacts[stance.gait->limbs[limb].contact].link;
   Eigen::AlignedBox3d box;
   for (const models::PosedShape& posed : robot.links[link].shapes) {
-    box.extend(posed.shape.Bounds(kinematics.X_WL()[link] * posed.X_PS));
+    box.extend(posed.shape.Bounds(X_SL * posed.X_PS));
   }
   for (const Vector2d& p : stance.bearing_points[limb]) box.extend(Vector3d(p.x(), p.y(), kGap));
   box.min().z() = kGap;
-  return {box.min() - Vector3d(kSide, kSide, 0), box.max() + Vector3d(kSide, kSide, 0)};
+  return {Padded(box)};
+}
+
+/// Parts of a box along its longest side.
+std::vector<Eigen::AlignedBox3d> PartsOf(const Eigen::AlignedBox3d& box) {
+  Eigen::Index axis = 0;
+  const double part = box.sizes().maxCoeff(&axis) / kParts;
+  std::vector<Eigen::AlignedBox3d> parts;
+  for (int i = 0; i < kParts; ++i) {
+    parts.push_back(box);
+    parts.back().min()[axis] = box.min()[axis] + i * part;
+    parts.back().max()[axis] = box.min()[axis] + (i + 1) * part;
+  }
+  return parts;
+}
+
+/// Around the parts of the shapes of a link that turns about its contact while the robot moves on.
+std::vector<Eigen::AlignedBox3d> BoxesOfFreeLink(const models::RobotModel& robot,
+                                                 const NominalStance& stance, int limb,
+                                                 const Eigen::Isometry3d& X_SL) {
+  std::vector<Eigen::Isometry3d> poses = {X_SL};
+  const Eigen::Translation3d from_centre(-stance.patch_centres[limb]);
+  for (const Vector3d& axis : {Vector3d(Vector3d::UnitX()), Vector3d(Vector3d::UnitY())}) {
+    for (const double angle : {-kFreeTurn, kFreeTurn}) {
+      const Eigen::Isometry3d turned = Eigen::AngleAxisd(angle, axis) * (from_centre * X_SL);
+      poses.push_back(Eigen::Translation3d(stance.patch_centres[limb]) * turned);
+    }
+  }
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const models::PosedShape& posed :
+       robot.links[robot.contacts[stance.gait->limbs[limb].contact].link].shapes) {
+    for (const Eigen::AlignedBox3d& part :
+         PartsOf(posed.shape.Bounds(Eigen::Isometry3d::Identity()))) {
+      Eigen::AlignedBox3d box;
+      for (const Eigen::Isometry3d& X : poses) {
+        for (int corner = 0; corner < 8; ++corner) {
+          box.extend(X * posed.X_PS *
+                     part.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+        }
+      }
+      box = Padded(box);
+      if (box.min().z() < box.max().z()) boxes.push_back(box);
+    }
+  }
+  return boxes;
+}
+
+std::vector<Eigen::AlignedBox3d> FootBoxes(const models::RobotModel& robot,
+                                           const NominalStance& stance, int limb) {
+  dynamics::TreeKinematics kinematics(robot);
+  kinematics.SetPosition(stance.q);
+  const models::GaitLimb& moving = stance.gait->limbs[limb];
+  const Eigen::Isometry3d X_SL = kinematics.X_WL()[robot.contacts[moving.contact].link];
+  return moving.hold_orientation ? BoxesOfHeldLink(robot, stance, limb, X_SL)
+                                 : BoxesOfFreeLink(robot, stance, limb, X_SL);
 }
 
 }  // namespace
@@ -87,7 +154,7 @@ FootholdGround::FootholdGround(const models::RobotModel& robot, const NominalSta
       planes_(GentlePlanes(robot, *world.ground)),
       checker_(*world.environment) {
   for (int limb = 0; limb < static_cast<int>(stance.gait->limbs.size()); ++limb) {
-    feet_.emplace_back(std::vector<Eigen::AlignedBox3d>{FootBox(robot, stance, limb)});
+    feet_.emplace_back(FootBoxes(robot, stance, limb));
   }
 }
 

@@ -74,7 +74,7 @@ class FootholdGround {
   double margin_;
   std::vector<int> planes_;
   models::CollisionChecker checker_;
-  std::vector<models::UprightBoxes> feet_;  ///< by limb: box about its link, in the stance frame
+  std::vector<models::UprightBoxes> feet_;  ///< by limb: boxes about its link, in the stance frame
 };
 
 }  // namespace possibility::actions

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "actions/footholds/foothold_ground.h"
 
@@ -17,10 +18,21 @@ struct Footstep {
   double ChangeOfHeight() const { return AreOnOneSlope(from, to) ? 0 : std::abs(to.z - from.z); }
 };
 
-/// The family of steps that a search chooses from.
+/// Whether a gait has two limbs, both of which hold their orientation.
+bool StandsOnTwoSoles(const models::Gait& gait);
+
+/// Of all limbs' stances.
+PlanarPose MeanStance(const std::vector<Foothold>& feet);
+
+/// What the other limbs stand in while `limb` swings: the other one's place, or the mean of
+/// several, as if level.
+Foothold RestOf(const std::vector<Foothold>& feet, int limb);
+
+/// The family of steps that a search chooses from. Of two limbs: one as the other sees it; of more:
+/// one in the mean stance of the others.
 struct FootstepLimits {
-  double forward = 0.34;    ///< m: stance of one limb ahead of the other's
-  double lateral = 0.16;    ///< m: aside, outwards
+  double forward = 0.34;    ///< m: stance of one limb ahead of the others'
+  double lateral = 0.16;    ///< m: aside; of two limbs outwards
   double turn = 0.35;       ///< rad
   double rise = 0.16;       ///< m, up or down
   double lift = 0.27;       ///< m

@@ -27,9 +27,11 @@ std::vector<double> SquareHeadingsOf(const models::Environment& environment) {
 
 StepGround::StepGround(const LocomotionModel& model, int gait, const World& world,
                        const FootstepLimits& limits)
-    : headings(SquareHeadingsOf(*world.environment)),
-      cells(model.gaits[gait]->stance, world, GentlePlanes(*model.robot, *world.ground), limits),
-      room(cells, model.gaits[gait]->stance, world, limits, headings.empty() ? 0 : headings.front(),
-           kPatchGap) {}
+    : headings(SquareHeadingsOf(*world.environment)) {
+  const NominalStance& stance = model.gaits[gait]->stance;
+  if (!StandsOnTwoSoles(*stance.gait)) return;
+  cells.emplace(stance, world, GentlePlanes(*model.robot, *world.ground), limits);
+  room.emplace(*cells, stance, world, limits, first_heading(), kPatchGap);
+}
 
 }  // namespace possibility::actions

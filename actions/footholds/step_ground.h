@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "actions/conditions/locomotion_model.h"
@@ -24,9 +25,12 @@ struct StepGround {
   /// Patches keep this far from each other, m.
   static constexpr double kPatchGap = 0.015;
 
+  double first_heading() const { return headings.empty() ? 0 : headings.front(); }  ///< rad
+
   std::vector<double> headings;  ///< SquareHeadingsOf
-  FootholdCells cells;
-  StandingRoom room;
+  // Of gaits on two soles.
+  std::optional<FootholdCells> cells;
+  std::optional<StandingRoom> room;
 };
 
 }  // namespace possibility::actions

@@ -14,7 +14,8 @@
 namespace possibility::actions {
 namespace {
 
-// Durations, s; those of swings grow with lift and change of height.
+// Durations of a biped, s; those of swings grow with lift and change of height. Of more limbs they
+// are in the same proportion to the gait's time of a swing.
 constexpr double kLevelSwing = 0.55;
 constexpr double kHighSwing = 1.0;
 constexpr double kSecondsPerMetreUp = 1;
@@ -90,18 +91,20 @@ FootstepMotion::FootstepMotion(const models::RobotModel& robot, const NominalSta
     : robot_(&robot),
       stance_(&stance),
       self_clearance_(robot, {stance.q}),
-      sideways_load_(SidewaysLoad(robot, stance)) {}
+      has_two_limbs_(stance.gait->limbs.size() == 2),
+      sideways_load_(has_two_limbs_ ? SidewaysLoad(robot, stance) : 0),
+      tempo_(has_two_limbs_ ? 1 : stance.gait->parameters.swing_time / kLevelSwing) {}
 
-double FootstepMotion::ExpectedDuration(const std::vector<Footstep>& steps) {
-  double duration = 2 * kStart;
+double FootstepMotion::ExpectedDuration(const std::vector<Footstep>& steps) const {
+  double duration = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     duration += SwingDuration(steps[i]);
     if (i + 1 < steps.size()) duration += DoubleSupport(steps, i);
   }
-  return duration;
+  return 2 * kStart + tempo_ * duration;
 }
 
-double FootstepMotion::LeastStepTime() { return kLevelSwing + kDoubleSupport; }
+double FootstepMotion::LeastStepTime() const { return tempo_ * (kLevelSwing + kDoubleSupport); }
 
 int FootstepMotion::StepOfPhase(int phase, int steps) {
   // Phases alternate: all limbs bear, one swings, ...
@@ -122,11 +125,12 @@ models::ContactSchedule FootstepMotion::ScheduleOf(const std::vector<Pace>& pace
   for (std::size_t i = 0; i < steps.size(); ++i) {
     models::ContactInterval swing = standing;
     swing.bearing[steps[i].limb].reset();
-    swing.duration = paces[i].slowness * SwingDuration(steps[i]);
+    swing.duration = tempo_ * paces[i].slowness * SwingDuration(steps[i]);
     schedule.intervals.push_back(std::move(swing));
     standing.bearing[steps[i].limb] = PatchPoseOf(*stance_, steps[i].limb, steps[i].to);
     const bool rolls = paces[i].sway != 0 || (i + 1 < steps.size() && paces[i + 1].sway != 0);
-    standing.duration = paces[i].slowness * (rolls ? kSwayingSupport : 1) * DoubleSupport(steps, i);
+    standing.duration =
+        tempo_ * paces[i].slowness * (rolls ? kSwayingSupport : 1) * DoubleSupport(steps, i);
     schedule.intervals.push_back(standing);
   }
   schedule.intervals.back().duration = kStart;
@@ -325,6 +329,10 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
 std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
   const double tall = kTall * stance_->gait->posture.root_height;
   const double spared = kLeastLoad / 4;
+  if (!has_two_limbs_) {
+    return {{0, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, 0, false},
+            {0, 0, 0.14, 0.99, kLeastSelfDistance, spared, 0, kLeastMargin, 0}};
+  }
   std::vector<Style> styles = {
       {tall, 0, 0.16, 0.95, kSelfDistance, kLeastLoad, 0, 1, 0, false},
       {tall, -0.1, 0.16, 0.95, kSelfDistance, kLeastLoad, kZmpAhead / 2, 1, 0, false},

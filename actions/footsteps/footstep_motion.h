@@ -51,10 +51,10 @@ class FootstepMotion {
                            const CancellationToken& cancellation = {}, int* style = nullptr) const;
 
   /// Of the motion, if no step has to be slower, s.
-  static double ExpectedDuration(const std::vector<Footstep>& steps);
+  double ExpectedDuration(const std::vector<Footstep>& steps) const;
 
   /// From one step to the next at least, s.
-  static double LeastStepTime();
+  double LeastStepTime() const;
 
   /// Index of the step in which phase `phase` of such a motion swings, or that it follows or leads
   /// to.
@@ -117,7 +117,9 @@ class FootstepMotion {
   const models::RobotModel* robot_;
   const NominalStance* stance_;
   SelfClearance self_clearance_;
-  double sideways_load_;
+  bool has_two_limbs_;
+  double sideways_load_;  ///< of two limbs
+  double tempo_;          ///< durations of steps: share of a biped's
 };
 
 }  // namespace possibility::actions

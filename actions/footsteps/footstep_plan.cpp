@@ -16,12 +16,16 @@ namespace {
 
 // Of the search: weight of the heuristic, and sizes within which two places are the same.
 constexpr double kGreed = 2.5;
+constexpr double kGreedOfMany = 4;   ///< of more than two limbs
 constexpr double kSamePlace = 0.04;  // m
 constexpr double kSameTurn = 0.15;   // rad
 constexpr double kSameHeight = 0.005;
 /// A place is compared more coarsely by that where the foot leaves it next: what follows depends on
 /// the other one.
 constexpr double kCoarser = 3;
+
+/// A limb that need not move in its turn.
+constexpr double kSecondsPerPass = 0.02;
 
 /// Work of one turn: a place that is tried counts as this share of a state.
 constexpr std::int64_t kPlacesPerState = 16;
@@ -33,9 +37,8 @@ constexpr std::int64_t kStatesBeforeFlood = 500;
 }  // namespace
 
 bool FootstepSearch::Knows(const models::Gait& gait) {
-  return gait.limbs.size() == 2 &&
-         std::all_of(gait.limbs.begin(), gait.limbs.end(),
-                     [](const models::GaitLimb& limb) { return limb.hold_orientation; });
+  const std::size_t limbs = gait.limbs.size();
+  return StandsOnTwoSoles(gait) || (limbs > 2 && limbs <= kMostLimbs);
 }
 
 struct FootstepSearch::Search {
@@ -56,12 +59,14 @@ struct FootstepSearch::Search {
     std::vector<Candidate> candidates;
   };
 
-  /// Both limbs' places, and the limb that moves next.
+  /// All limbs' places, and the limb that moves next. The one before it has moved, or was passed
+  /// over.
   struct Node {
-    std::array<Foothold, 2> feet;
-    std::array<int, 2> layers = {-1, -1};  ///< the feet's planes: indices into ground.planes()
-    std::array<int, 2> goals = {-1, -1};   ///< in which the feet stand; -1: in none
+    std::vector<Foothold> feet;
+    std::vector<int> layers;  ///< the feet's planes: indices into ground.planes()
+    std::vector<int> goals;   ///< in which the feet stand; -1: in none
     int next = 0;
+    int passed = 0;  ///< limbs that were passed over since one has moved
     int parent = -1;
     double cost = 0;
     double lift = 0;         ///< of the step that led here
@@ -81,7 +86,7 @@ struct FootstepSearch::Search {
   };
 
   /// A state, rounded.
-  using Key = std::array<std::int32_t, 9>;
+  using Key = std::array<std::int32_t, 4 * kMostLimbs + 1>;
   struct HashOfKey {
     std::size_t operator()(const Key& key) const {
       std::uint64_t hash = 0;
@@ -102,6 +107,7 @@ struct FootstepSearch::Search {
         start_times(std::move(ends.start_times)),
         goals{std::move(ends.goals), std::move(ends.goal_times)},
         rules(model, gait, world, *known, limits) {
+    if (rules.NumLimbs() > 2) greed = kGreedOfMany;
     Begin(cancellation);
   }
 
@@ -126,10 +132,12 @@ struct FootstepSearch::Search {
   }
 
   void Begin(int layer, const Foothold& start, double time) {
-    for (const int next : {0, 1}) {
+    const auto limbs = static_cast<std::size_t>(rules.NumLimbs());
+    for (int next = 0; next < rules.NumLimbs(); ++next) {
       Node node;
-      node.feet.fill(start);
-      node.layers.fill(layer);
+      node.feet.assign(limbs, start);
+      node.layers.assign(limbs, layer);
+      node.goals.assign(limbs, -1);
       node.next = next;
       node.is_tested = true;
       node.cost = time;
@@ -142,9 +150,9 @@ struct FootstepSearch::Search {
   }
 
   static Key KeyOf(const Node& node) {
-    Key key;
+    Key key = {};
     std::size_t i = 0;
-    for (const int limb : {0, 1}) {
+    for (int limb = 0; limb < static_cast<int>(node.feet.size()); ++limb) {
       const Foothold& foot = node.feet[limb];
       const double coarseness = limb == node.next ? kCoarser : 1;
       key[i++] = Quantised(foot.stance.x, coarseness * kSamePlace);
@@ -153,27 +161,29 @@ struct FootstepSearch::Search {
       key[i++] = Quantised(foot.z, kSameHeight);
     }
     // No other state stands for a goal.
-    key[i] = 2 * (1 + GoalAt(node)) + node.next;
+    key[i] = kMostLimbs * (1 + GoalAt(node)) + node.next;
     return key;
   }
 
-  static PlanarPose Middle(const Node& node) {
-    return Interpolate(node.feet[0].stance, node.feet[1].stance, 0.5);
-  }
+  static PlanarPose Middle(const Node& node) { return MeanStance(node.feet); }
+
+  int Before(int limb) const { return (limb + rules.NumLimbs() - 1) % rules.NumLimbs(); }
+  int After(int limb) const { return (limb + 1) % rules.NumLimbs(); }
+  int Moved(const Node& node) const { return Before(node.next); }
 
   void Push(Node node) {
-    const int moved = 1 - node.next;
     const double time =
-        heuristic->At(node.layers[moved], Middle(node)) + kLevelStep * StepsLeft(node);
+        heuristic->At(node.layers[Moved(node)], Middle(node)) + kLevelStep * StepsLeft(node);
     if (!std::isfinite(time)) return;
-    open.push({node.cost + kGreed * time, static_cast<int>(nodes.size()), false});
+    open.push({node.cost + greed * time, static_cast<int>(nodes.size()), false});
     nodes.push_back(std::move(node));
   }
 
   /// At the node, and on the way to it.
   bool TrunkIsFree(const Node& node) const {
     const Node& parent = nodes[node.parent];
-    const double z = std::max(node.feet[0].z, node.feet[1].z);
+    double z = node.feet.front().z;
+    for (const Foothold& foot : node.feet) z = std::max(z, foot.z);
     const PlanarPose from = Middle(parent);
     const PlanarPose to = Middle(node);
     return rules.TrunkIsFree(to, z) && rules.TrunkIsFree(Interpolate(from, to, 0.5), z);
@@ -183,33 +193,33 @@ struct FootstepSearch::Search {
   bool Test(Node* node, const Refusal& is_refused) {
     if (node->is_tested) return true;
     node->is_tested = true;
-    const int moved = 1 - node->next;
+    const int moved = Moved(*node);
     const Foothold& from = nodes[node->parent].feet[moved];
     const Foothold& to = node->feet[moved];
-    if (!rules.PassesOther(moved, from, to, node->feet[node->next])) return false;
+    if (!rules.PassesOthers(node->feet, moved, from)) return false;
     if (!TrunkIsFree(*node)) return false;
     const auto lift = rules.LiftBetween(moved, from, to);
     if (!lift) return false;
     node->lift = *lift;
-    return !is_refused || !is_refused({moved, from, to, *lift}, node->feet[node->next]);
+    return !is_refused || !is_refused({moved, from, to, *lift}, RestOf(node->feet, moved));
   }
 
   int NumGoals() const { return static_cast<int>(goals.stances.size()); }
 
   /// Places that the limb which moves next may try: goals, and those of the family about the other
-  /// limb. None if it is not one of the family.
+  /// limbs. None if it is not one of the family.
   std::optional<PlanarPose> PlaceOf(const Node& node, int number) const {
     const int limb = node.next;
-    const PlanarPose& other = node.feet[1 - limb].stance;
-    if (number >= NumGoals()) return rules.PlaceAbout(limb, other, number - NumGoals());
+    const PlanarPose rest = RestOf(node.feet, limb).stance;
+    if (number >= NumGoals()) return rules.PlaceAbout(limb, rest, number - NumGoals());
     const PlanarPose& goal = goals.stances[number].pose;
-    if (!rules.IsWithin(limb, other.Inverse() * goal)) return std::nullopt;
+    if (!rules.IsWithin(limb, rest.Inverse() * goal)) return std::nullopt;
     return goal;
   }
 
   /// Layers that the limb which moves next may reach.
   std::vector<int> LayersNear(const Node& node) const {
-    const Foothold& other = node.feet[1 - node.next];
+    const Foothold rest = RestOf(node.feet, node.next);
     const FootstepLimits& limits = rules.limits();
     const double reach = limits.forward + limits.lateral + FootholdGround::kMostShift +
                          2 * rules.stance().patch_centres[node.next].head<2>().norm();
@@ -218,10 +228,10 @@ struct FootstepSearch::Search {
     for (std::size_t layer = 0; layer < planes.size(); ++layer) {
       const int plane = planes[layer];
       const bool is_level = plane < static_cast<int>(world.ground->levels().size());
-      if (is_level && std::abs(world.ground->levels()[plane] - other.z) > limits.rise + 1e-6) {
+      if (is_level && std::abs(world.ground->levels()[plane] - rest.z) > limits.rise + 1e-6) {
         continue;
       }
-      if (!world.ground->IsNear(plane, other.stance.position(), reach)) continue;
+      if (!world.ground->IsNear(plane, rest.stance.position(), reach)) continue;
       near.push_back(static_cast<int>(layer));
     }
     return near;
@@ -230,10 +240,9 @@ struct FootstepSearch::Search {
   /// Values of the places about a node, as if the limb could go there. They are tested later, best
   /// first.
   void Expand(int index) {
+    PassOver(index);
     Node& node = nodes[index];
-    const int limb = node.next;
-    const Foothold& other = node.feet[1 - limb];
-    const std::optional<double> squat = rules.Squat(limb, node.feet[limb], other);
+    const std::optional<double> squat = rules.Squat(node.feet, node.next);
     if (!squat) return;
     node.squat = *squat;
     const std::vector<StepRules::Place> places = PlacesOf(node);
@@ -245,14 +254,25 @@ struct FootstepSearch::Search {
     }
   }
 
+  /// Of more than two limbs one need not move in its turn.
+  void PassOver(int index) {
+    if (nodes[index].passed + 2 >= rules.NumLimbs()) return;
+    Node node = nodes[index];
+    ++node.passed;
+    node.next = After(node.next);
+    node.parent = index;
+    node.cost += kSecondsPerPass;
+    Push(std::move(node));
+  }
+
   /// All of them; PlaceOf gives single ones.
   std::vector<StepRules::Place> PlacesOf(const Node& node) const {
-    const PlanarPose& other = node.feet[1 - node.next].stance;
-    std::vector<StepRules::Place> places = rules.PlacesAbout(node.next, other);
+    const PlanarPose rest = RestOf(node.feet, node.next).stance;
+    std::vector<StepRules::Place> places = rules.PlacesAbout(node.next, rest);
     for (StepRules::Place& place : places) place.number += NumGoals();
     for (int goal = 0; goal < NumGoals(); ++goal) {
       const std::optional<PlanarPose> there = PlaceOf(node, goal);
-      if (there) places.push_back({goal, *there, (other.Inverse() * *there).x});
+      if (there) places.push_back({goal, *there, rest.Inverse() * *there});
     }
     return places;
   }
@@ -260,20 +280,22 @@ struct FootstepSearch::Search {
   std::vector<Candidate> CandidatesOf(const Node& node, const std::vector<StepRules::Place>& places,
                                       int layer) {
     const int limb = node.next;
-    const Foothold& other = node.feet[1 - limb];
+    const Foothold rest = RestOf(node.feet, limb);
+    const double share = 1.0 / rules.NumLimbs();
     const int plane = rules.ground().planes()[layer];
     std::vector<Candidate> candidates;
-    for (const auto& [number, there, ahead] : places) {
+    for (const auto& [number, there, displacement] : places) {
       const Foothold foothold = rules.ground().On(limb, there, plane);
-      if (std::abs(foothold.z - other.z) > rules.limits().rise + 1e-6) continue;
+      if (std::abs(foothold.z - rest.z) > rules.limits().rise + 1e-6) continue;
       const bool is_goal = number < NumGoals();
-      const int steps_left = !is_goal ? 2 : node.goals[1 - limb] == number ? 0 : 1;
+      const int steps_left =
+          !is_goal ? rules.NumLimbs() : StepsLeft(node.goals, Before(limb), number) - 1;
       const double time =
-          heuristic->At(layer, Interpolate(other.stance, there, 0.5)) + kLevelStep * steps_left;
+          heuristic->At(layer, Interpolate(rest.stance, there, share)) + kLevelStep * steps_left;
       if (!std::isfinite(time)) continue;
       const double cost =
-          node.cost + rules.Cost(limb, node.feet[limb], foothold, ahead, other, node.squat);
-      candidates.push_back({cost + kGreed * time, number});
+          node.cost + rules.Cost(limb, node.feet[limb], foothold, displacement, rest, node.squat);
+      candidates.push_back({cost + greed * time, number});
     }
     std::make_heap(candidates.begin(), candidates.end(), std::greater<>());
     return candidates;
@@ -281,7 +303,7 @@ struct FootstepSearch::Search {
 
   double CostOf(const Node& node, const Foothold& place, double squat) const {
     const int limb = node.next;
-    return node.cost + rules.Cost(limb, node.feet[limb], place, node.feet[1 - limb], squat);
+    return node.cost + rules.Cost(limb, node.feet[limb], place, RestOf(node.feet, limb), squat);
   }
 
   void PushCandidate(int index) {
@@ -306,7 +328,6 @@ struct FootstepSearch::Search {
   void TryStep(int parent, int number, const Foothold& place, int layer) {
     const Node& from = nodes[parent];
     const int limb = from.next;
-    const Foothold& other = from.feet[1 - limb];
     Node node;
     node.feet = from.feet;
     node.feet[limb] = place;
@@ -315,25 +336,37 @@ struct FootstepSearch::Search {
     node.goals = from.goals;
     const bool is_goal = number < NumGoals() && IsIn(place, number);
     node.goals[limb] = is_goal ? number : -1;
-    node.next = 1 - limb;
+    node.next = After(limb);
     node.parent = parent;
     if (closed.contains(KeyOf(node))) return;
-    const std::optional<double> squat = rules.Squat(limb, place, other);
+    const std::optional<double> squat = rules.Squat(node.feet, limb);
     if (!squat) return;
-    if (!rules.KeepsOff(limb, place, other)) return;
+    if (!rules.KeepsOff(node.feet, limb)) return;
     node.cost = CostOf(from, place, std::max(*squat, from.squat));
     Push(std::move(node));
   }
 
-  /// Index of the goal in which both limbs stand; -1 if there is none.
+  /// Index of the goal in which all limbs stand; -1 if there is none.
   static int GoalAt(const Node& node) {
-    return node.goals[0] == node.goals[1] ? node.goals[0] : -1;
+    const int goal = node.goals.front();
+    const bool all = std::all_of(node.goals.begin(), node.goals.end(),
+                                 [goal](int other) { return other == goal; });
+    return all ? goal : -1;
   }
 
-  /// At least, until both limbs stand in a goal.
-  static int StepsLeft(const Node& node) {
+  /// Until all limbs stand in a goal, if they go on in turn.
+  int StepsLeft(const Node& node) const {
     if (GoalAt(node) >= 0) return 0;
-    return node.goals[1 - node.next] >= 0 ? 1 : 2;
+    const int moved = Moved(node);
+    return node.goals[moved] < 0 ? rules.NumLimbs()
+                                 : StepsLeft(node.goals, moved, node.goals[moved]);
+  }
+
+  /// Until all stand in `goal`, of which one is left at least. `last`: the limb that moved last.
+  int StepsLeft(const std::vector<int>& in_goals, int last, int goal) const {
+    int left = rules.NumLimbs();
+    for (int limb = last; left > 1 && in_goals[limb] == goal; limb = Before(limb)) --left;
+    return left;
   }
 
   bool IsIn(const Foothold& place, int goal) const {
@@ -346,7 +379,7 @@ struct FootstepSearch::Search {
   bool MayReachAGoal(const CancellationToken& cancellation) {
     if (!may_reach) {
       may_reach = true;
-      if (!world.environment->bounds.isEmpty()) {
+      if (!world.environment->bounds.isEmpty() && StandsOnTwoSoles(*rules.stance().gait)) {
         const FootholdFlood flood(rules.stance(), world, rules.ground().planes(), rules.limits(),
                                   starts, cancellation);
         may_reach = std::any_of(goals.stances.begin(), goals.stances.end(),
@@ -365,7 +398,8 @@ struct FootstepSearch::Search {
     std::vector<Footstep> steps;
     for (; nodes[index].parent >= 0; index = nodes[index].parent) {
       const Node& node = nodes[index];
-      const int moved = 1 - node.next;
+      if (node.passed > 0) continue;
+      const int moved = Moved(node);
       steps.push_back({moved, nodes[node.parent].feet[moved], node.feet[moved], node.lift});
     }
     std::reverse(steps.begin(), steps.end());
@@ -373,6 +407,7 @@ struct FootstepSearch::Search {
   }
 
   const World& world;
+  double greed = kGreed;
   std::shared_ptr<const StepGround> known;
   std::vector<GroundedStance> starts;
   std::vector<double> start_times;
@@ -409,10 +444,9 @@ std::int64_t FootstepSearch::states() const { return search_->expanded; }
 
 bool FootstepSearch::ProvesNone() const { return search_->may_reach && !*search_->may_reach; }
 
-std::optional<Footstep> FootstepSearch::StepBetween(int limb, const Foothold& from,
-                                                    const Foothold& to,
-                                                    const Foothold& other) const {
-  return search_->rules.StepBetween(limb, from, to, other);
+std::optional<Footstep> FootstepSearch::StepBetween(const std::vector<Foothold>& feet, int limb,
+                                                    const Foothold& to) const {
+  return search_->rules.StepBetween(feet, limb, to);
 }
 
 FootstepSearch::Status FootstepSearch::Answer(int node, int goal) {

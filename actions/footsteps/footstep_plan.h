@@ -25,13 +25,14 @@ struct FootstepEnds {
   std::vector<double> goal_times;
 };
 
-/// Searches sequences of steps of a gait with two limbs that hold their orientation, over ground of
-/// any heights, from one nominal stance to another: weighted A* (Pohl 1970) over the places of both
-/// limbs, which move in turn. What it finds is no motion yet; it knows the ground, the free space
-/// about feet and trunk, and the legs' reach. One search per thread.
+/// Searches sequences of steps of a gait over ground of any heights, from one nominal stance to
+/// another: weighted A* (Pohl 1970) over the places of all limbs, which move in turn; of more than
+/// two one may be passed over. What it finds is no motion yet; it knows the ground, the free space
+/// about feet and trunk, and the limbs' reach. One search per thread.
 class FootstepSearch {
  public:
-  /// Whether steps of the gait can be searched.
+  static constexpr int kMostLimbs = 4;
+  /// Whether steps of the gait can be searched: two soles, or three or four limbs of any kind.
   static bool Knows(const models::Gait& gait);
 
   /// `known`: of this gait and world, and of such limits; shared by many searches. References must
@@ -56,14 +57,14 @@ class FootstepSearch {
   std::int64_t states() const;                                   ///< expanded so far
   bool ProvesNone() const;  ///< once exhausted: there is a proof that no steps exist
 
-  /// A step from place to place, with its lift, while the other limb bears at `other`. None if the
-  /// limb does not reach, or hits the other one or an obstacle.
-  std::optional<Footstep> StepBetween(int limb, const Foothold& from, const Foothold& to,
-                                      const Foothold& other) const;
+  /// A step from a limb's place to another one, with its lift, while the others bear. `feet`: where
+  /// all limbs are before it. None if the limb does not reach, or hits another one or an obstacle.
+  std::optional<Footstep> StepBetween(const std::vector<Foothold>& feet, int limb,
+                                      const Foothold& to) const;
 
   std::int64_t most_states = 8000;
-  /// Steps that must not be taken. `other`: where the other limb bears meanwhile.
-  std::function<bool(const Footstep& step, const Foothold& other)> is_refused;
+  /// Steps that must not be taken. `rest`: where the other limbs bear meanwhile (RestOf).
+  std::function<bool(const Footstep& step, const Foothold& rest)> is_refused;
 
  private:
   struct Search;

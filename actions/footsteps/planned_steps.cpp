@@ -20,7 +20,7 @@ constexpr std::int64_t kStatesPerQuestion = 50;
 
 // Where the robot hits something, the swing is raised, and then the trunk kept away; m.
 constexpr double kRaise = 0.03;
-constexpr int kMostRaises = 2;
+constexpr int kMostRaises = 2;  // of two limbs; two more for each further one
 constexpr double kAway = 0.02;
 constexpr double kFarthestAway = 0.08;
 
@@ -40,11 +40,12 @@ constexpr double kToStartAndStop = 2.5;
 constexpr double kSecondsPerMetre = 2.2;
 constexpr double kSecondsPerMetreRisen = 12;
 
-Foothold OtherAt(const GroundedStance& start, const std::vector<Footstep>& steps, int step) {
-  for (int i = step - 1; i >= 0; --i) {
-    if (steps[i].limb != steps[step].limb) return steps[i].to;
-  }
-  return {start.pose, start.z};
+/// All limbs' places before a step.
+std::vector<Foothold> FeetBefore(const GroundedStance& start, std::size_t limbs,
+                                 const std::vector<Footstep>& steps, int step) {
+  std::vector<Foothold> feet(limbs, Foothold{start.pose, start.z});
+  for (int i = 0; i < step; ++i) feet[steps[i].limb] = steps[i].to;
+  return feet;
 }
 
 bool AreSame(const std::vector<Footstep>& some, const std::vector<Footstep>& others) {
@@ -74,14 +75,14 @@ bool PlannedSteps::CN(const graph::Edge& edge) const {
 
 double PlannedSteps::GreatestSpeed() const {
   const double longest = std::hypot(limits_.forward, limits_.lateral) + FootholdGround::kMostShift;
-  return longest / FootstepMotion::LeastStepTime();
+  return longest / motion_.LeastStepTime();
 }
 
 double PlannedSteps::ExpectedDuration(const graph::Edge& edge) const {
   const EdgeKey key = KeyOf(edge);
   if (const std::optional<double> known = DurationOfOutcome(key)) return *known;
   const std::vector<Footstep> steps = SuggestedFor(key).steps;
-  if (!steps.empty()) return FootstepMotion::ExpectedDuration(steps);
+  if (!steps.empty()) return ExpectedDuration(steps);
   const Eigen::Vector3d way = (edge.to - edge.from).head<3>();
   return kToStartAndStop + kSecondsPerMetre * way.head<2>().norm() +
          kSecondsPerMetreRisen * std::abs(way.z());
@@ -97,6 +98,7 @@ std::optional<double> PlannedSteps::DurationOfOutcome(const EdgeKey& key) const 
 std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
                                             const CancellationToken& cancellation) const {
   const models::RobotModel& robot = *model().robot;
+  const int most_raises = kMostRaises * (static_cast<int>(stance().gait->limbs.size()) - 1);
   for (int raises = 0, style = 0;;) {
     std::vector<Phase> motion = motion_.Build({from.pose, from.z}, steps, cancellation, &style);
     const std::string self = FirstSelfHit(robot, *checker(), motion, cancellation);
@@ -111,7 +113,7 @@ std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vec
       const int step =
           FootstepMotion::StepOfPhase(static_cast<int>(i), static_cast<int>(steps.size()));
       steps[step].lift += kRaise;
-      if (++raises > kMostRaises || steps[step].lift > limits_.lift) {
+      if (++raises > most_raises || steps[step].lift > limits_.lift) {
         throw FootstepError(hit, step, true);
       }
       is_raised = true;
@@ -155,8 +157,8 @@ std::vector<Footstep> PlannedSteps::Search(const GroundedStance& from, const Gro
   FootstepSearch search(model(), this->from(), world(), FootstepEnds{{from}, {to}, {}, {}}, limits,
                         known_ground(), cancellation);
   search.most_states = std::min(states, effort->states);
-  search.is_refused = [&refusals](const Footstep& step, const Foothold& other) {
-    return refusals.Refuses(step, other);
+  search.is_refused = [&refusals](const Footstep& step, const Foothold& rest) {
+    return refusals.Refuses(step, rest);
   };
   FootstepSearch::Status status = FootstepSearch::Status::kSearching;
   while (status == FootstepSearch::Status::kSearching) {
@@ -183,19 +185,28 @@ std::vector<Footstep> PlannedSteps::StepsFartherAway(const GroundedStance& from,
   return {};
 }
 
-void PlannedSteps::Refuse(const FootstepError& error, const Footstep& step, const Foothold& other,
+void PlannedSteps::Refuse(const FootstepError& error, const Footstep& step, const Foothold& rest,
                           StepRefusals* refusals) {
   switch (error.part()) {
     case FootstepError::Part::kStep:
-      refusals->Add(step, other);
+      refusals->Add(step, rest);
       break;
     case FootstepError::Part::kFrom:
-      refusals->AddEnd(step.from, other);
+      refusals->AddEnd(step.from, rest);
       break;
     case FootstepError::Part::kTo:
-      refusals->AddEnd(step.to, other);
+      refusals->AddEnd(step.to, rest);
       break;
   }
+}
+
+std::optional<double> PlannedSteps::HighestRoot(std::vector<Foothold> feet,
+                                                const Footstep& step) const {
+  const auto before = reach_.HighestRoot(feet, step.limb);
+  feet[step.limb] = step.to;
+  const auto after = reach_.HighestRoot(feet, step.limb);
+  if (!before || !after) return std::nullopt;
+  return std::min(*before, *after);
 }
 
 PlannedSteps::Effort PlannedSteps::FullEffort() const {
@@ -226,7 +237,7 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
         continue;
       }
     }
-    if (FootstepMotion::ExpectedDuration(steps) > suggestion.most_duration) {
+    if (ExpectedDuration(steps) > suggestion.most_duration) {
       outcome.fault += "; other steps take too long";
       outcome.is_decided = true;
       return outcome;
@@ -247,9 +258,10 @@ PlannedSteps::Outcome PlannedSteps::Plan(const GroundedStance& from, const Groun
         }
       }
       const Footstep& step = steps[error.step()];
-      const Foothold other = OtherAt(from, steps, error.step());
-      Refuse(error, step, other, &refusals);
-      const double root = reach_.HighestRoot(step, other).value_or(limits.lowest_root);
+      const std::vector<Foothold> feet =
+          FeetBefore(from, stance().gait->limbs.size(), steps, error.step());
+      Refuse(error, step, RestOf(feet, step.limb), &refusals);
+      const double root = HighestRoot(feet, step).value_or(limits.lowest_root);
       if (root < upright && taller < kMostTaller) {
         ++taller;
         limits.lowest_root = std::max(limits.lowest_root, std::min(root + kTaller, upright));

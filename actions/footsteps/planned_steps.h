@@ -19,10 +19,10 @@
 namespace possibility::actions {
 
 /// Steps of a gait where C_S of the gait says no: over cracks, sills and stairs, through doors and
-/// from stone to stone. An edge joins two nominal stances that meet C_S. Its job is contact
-/// planning: it searches footholds, makes a motion of them and tests it, and asks for other
-/// footholds where a step is beyond the robot. It ends after a stated effort. In a plan the motion
-/// is one of the gait.
+/// from stone to stone, upright, on all fours or crawling. An edge joins two nominal stances that
+/// meet C_S. Its job is contact planning: it searches footholds, makes a motion of them and tests
+/// it, and asks for other footholds where a step is beyond the robot. It ends after a stated
+/// effort. In a plan the motion is one of the gait.
 class PlannedSteps final : public Manoeuvre {
  public:
   /// `gait`: index of a gait whose steps can be searched (FootstepSearch::Knows).
@@ -50,6 +50,10 @@ class PlannedSteps final : public Manoeuvre {
     return std::nullopt;
   }
   double ExpectedDuration(const graph::Edge& edge) const override;
+  /// Of a motion of steps, s.
+  double ExpectedDuration(const std::vector<Footstep>& steps) const {
+    return motion_.ExpectedDuration(steps);
+  }
   std::vector<Phase> Motion(const graph::Edge& edge,
                             const CancellationToken& cancellation) const override;
 
@@ -128,8 +132,10 @@ class PlannedSteps final : public Manoeuvre {
                                          Effort* effort,
                                          const CancellationToken& cancellation) const;
   /// Refuses what a motion failed at.
-  static void Refuse(const FootstepError& error, const Footstep& step, const Foothold& other,
+  static void Refuse(const FootstepError& error, const Footstep& step, const Foothold& rest,
                      StepRefusals* refusals);
+  /// Of the root all through a step (StepReach). `feet`: before it.
+  std::optional<double> HighestRoot(std::vector<Foothold> feet, const Footstep& step) const;
 
   FootstepLimits limits_;
   StepReach reach_;

@@ -15,20 +15,35 @@ using Eigen::Vector2d;
 /// Expected by the field of footholds, s/m: high steps, low roots, a second foot that follows.
 constexpr double kSecondsPerMetreClimbed = 12;
 
+/// Of the field of poses, where no footholds give it, m.
+constexpr double kCell = 0.06;
+
 }  // namespace
 
 StepHeuristic::StepHeuristic(const StepRules& rules, const StepGround& known, const World& world,
                              const StepGoals& goals, const std::vector<GroundedStance>& starts,
                              bool is_relaxed)
     : rules_(rules), known_(known), world_(world), goals_(goals), is_relaxed_(is_relaxed) {
-  footholds_.emplace(known.cells, rules.stance(), world, rules.limits(), goals.stances, goals.times,
-                     TimesOfSteps());
+  if (known.cells) {
+    footholds_.emplace(*known.cells, rules.stance(), world, rules.limits(), goals.stances,
+                       goals.times, TimesOfSteps());
+  }
   poses_.emplace(PosesField(starts));
 }
 
 bool StepHeuristic::IsBest(int goal) {
   const GroundedStance& stance = goals_.stances[goal];
   return goals_.TimeFrom(goal) <= At(LayerUnder(0, {stance.pose, stance.z}), stance.pose) + 1e-9;
+}
+
+/// Of n limbs each goes 2/n as far ahead of the middle as it goes ahead of the others. Of two limbs
+/// aside and in turns one makes a step and the other closes up.
+PoseField::Paces StepHeuristic::PacesOfPoses() const {
+  const FootstepLimits& limits = rules_.limits();
+  const double steps = rules_.NumLimbs() / 2.0;
+  const double closing = rules_.NumLimbs() == 2 ? 2 : 1;
+  return {steps * kLevelStep / limits.forward, closing * steps * kLevelStep / limits.lateral,
+          closing * steps * kLevelStep / limits.turn};
 }
 
 PoseField StepHeuristic::PosesField(const std::vector<GroundedStance>& starts) {
@@ -43,15 +58,16 @@ PoseField StepHeuristic::PosesField(const std::vector<GroundedStance>& starts) {
     const int layer = LayerUnder(0, {start.pose, start.z});
     if (layer >= 0) asked.push_back({start.pose, layer});
   }
-  const PoseField::Paces paces{kLevelStep / rules_.limits().forward,
-                               2 * kLevelStep / rules_.limits().lateral,
-                               2 * kLevelStep / rules_.limits().turn};
   PoseField::Ground known;
   known.layers = static_cast<int>(rules_.ground().planes().size());
-  known.time = [this](int layer, const Vector2d& p) { return footholds_->Near(layer, p); };
-  known.most = is_relaxed_ ? std::numeric_limits<double>::infinity() : footholds_->LongestStep();
+  known.most = std::numeric_limits<double>::infinity();
+  if (footholds_) {
+    known.time = [this](int layer, const Vector2d& p) { return footholds_->Near(layer, p); };
+    if (!is_relaxed_) known.most = footholds_->LongestStep();
+  }
   return PoseField(
-      world_.environment->bounds, known_.room.cell(), known_.room.first_heading(), places, paces,
+      world_.environment->bounds, known_.room ? known_.room->cell() : kCell, known_.first_heading(),
+      places, PacesOfPoses(),
       [this](int layer, const PlanarPose& pose) { return MayStandAt(layer, pose); }, known, asked);
 }
 
@@ -100,10 +116,10 @@ FootholdField::StepTimes StepHeuristic::TimesOfSteps() const {
 void StepHeuristic::AddStep(int limb, const PlanarPose& displacement, double rise,
                             const FootholdField::StepTimes& steps,
                             std::vector<double>* times) const {
-  const Foothold other;
-  const Foothold place{displacement, rise};
-  const std::optional<double> before = rules_.Squat(limb, place, other);
-  const std::optional<double> after = rules_.Squat(1 - limb, other, place);
+  std::vector<Foothold> feet(2);
+  feet[limb] = {displacement, rise};
+  const std::optional<double> before = rules_.Squat(feet, limb);
+  const std::optional<double> after = rules_.Squat(feet, 1 - limb);
   if (!before || !after) return;
   const Vector2d centre = displacement * Vector2d(rules_.stance().patch_centres[limb].head<2>());
   const double distance = (centre - rules_.stance().patch_centres[1 - limb].head<2>()).norm();
@@ -116,8 +132,12 @@ void StepHeuristic::AddStep(int limb, const PlanarPose& displacement, double ris
 
 bool StepHeuristic::MayStandAt(int layer, const PlanarPose& pose) {
   const models::GroundPlane& plane = world_.ground->planes()[rules_.ground().planes()[layer]];
-  return (is_relaxed_ || known_.room.IsAt(layer, pose)) &&
-         rules_.TrunkIsFree(pose, plane.HeightAt(pose.position()));
+  if (known_.room ? !is_relaxed_ && !known_.room->IsAt(layer, pose)
+                  : !world_.ground->IsNear(rules_.ground().planes()[layer], pose.position(),
+                                           rules_.Extent())) {
+    return false;
+  }
+  return rules_.TrunkIsFree(pose, plane.HeightAt(pose.position()));
 }
 
 }  // namespace possibility::actions

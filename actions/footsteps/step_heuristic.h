@@ -21,7 +21,8 @@ struct StepGoals {
 };
 
 /// Expected time of steps from a place to the goals: the greater one of a field of footholds and a
-/// field of poses.
+/// field of poses. Of gaits on other than two soles: of the field of poses alone, which then knows
+/// only where the trunk is free above some ground.
 class StepHeuristic {
  public:
   /// `starts`: where the search begins. `is_relaxed`: rules out less, for a search that found
@@ -46,6 +47,7 @@ class StepHeuristic {
   FootholdField::StepTimes TimesOfSteps() const;
   void AddStep(int limb, const PlanarPose& displacement, double rise,
                const FootholdField::StepTimes& steps, std::vector<double>* times) const;
+  PoseField::Paces PacesOfPoses() const;
   PoseField PosesField(const std::vector<GroundedStance>& starts);
   bool MayStandAt(int layer, const PlanarPose& pose);
 
@@ -54,7 +56,7 @@ class StepHeuristic {
   const World& world_;
   const StepGoals& goals_;
   bool is_relaxed_;
-  std::optional<FootholdField> footholds_;
+  std::optional<FootholdField> footholds_;  ///< of gaits on two soles
   std::optional<PoseField> poses_;
 };
 

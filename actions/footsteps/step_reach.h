@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,24 +11,27 @@
 
 namespace possibility::actions {
 
-/// How high the root can be while one of two limbs bears alone and the other one reaches a place.
-/// Immutable.
+/// How high the root can be while a limb swings and the others bear. Immutable.
 class StepReach {
  public:
-  /// `stance`: of a gait that FootstepSearch knows; must outlive this.
+  /// `stance`: of a gait whose steps can be searched; must outlive this.
   StepReach(const models::RobotModel& robot, const NominalStance& stance);
 
-  /// m above the ground of the limb that bears at `other`; none if the place is out of reach.
-  std::optional<double> HighestRoot(int limb, const Foothold& place, const Foothold& other) const;
-  /// All through a step.
-  std::optional<double> HighestRoot(const Footstep& step, const Foothold& other) const;
+  /// While the limb is at its place of `feet` but does not bear, m above the ground of the others
+  /// (RestOf). None if a place is out of reach, or several limbs that bear cannot balance the
+  /// robot.
+  std::optional<double> HighestRoot(const std::vector<Foothold>& feet, int limb) const;
 
  private:
   Eigen::Vector2d RootOver(int limb) const;
+  std::optional<double> HighestOverOne(const std::vector<Foothold>& feet, int limb) const;
+  std::optional<double> HighestOverMany(const std::vector<Foothold>& feet, int limb) const;
+  std::optional<double> HighestOver(const PlanarPose& root, int limb, const Foothold& place) const;
 
   const NominalStance& stance_;
   std::vector<std::optional<LimbReach>> reaches_;
-  std::array<Eigen::Vector2d, 2> root_over_;  ///< of the stance: the root over a limb that bears
+  /// Of the stance: the root over a limb that bears alone. Of two limbs.
+  std::vector<Eigen::Vector2d> root_over_;
 };
 
 }  // namespace possibility::actions

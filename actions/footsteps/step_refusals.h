@@ -16,7 +16,7 @@ class StepRefusals {
   };
   explicit StepRefusals(Breadth breadth) : breadth_(breadth) {}
 
-  /// A step as a whole. `other`: where the other limb bears.
+  /// A step as a whole. `other`: where the other limbs bear (RestOf).
   void Add(const Footstep& step, const Foothold& other) { steps_.push_back(Of(step, other)); }
   /// A posture in which one limb is about to leave its place or has just reached it while the other
   /// one bears, whatever the rest of the step.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,8 +13,9 @@
 
 namespace possibility::actions {
 
-/// What single steps of a gait with two limbs may be: the family that a search chooses from, the
-/// tests of a step against ground, obstacles and the robot itself, and its cost.
+/// What single steps of a gait may be: the family that a search chooses from, the tests of a step
+/// against ground, obstacles and the robot itself, and its cost. `feet`: where all limbs are; the
+/// one that swings stands for one of the ends of its swing. `rest`: RestOf them.
 class StepRules {
  public:
   /// A low root needs torque. Steps that need one lower than a little below the nominal posture
@@ -27,36 +27,39 @@ class StepRules {
             const FootstepLimits& limits);
 
   const NominalStance& stance() const { return stance_; }
+  double Extent() const;  ///< m, from the stance's origin to its farthest limb
+  int NumLimbs() const { return static_cast<int>(displacements_.size()); }
   const FootstepLimits& limits() const { return limits_; }
   const FootholdGround& ground() const { return ground_; }
 
-  /// Displacements of a limb's stance in the other's that leave a gap between the patches.
+  /// Displacements of a limb's stance in the others' that leave a gap between the patches.
   const std::vector<PlanarPose>& displacements(int limb) const { return displacements_[limb]; }
-  /// Whether a displacement in the other limb's stance is one of the family.
+  /// Whether a displacement in the others' stance is one of the family.
   bool IsWithin(int limb, const PlanarPose& displacement) const;
-  /// Number of places of the family about the other limb: displacements at headings square to
+  /// Number of places of the family about the other limbs: displacements at headings square to
   /// walls, and displacements.
   int NumPlaces(int limb) const;
-  /// One of these; none if it does not exist about `other`.
-  std::optional<PlanarPose> PlaceAbout(int limb, const PlanarPose& other, int number) const;
+  /// One of these; none if it does not exist about `rest`.
+  std::optional<PlanarPose> PlaceAbout(int limb, const PlanarPose& rest, int number) const;
   struct Place {
     int number = 0;
     PlanarPose stance;
-    double ahead = 0;  ///< m, of the other limb
+    PlanarPose displacement;  ///< of the other limbs
   };
-  /// All that exist about `other`: one sine and cosine for all of them.
-  std::vector<Place> PlacesAbout(int limb, const PlanarPose& other) const;
+  /// All that exist about `rest`: one sine and cosine for all of them.
+  std::vector<Place> PlacesAbout(int limb, const PlanarPose& rest) const;
   /// StepGround
   const std::vector<double>& headings() const { return headings_; }
 
-  /// How much lower than easy the root has to be for a limb to reach a place while the other one
-  /// bears, m; at least 0. None if that is too low.
-  std::optional<double> Squat(int limb, const Foothold& place, const Foothold& other) const;
-  /// Whether a limb's patch keeps off the other one's.
-  bool KeepsOff(int limb, const Foothold& place, const Foothold& other) const;
-  /// Also on its way, seen from above: where it does not, the legs hit each other, however high it
-  /// is lifted.
-  bool PassesOther(int limb, const Foothold& from, const Foothold& to, const Foothold& other) const;
+  /// How much lower than easy the root has to be for a limb to reach its place while the others
+  /// bear, m; at least 0. None if that is too low, or the others cannot balance the robot.
+  std::optional<double> Squat(const std::vector<Foothold>& feet, int limb) const;
+  /// Whether a limb keeps off the others, seen from above: of two soles their patches, of more
+  /// limbs all that is close to the ground.
+  bool KeepsOff(const std::vector<Foothold>& feet, int limb) const;
+  /// Also on its way to its place, seen from above: where it does not, the legs hit each other,
+  /// however high it is lifted.
+  bool PassesOthers(const std::vector<Foothold>& feet, int limb, const Foothold& from) const;
   /// Whether the upper part of the body is free between two places, on ground at z (m).
   bool TrunkIsFree(const PlanarPose& middle, double z) const;
   /// The least lift of a swing without a hit, m; none if there is none.
@@ -64,23 +67,29 @@ class StepRules {
     return ground_.LiftBetween(limb, from, to, limits_.clearance, limits_.lift);
   }
   /// FootstepSearch::StepBetween.
-  std::optional<Footstep> StepBetween(int limb, const Foothold& from, const Foothold& to,
-                                      const Foothold& other) const;
+  std::optional<Footstep> StepBetween(const std::vector<Foothold>& feet, int limb,
+                                      const Foothold& to) const;
 
   /// Cost of a step of `limb`, s. `squat`: m, the greater one before and after it.
-  double Cost(int limb, const Foothold& from, const Foothold& to, const Foothold& other,
+  double Cost(int limb, const Foothold& from, const Foothold& to, const Foothold& rest,
               double squat) const;
-  /// `ahead`: m, of `to`, as the other limb sees it.
-  double Cost(int limb, const Foothold& from, const Foothold& to, double ahead,
-              const Foothold& other, double squat) const;
-  /// What a long stride takes beyond a short one, s. `ahead`: m, of the other limb.
+  /// `displacement`: `to`, as the other limbs see it.
+  double Cost(int limb, const Foothold& from, const Foothold& to, const PlanarPose& displacement,
+              const Foothold& rest, double squat) const;
+  /// What a long stride takes beyond a short one, s. `ahead`: m, of the other limbs.
   double StrideTime(double ahead, bool is_level) const;
 
  private:
   std::vector<PlanarPose> DisplacementsOf(int limb) const;
-  /// Of place `number` about another limb with heading `yaw`; none if there is no such place.
+  /// Of more than two limbs: what a place costs that is aside or turned, s.
+  double UntidinessTime(const PlanarPose& displacement) const;
+  /// Of place `number` about limbs with heading `yaw`; none if there is no such place.
   std::optional<PlanarPose> Displacement(int limb, double yaw, int number) const;
-  /// 1 if the limb is on the left of the other one, else -1.
+  std::vector<Eigen::Vector2d> OutlineAt(int limb, const PlanarPose& at) const;
+  /// m, between a limb's outline at a place and the nearest one of the others; at `feet`, or in the
+  /// nominal stance if that is empty.
+  double GapToOthers(int limb, const PlanarPose& at, const std::vector<Foothold>& feet) const;
+  /// Of two limbs: 1 if the limb is on the left of the other one, else -1. Of more: 0.
   double SideOf(int limb) const;
 
   const NominalStance& stance_;
@@ -91,7 +100,9 @@ class StepRules {
   models::UprightBoxes trunk_;
   StepReach reach_;
   const std::vector<double>& headings_;
-  std::array<std::vector<PlanarPose>, 2> displacements_;
+  /// By limb, in the stance frame: of what must keep off the other limbs.
+  std::vector<std::vector<Eigen::Vector2d>> outlines_;
+  std::vector<std::vector<PlanarPose>> displacements_;  ///< by limb
 };
 
 }  // namespace possibility::actions

@@ -157,10 +157,9 @@ class Pattern {
     for (std::size_t limb = 0; limb < NumLimbs(); ++limb) {
       const auto& bearing = schedule_.intervals[k].bearing[limb];
       if (!bearing) continue;
-      const bool is_level =
-          !stance_.gait->limbs[limb].hold_orientation || IsLevel(bearing->linear());
-      normals.push_back(is_level ? Vector3d(Vector3d::UnitZ())
-                                 : Vector3d(bearing->linear().col(2).normalized()));
+      normals.push_back(IsLevel(bearing->linear())
+                            ? Vector3d(Vector3d::UnitZ())
+                            : Vector3d(bearing->linear().col(2).normalized()));
     }
     return normals;
   }

@@ -68,7 +68,8 @@ double GreatestSpeed(const PlanningMeans& means) {
   for (const auto& manoeuvre : means.manoeuvres) {
     greatest = std::max(greatest, manoeuvre->GreatestSpeed());
   }
-  return means.steps ? std::max(greatest, means.steps->GreatestSpeed()) : greatest;
+  for (const auto& steps : means.steps) greatest = std::max(greatest, steps->GreatestSpeed());
+  return greatest;
 }
 
 double LeastDuration(const PlanningMeans& means, const GroundedStance& start,

@@ -5,6 +5,7 @@
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/conditions/manoeuvre.h"
+#include "actions/footsteps/planned_steps.h"
 #include "common/cancellation_token.h"
 #include "models/world/scenario.h"
 
@@ -15,7 +16,7 @@ struct PlanningMeans {
   const LocomotionModel& model;
   const World& world;
   const std::vector<std::shared_ptr<Manoeuvre>>& manoeuvres;
-  const Manoeuvre* steps = nullptr;  ///< planned steps; null: none
+  const std::vector<std::shared_ptr<PlannedSteps>>& steps;
   const models::PlannerSettings& settings;
 };
 

@@ -151,25 +151,54 @@ std::string RouteSearch::PlanActionOf(int action) const {
                                : all_manoeuvres_[index - gaits_.size()]->plan_action();
 }
 
+int RouteSearch::GaitOnTwoSoles() const {
+  const auto stands = [this](int gait) {
+    return StandsOnTwoSoles(*model_.gaits[gait]->stance.gait);
+  };
+  const int start = model_.GaitIndex(scenario_.start.action);
+  if (start >= 0 && stands(start)) return start;
+  for (int gait = 0; gait < static_cast<int>(model_.gaits.size()); ++gait) {
+    if (stands(gait)) return gait;
+  }
+  return -1;
+}
+
+/// Steps of more limbs are joined with nothing else where two soles may take them: without a proof
+/// that there are none (FootholdFlood) every search for them takes its whole effort.
 void RouteSearch::PrepareSteps(const PlanningContext& context, const std::string& where) {
   all_manoeuvres_ = searched_;
   if (!switches_.footsteps || !switches_.floods) return;
-  const auto knows = [this](int gait) {
-    return gait >= 0 && FootstepSearch::Knows(model_.gaits[gait]->gait);
-  };
-  int gait = model_.GaitIndex(scenario_.start.action);
-  for (int other = 0; !knows(gait) && other < static_cast<int>(model_.gaits.size()); ++other) {
-    gait = other;
+  const int start = model_.GaitIndex(scenario_.start.action);
+  const int on_two_soles = GaitOnTwoSoles();
+  if (start >= 0 && FootstepSearch::Knows(model_.gaits[start]->gait)) {
+    direct_steps_ = AddSteps(context, start, where);
   }
-  if (!knows(gait)) return;
-  steps_ = std::make_shared<PlannedSteps>(context, gait);
-  all_manoeuvres_.push_back(std::make_shared<SearchedManoeuvre>(steps_, where));
+  joined_steps_ = direct_steps_;
+  if (on_two_soles >= 0 && on_two_soles != start) {
+    joined_steps_ = AddSteps(context, on_two_soles, where);
+  }
+}
+
+const PlannedSteps* RouteSearch::AddSteps(const PlanningContext& context, int gait,
+                                          const std::string& where) {
+  steps_.push_back(std::make_shared<PlannedSteps>(context, gait));
+  all_manoeuvres_.push_back(std::make_shared<SearchedManoeuvre>(steps_.back(), where));
+  return steps_.back().get();
+}
+
+int RouteSearch::ActionOf(const PlannedSteps& steps) const {
+  std::size_t action = gaits_.size() + searched_.size();
+  for (const auto& each : steps_) {
+    if (each.get() == &steps) break;
+    ++action;
+  }
+  return static_cast<int>(action);
 }
 
 std::vector<GroundedStance> RouteSearch::GoalsOfSteps() const {
   std::vector<GroundedStance> goals;
   for (const GroundedStance& goal : goals_) {
-    if (goal.gait == steps_->from()) goals.push_back(goal);
+    if (goal.gait == start_.gait) goals.push_back(goal);
   }
   return goals;
 }
@@ -187,10 +216,15 @@ graph::PathResult RouteSearch::Find(std::uint64_t attempt) {
 }
 
 bool RouteSearch::MayAskAgain() {
-  std::vector<graph::Edge> edges;
-  if (!steps_ || deadline_.Passed() || !steps_->AskAgain(&edges)) return false;
-  for (const graph::Edge& edge : edges) all_manoeuvres_.back()->Forget(edge);
-  return true;
+  if (deadline_.Passed()) return false;
+  bool may = false;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    std::vector<graph::Edge> edges;
+    if (!steps_[i]->AskAgain(&edges)) continue;
+    for (const graph::Edge& edge : edges) all_manoeuvres_[searched_.size() + i]->Forget(edge);
+    may = true;
+  }
+  return may;
 }
 
 graph::PathResult RouteSearch::FindOnce(std::uint64_t attempt) {
@@ -249,16 +283,17 @@ graph::PathResult RouteSearch::ExploreSteps(std::uint64_t attempt) {
 
 void RouteSearch::AddStepExplorers(graph::FindPathSettings* settings) {
   steps_gave_up_ = !StepsMayDo();
-  const int action = static_cast<int>(gaits_.size() + all_manoeuvres_.size()) - 1;
   if (StepsMayDo()) {
-    settings->explorers.push_back(FootstepExploration(
-        Space(), *steps_, action, start_, GoalsOfSteps(), &steps_are_called_, &steps_gave_up_));
+    settings->explorers.push_back(
+        FootstepExploration(Space(), *direct_steps_, ActionOf(*direct_steps_), start_,
+                            GoalsOfSteps(), &steps_are_called_, &steps_gave_up_));
   }
-  if (!IsMixed()) return;
+  if (!joined_steps_ || !IsMixed()) return;
+  const int action = ActionOf(*joined_steps_);
   settings->explorers.push_back(
-      StepShortcutExploration(Space(), *steps_, action, &steps_are_called_));
-  settings->explorers.push_back(IslandExploration({&model_, &gaits_, &searched_}, *steps_, action,
-                                                  start_, goals_, &steps_are_called_,
+      StepShortcutExploration(Space(), *joined_steps_, action, &steps_are_called_));
+  settings->explorers.push_back(IslandExploration({&model_, &gaits_, &searched_}, *joined_steps_,
+                                                  action, start_, goals_, &steps_are_called_,
                                                   &steps_gave_up_));
 }
 
@@ -289,7 +324,8 @@ graph::PathResult RouteSearch::Explore(std::uint64_t attempt) {
     AddStepExplorers(&settings);
     settings.explorers.insert(settings.explorers.end(), first_random, others.end());
     actions = Actions();
-    settings.skip_growth[actions.back()->name()] = 1;  // random exploration knows no steps
+    // Random exploration knows no steps.
+    for (const auto& steps : steps_) settings.skip_growth[steps->name()] = 1;
   }
   return graph::FindPath(PointOf(start_), GoalPoints(), actions, *space_, settings);
 }

@@ -52,7 +52,7 @@ class RouteSearch {
   const std::vector<std::shared_ptr<SearchedManoeuvre>>& all_manoeuvres() const {
     return all_manoeuvres_;
   }
-  const PlannedSteps* steps() const { return steps_.get(); }  ///< null: none can be planned
+  const std::vector<std::shared_ptr<PlannedSteps>>& steps() const { return steps_; }
   FloodOracle& floods() { return floods_; }
   const GroundedStance& start() const { return start_; }
   const std::vector<GroundedStance>& goals() const { return goals_; }
@@ -71,12 +71,17 @@ class RouteSearch {
   /// Gaits of the request are functions, which cannot be compared with those of another request.
   std::shared_ptr<const LocomotionModel> MakeModel() const;
   void PrepareManoeuvres();
-  /// Steps of the start's gait, or of the first gait whose steps can be planned.
+  /// Of the start's gait, and of a gait on two soles, if there are such gaits in use.
   void PrepareSteps(const PlanningContext& context, const std::string& where);
+  const PlannedSteps* AddSteps(const PlanningContext& context, int gait, const std::string& where);
+  /// The start's gait, if it stands on two soles, or the first one that does; -1: none.
+  int GaitOnTwoSoles() const;
+  /// Stances of the start's gait.
   std::vector<GroundedStance> GoalsOfSteps() const;
   /// Whether steps alone may lead from the start to a goal.
-  bool StepsMayDo() const { return start_.gait == steps_->from() && !GoalsOfSteps().empty(); }
-  bool StepsMayHelp() const { return steps_ && (StepsMayDo() || IsMixed()); }
+  bool StepsMayDo() const { return direct_steps_ && !GoalsOfSteps().empty(); }
+  bool StepsMayHelp() const { return StepsMayDo() || (joined_steps_ && IsMixed()); }
+  int ActionOf(const PlannedSteps& steps) const;
   /// Whether there is anything else that steps can be joined with.
   bool IsMixed() const { return gaits_.size() > 1 || !searched_.empty(); }
   graph::RouteOracleAnswer AskFloods();
@@ -110,8 +115,10 @@ class RouteSearch {
   std::shared_ptr<PelvisPoseSpace> space_;
   std::vector<std::shared_ptr<QuasiStaticAction>> gaits_;  ///< by gait
   std::vector<std::shared_ptr<Manoeuvre>> manoeuvres_;
-  std::vector<std::shared_ptr<SearchedManoeuvre>> searched_;        ///< the same, with verdicts
-  std::shared_ptr<PlannedSteps> steps_;                             ///< null: none can be planned
+  std::vector<std::shared_ptr<SearchedManoeuvre>> searched_;  ///< the same, with verdicts
+  std::vector<std::shared_ptr<PlannedSteps>> steps_;
+  const PlannedSteps* direct_steps_ = nullptr;  ///< of the start's gait; null: cannot be planned
+  const PlannedSteps* joined_steps_ = nullptr;  ///< joined with other actions; null: none
   std::vector<std::shared_ptr<SearchedManoeuvre>> all_manoeuvres_;  ///< searched, then steps
   bool ends_at_oracle_ = false;    ///< the search under way ends where the floods find no route
   bool needs_steps_ = false;       ///< the floods found no route

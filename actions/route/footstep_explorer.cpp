@@ -1,6 +1,5 @@
 #include "actions/route/footstep_explorer.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -136,10 +135,10 @@ std::vector<graph::PathEdge> FootstepExplorer::Route() const {
 
 std::vector<Footstep> FootstepExplorer::StepsBetween(const Halt& from, const Halt& to) const {
   std::vector<Footstep> steps;
-  std::array<Foothold, 2> feet;
-  feet.fill({from.stance.pose, from.stance.z});
+  const auto limbs = static_cast<int>(space_.model->gaits[start_.gait]->stance.gait->limbs.size());
+  std::vector<Foothold> feet(limbs, Foothold{from.stance.pose, from.stance.z});
   const auto step_to = [&](int limb, const Foothold& place) {
-    const auto step = search_->StepBetween(limb, feet[limb], place, feet[1 - limb]);
+    const auto step = search_->StepBetween(feet, limb, place);
     if (step) steps.push_back(*step);
     feet[limb] = place;
     return step.has_value();
@@ -148,10 +147,13 @@ std::vector<Footstep> FootstepExplorer::StepsBetween(const Halt& from, const Hal
   for (int i = from.step + 1; i <= to.step; ++i) {
     if (!step_to(all[i].limb, all[i].to)) return {};
   }
-  const int behind = 1 - all[to.step].limb;
-  const PlanarPose left = feet[behind].stance.Inverse() * to.stance.pose;
-  const bool has_arrived = left.position().norm() < kArrived && std::abs(left.yaw) < kArrived;
-  if (!has_arrived && !step_to(behind, {to.stance.pose, to.stance.z})) return {};
+  // In turn, the last one last.
+  for (int i = 1; i <= limbs; ++i) {
+    const int behind = (all[to.step].limb + i) % limbs;
+    const PlanarPose left = feet[behind].stance.Inverse() * to.stance.pose;
+    const bool has_arrived = left.position().norm() < kArrived && std::abs(left.yaw) < kArrived;
+    if (!has_arrived && !step_to(behind, {to.stance.pose, to.stance.z})) return {};
+  }
   return steps;
 }
 

@@ -212,13 +212,15 @@ void IslandExplorer::KeepNearer(const std::vector<GroundedStance>& reached) {
 void IslandExplorer::DropUnreachable(const std::vector<GroundedStance>& starts,
                                      const CancellationToken& cancellation) {
   const World& world = gait().world();
-  if (beyond_.empty() || world.environment->bounds.isEmpty()) return;
+  const NominalStance& stance = lattice_.model->gaits[steps_.from()]->stance;
+  if (beyond_.empty() || world.environment->bounds.isEmpty() || !StandsOnTwoSoles(*stance.gait)) {
+    return;
+  }
   if (flood_) {
     flood_->Restart(starts, cancellation);
   } else {
-    flood_.emplace(lattice_.model->gaits[steps_.from()]->stance, world,
-                   GentlePlanes(*lattice_.model->robot, *world.ground), steps_.limits(), starts,
-                   cancellation);
+    flood_.emplace(stance, world, GentlePlanes(*lattice_.model->robot, *world.ground),
+                   steps_.limits(), starts, cancellation);
   }
   std::erase_if(beyond_, [&](const GroundedStance& stance) { return !flood_->Reaches(stance); });
 }

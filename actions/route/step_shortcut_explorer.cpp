@@ -54,7 +54,7 @@ std::vector<graph::PathEdge> StepShortcutExplorer::Continue(const CancellationTo
       status == FootstepSearch::Status::kFound ? search_->steps() : std::vector<Footstep>();
   search_.reset();
   const bool is_quicker =
-      !steps.empty() && FootstepMotion::ExpectedDuration(steps) < stretch.duration;
+      !steps.empty() && steps_.ExpectedDuration(steps) < stretch.duration;
 
   if (!is_quicker) return {};
   steps_.Suggest(stretch.edge, steps, stretch.duration);

@@ -118,13 +118,14 @@ class Builder {
   /// Away from the rests, which are as they are.
   void KeepBent(const RobotPhase& robot) {
     for (const LimbBend& bend : bends_) {
-      const auto origin = [](int link) {
-        return dynamics::ContactPoint{link + kNumBaseJoints, Eigen::Vector3d::Zero()};
+      const auto point = [](int link, const Eigen::Vector3d& at) {
+        return dynamics::ContactPoint{link + kNumBaseJoints, at};
       };
       const double most = settings_.reach * bend.length;
       robot.phase->ConstrainKnots(
           "reach of " + bend.name,
-          SquaredDistance(stated_.model, origin(bend.before), origin(bend.after)),
+          SquaredDistance(stated_.model, point(bend.before, Eigen::Vector3d::Zero()),
+                          point(bend.after, bend.end)),
           robot.Positions(), {{-kInfinity, most * most}}, At::kInside);
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -14,11 +15,14 @@ struct LimbBend {
   std::size_t joint = 0;  ///< index into GaitLimb::joints
   int before = -1;        ///< link that begins at the last joint before it that swings the upper
                           ///< part and does not only twist it; its origin is that joint
-  int after = -1;         ///< link that begins at the joint after it
-  double length = 0;      ///< m, from one to the other if stretched
+  int after = -1;         ///< link that begins at the joint after it; the bend's own if there is none
+  /// Where the lower part ends, in that link: its origin, or the centre of the limb's contact.
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();
+  double length = 0;  ///< m, from one to the other if stretched
 };
 
-/// None if the limb has no joint between two parts.
+/// None if the limb has no joint between two parts. A limb that ends in a contact without joints of
+/// its own, such as a peg or a point foot, may bend in its last joint.
 std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::GaitLimb& limb);
 
 }  // namespace possibility::actions

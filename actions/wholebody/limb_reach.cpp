@@ -1,6 +1,8 @@
 #include "actions/wholebody/limb_reach.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "actions/wholebody/limb_bend.h"
 #include "dynamics/tree/tree_kinematics.h"
@@ -9,6 +11,49 @@ namespace possibility::actions {
 
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
+
+namespace {
+
+/// Of the bend's range, rad: the rest of the limb is not as in the nominal posture.
+constexpr double kFromLimit = 0.03;
+
+/// Greatest distance between the ends of both parts while the bend turns in a range, as a share of
+/// that without limits. The square of the distance is mean + amplitude cos(angle - straight).
+double ShareWithin(const models::RobotModel& robot, const models::GaitLimb& limb,
+                   const LimbBend& bend, double lower, double upper) {
+  dynamics::TreeKinematics kinematics(robot);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(robot.nq());
+  q[0] = 1;
+  const auto squared = [&](double angle) {
+    q[7 + limb.joints[bend.joint]] = angle;
+    kinematics.SetPosition(q);
+    return (kinematics.Position(bend.after, bend.end) -
+            kinematics.X_WL()[bend.before].translation())
+        .squaredNorm();
+  };
+  const double at_zero = squared(0), at_half_turn = squared(std::numbers::pi);
+  const double mean = (at_zero + at_half_turn) / 2;
+  const double cosine = at_zero - mean;
+  const double sine = squared(std::numbers::pi / 2) - mean;
+  const double amplitude = std::hypot(cosine, sine);
+  const double straight = std::atan2(sine, cosine);
+  const auto off = [&](double angle) { return std::abs(WrapAngle(angle - straight)); };
+  if (std::abs(WrapAngle(straight - (lower + upper) / 2)) <= (upper - lower) / 2) return 1;
+  const double least = std::min(off(lower), off(upper));
+  return std::sqrt((mean + amplitude * std::cos(least)) / (mean + amplitude));
+}
+
+/// m, of the limb if the bend is as straight as its range allows.
+double UsableLength(const models::RobotModel& robot, const models::GaitLimb& limb,
+                    const LimbBend& bend, double stretch) {
+  const models::Joint& joint = robot.joints[limb.joints[bend.joint]];
+  if (joint.type != models::JointType::kRevolute) return stretch * bend.length;
+  const double share =
+      ShareWithin(robot, limb, bend, joint.lower + kFromLimit, joint.upper - kFromLimit);
+  return stretch * share * bend.length;
+}
+
+}  // namespace
 
 std::optional<double> LimbReach::HighestRoot(const PlanarPose& root, const Vector3d& centre,
                                              const Eigen::Matrix3d& turned) const {
@@ -32,7 +77,8 @@ std::vector<std::optional<LimbReach>> ReachesOf(const models::RobotModel& robot,
     if (!bend) continue;
     reaches.back() =
         LimbReach{origin(bend->before) - origin(0),
-                  origin(bend->after) - stance.patch_centres[limb], stretch * bend->length};
+                  kinematics.Position(bend->after, bend->end) - stance.patch_centres[limb],
+                  UsableLength(robot, stance.gait->limbs[limb], *bend, stretch)};
   }
   return reaches;
 }

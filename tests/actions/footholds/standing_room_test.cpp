@@ -30,11 +30,11 @@ class StandingRoomTest : public ::testing::Test {
 TEST_F(StandingRoomTest, OnANarrowBridgeOneStandsAskew) {
   UnevenWorld bridge, floor;
   const StepGround narrow = GroundOf(bridge.Ground(-3, 4, 0, 0.3).Built());
-  EXPECT_FALSE(narrow.room.IsAt(0, {0, 0, 0}));
-  EXPECT_FALSE(narrow.room.IsAt(0, {0, 0, std::numbers::pi}));
-  EXPECT_TRUE(narrow.room.IsAt(0, {0, 0, std::numbers::pi / 4}));
+  EXPECT_FALSE(narrow.room->IsAt(0, {0, 0, 0}));
+  EXPECT_FALSE(narrow.room->IsAt(0, {0, 0, std::numbers::pi}));
+  EXPECT_TRUE(narrow.room->IsAt(0, {0, 0, std::numbers::pi / 4}));
   const StepGround broad = GroundOf(floor.Ground(-3, 4, 0).Built());
-  EXPECT_TRUE(broad.room.IsAt(0, {0, 0, 0}));
+  EXPECT_TRUE(broad.room->IsAt(0, {0, 0, 0}));
 }
 
 /// Two planks, each with room for one foot, at two heights.
@@ -46,8 +46,8 @@ TEST_F(StandingRoomTest, EachFootMayHaveALevelOfItsOwn) {
     world.Add({3, 0.3, 0.5}, {0, -side - 0.07, -drop - 0.25}, true);
     const StepGround ground = GroundOf(world.Built());
     const bool reaches = drop <= limits_.rise;
-    EXPECT_EQ(ground.room.IsAt(0, {0, 0, 0}), reaches) << drop;
-    EXPECT_EQ(ground.room.IsAt(1, {0, 0, 0}), reaches) << drop;
+    EXPECT_EQ(ground.room->IsAt(0, {0, 0, 0}), reaches) << drop;
+    EXPECT_EQ(ground.room->IsAt(1, {0, 0, 0}), reaches) << drop;
   }
 }
 
@@ -75,8 +75,8 @@ TEST_F(StandingRoomTest, NominalStancesOnRandomTerrainHaveRoom) {
           });
       if (fits) {
         ++stands;
-        EXPECT_TRUE(ground.room.IsAt(layer, middle)) << seed << ": " << middle.x << " " << middle.y;
-      } else if (!ground.room.IsAt(layer, middle)) {
+        EXPECT_TRUE(ground.room->IsAt(layer, middle)) << seed << ": " << middle.x << " " << middle.y;
+      } else if (!ground.room->IsAt(layer, middle)) {
         ++none;
       }
     }
@@ -97,7 +97,7 @@ TEST_F(StandingRoomTest, ThreadsThatShareItFindTheSame) {
                               std::uniform_real_distribution(-0.8, 0.8)(random),
                               std::uniform_real_distribution(-3.0, 3.0)(random)};
       answers->push_back(
-          ground.room.IsAt(static_cast<int>(random() % ground.cells.NumPlanes()), middle));
+          ground.room->IsAt(static_cast<int>(random() % ground.cells->NumPlanes()), middle));
     }
   };
   std::vector<std::thread> threads;

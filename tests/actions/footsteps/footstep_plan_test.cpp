@@ -151,10 +151,9 @@ TEST_F(FootstepPlanTest, AStepBetweenPlacesKeepsToReachAndObstacles) {
   world.Ground(-3, 4, 0).Box({0.06, 3, 0.1}, {0.3, 0, 0.05}).Box({0.06, 3, 0.6}, {2.3, 0, 0.3});
   ASSERT_EQ(Search(&world, UnevenWorld::StanceAt(-0.5), UnevenWorld::StanceAt(1)),
             FootstepSearch::Status::kFound);
-  std::array<Foothold, 2> feet;
-  feet.fill({UnevenWorld::StanceAt(-0.5).pose, 0});
+  std::vector<Foothold> feet(2, Foothold{UnevenWorld::StanceAt(-0.5).pose, 0});
   for (const Footstep& step : search_->steps()) {
-    const auto again = search_->StepBetween(step.limb, step.from, step.to, feet[1 - step.limb]);
+    const auto again = search_->StepBetween(feet, step.limb, step.to);
     ASSERT_TRUE(again);
     EXPECT_EQ(again->lift, step.lift);
     feet[step.limb] = step.to;
@@ -162,11 +161,11 @@ TEST_F(FootstepPlanTest, AStepBetweenPlacesKeepsToReachAndObstacles) {
   const auto at = [](double x, double y = 0) {
     return Foothold{UnevenWorld::StanceAt(x, 0, y).pose, 0};
   };
-  EXPECT_TRUE(search_->StepBetween(0, at(1), at(1.2), at(1)));
-  EXPECT_FALSE(search_->StepBetween(0, at(1), at(2), at(1))) << "out of reach";
-  EXPECT_FALSE(search_->StepBetween(0, at(2), at(2.6), at(2.2))) << "over the wall";
+  EXPECT_TRUE(search_->StepBetween({at(1), at(1)}, 0, at(1.2)));
+  EXPECT_FALSE(search_->StepBetween({at(1), at(1)}, 0, at(2))) << "out of reach";
+  EXPECT_FALSE(search_->StepBetween({at(2), at(2.2)}, 0, at(2.6))) << "over the wall";
   const double aside = 2 * (stance_.patch_centres[1].y() - stance_.patch_centres[0].y());
-  EXPECT_FALSE(search_->StepBetween(0, at(1), at(1, aside), at(1))) << "through the other foot";
+  EXPECT_FALSE(search_->StepBetween({at(1), at(1)}, 0, at(1, aside))) << "through the other foot";
 }
 
 class StripsTest : public FootstepPlanTest {

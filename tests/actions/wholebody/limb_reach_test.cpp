@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "actions/wholebody/limb_bend.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "tests/actions/drchubo1.h"
@@ -55,6 +58,38 @@ TEST(LimbReachTest, AThighBeginsAboveItsTwist) {
     EXPECT_NEAR(
         (origin(knee) - origin(bend->before)).norm() + (origin(bend->after) - origin(knee)).norm(),
         bend->length, 1e-6);
+  }
+}
+
+/// A shank that ends in a point foot: the bend is the limb's last joint, and its range does not let
+/// the leg be straight.
+TEST(LimbReachTest, ALegOnAPointFootIsAsLongAsItsKneeLets) {
+  const models::RobotModel& robot = RobotNamed("a1").robot();
+  const NominalStance stance = SolveNominalStance(robot, robot.GaitNamed("walk"));
+  const auto reaches = ReachesOf(robot, stance, 1);
+  dynamics::TreeKinematics kinematics(robot);
+  std::mt19937 generator(3);
+  for (std::size_t limb = 0; limb < reaches.size(); ++limb) {
+    const models::GaitLimb& leg = stance.gait->limbs[limb];
+    const std::optional<LimbBend> bend = BendOf(robot, leg);
+    ASSERT_TRUE(bend);
+    ASSERT_TRUE(reaches[limb]);
+    EXPECT_EQ(bend->joint, 2U);
+    const models::ContactPatch& foot = robot.contacts[leg.contact];
+    double farthest = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+      Eigen::VectorXd q = stance.q;
+      for (const int joint : leg.joints) {
+        std::uniform_real_distribution<double> range(robot.joints[joint].lower,
+                                                     robot.joints[joint].upper);
+        q[7 + joint] = range(generator);
+      }
+      kinematics.SetPosition(q);
+      const Eigen::Vector3d hip = kinematics.X_WL()[bend->before].translation();
+      farthest = std::max(farthest, (kinematics.Position(foot.link, foot.Centre()) - hip).norm());
+    }
+    EXPECT_NEAR(reaches[limb]->length, farthest, 0.01);
+    EXPECT_LT(reaches[limb]->length, 0.92 * bend->length);
   }
 }
 
