@@ -117,13 +117,17 @@ std::string UnitTable(const models::RobotModel& robot) {
 
 std::string GainTable(const models::RobotModel& robot) {
   const JointGains gains = GainsOf(robot);
-  std::string rows = "joint,stiffness,damping,effort,speed,stiffness_unit,damping_unit\n";
+  std::string rows =
+      "joint,stiffness,damping,effort,speed,stiffness_unit,damping_unit,stall_torque,"
+      "no_load_speed\n";
   for (int j = 0; j < robot.num_joints(); ++j) {
     const models::Joint& joint = robot.joints[j];
     const bool slides = joint.type == models::JointType::kPrismatic;
-    rows += fmt::format("{},{},{},{},{},{},{}\n", CsvField(joint.name), gains.stiffness[j],
+    const auto& line = joint.actuator.line;
+    rows += fmt::format("{},{},{},{},{},{},{},{}\n", CsvField(joint.name), gains.stiffness[j],
                         gains.damping[j], joint.effort, joint.velocity, slides ? "N/m" : "N m/rad",
-                        slides ? "N s/m" : "N m s/rad");
+                        slides ? "N s/m" : "N m s/rad",
+                        line ? fmt::format("{},{}", line->stall_torque, line->no_load_speed) : ",");
   }
   return rows;
 }

@@ -78,6 +78,13 @@ Json RangeJson(const models::Joint& joint) {
   return joint.lower < joint.upper ? Json{Rounded(joint.lower), Rounded(joint.upper)} : Json();
 }
 
+/// Null: the joint's limit holds at every speed.
+Json LineJson(const models::Actuator& actuator) {
+  if (!actuator.line) return {};
+  return {{"stall_torque", Rounded(actuator.line->stall_torque)},
+          {"no_load_speed", Rounded(actuator.line->no_load_speed)}};
+}
+
 Json JointsJson(const models::RobotModel& robot) {
   Json joints = Json::array();
   for (const models::Joint& joint : robot.joints) {
@@ -88,7 +95,8 @@ Json JointsJson(const models::RobotModel& robot) {
                       {"axis", {joint.axis.x(), joint.axis.y(), joint.axis.z()}},
                       {"range", RangeJson(joint)},
                       {"speed", LimitJson(joint.velocity)},
-                      {"effort", LimitJson(joint.effort)}});
+                      {"effort", LimitJson(joint.effort)},
+                      {"line", LineJson(joint.actuator)}});
   }
   return joints;
 }

@@ -82,7 +82,8 @@ class CurvePlot {
 
   /* content: {phases, curves, limits, marks, range, include (at least, if there is no range),
      most (that an axis without range shows), bandColour}. A curve is {label, colour, dashed,
-     faint, value(phase, k), text(value)}; limits are {y, text, colour}, marks
+     faint, value(phase, k), text(value), reading(phase, k)}; what is read out is the text of the
+     reading, or of the value if there is none. limits are {y, text, colour}, marks
      {t, text, colour}. */
   show(content, begin, end) {
     Object.assign(this, content, {begin, end});
@@ -278,7 +279,8 @@ class CurvePlot {
     this.cursor.hidden = t < this.begin || t > this.end;
     this.cursor.style.left = this.x(t) + 'px';
     for (const {curve, value} of this.labels) {
-      const before = curve.value(phase, k), after = curve.value(phase, k + 1);
+      const read = curve.reading || curve.value;
+      const before = read(phase, k), after = read(phase, k + 1);
       const text = before === null || after === null
           ? '–' : curve.text(before + fraction * (after - before));
       if (value.textContent !== text) value.textContent = text;

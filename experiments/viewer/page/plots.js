@@ -6,12 +6,13 @@ const kCurveColours = ['#2667c9', '#d1495b', '#1b998b', '#e6a117', '#6a4c93'];
 const kFaint = 'rgba(110, 122, 138, 0.45)';
 const kLeastNormal = 1;  // N: friction of what bears less means nothing
 const kMostGroups = 4;   // joints, or pairs of them, that are named
+const kMostShare = 1000; // per cent that a plot shows of a motor that can do nothing
 
 /* Name, title, unit and source of every plot. */
 const kPlots = [
   ['positions', 'Joint positions', '% of range', 'q of the plan in the ranges of the robot'],
   ['speeds', 'Joint speeds', '% of limit (rad/s)', 'v of the plan over the limits of the robot'],
-  ['torques', 'Joint torques', '% of limit (N m)', 'tau of the plan over the limits of the robot'],
+  ['torques', 'Joint torques', '% of limit (N m)', 'tau of the plan over the limits of the robot, at the joint\'s speed if its motor has a line'],
   ['forces', 'Normal forces', '% of weight (N)', 'Forces of the plan, vertical, summed by patch'],
   ['friction', 'Friction used', '% of cone',
    'Forces of the plan: horizontal over vertical part and the friction of the robot, worst point'],
@@ -29,6 +30,20 @@ const kPlots = [
   ['angular', 'Angular momentum about c.o.m.', 'N m s',
    'From q and v of the plan and the masses and inertias of the links'],
 ];
+
+/* Per cent of what the motor can do at this rate: against the motion its full limit, and along with
+   it what its torque-speed line leaves. */
+function shareOfTorque(joint, torque, rate) {
+  let limit = joint.effort || Infinity;
+  if (joint.line) {
+    const forward = torque < 0 ? -rate : rate;
+    const driving = joint.line.stall_torque * (1 - forward / joint.line.no_load_speed);
+    limit = Math.min(Math.max(driving, 0), limit);
+  }
+  if (torque === 0) return 0;
+  const share = 100 * torque / limit;
+  return Math.min(Math.max(share, -kMostShare), kMostShare);
+}
 
 /* "L/RKP" for LKP and RKP. */
 function pairName(a, b) {
@@ -121,9 +136,15 @@ class PlotsPanel {
       text: (share) =>
           fixed(share / 100 * joint.speed, 1) + (joint.prismatic ? ' m/s' : ''),
     });
-    this.showShares('torques', (joint, i) => joint.effort && {
-      share: (phase, k) => 100 * this.motion.at(phase, columns.torques + i, k) / joint.effort,
-      text: (share) => fixed(share / 100 * joint.effort, 0) + (joint.prismatic ? ' N' : ''),
+    this.showShares('torques', (joint, i) => {
+      if (!joint.effort && !joint.line) return null;
+      const torque = (phase, k) => this.motion.at(phase, columns.torques + i, k);
+      const rate = (phase, k) => this.motion.at(phase, columns.rates + i, k);
+      return {
+        share: (phase, k) => shareOfTorque(joint, torque(phase, k), rate(phase, k)),
+        reading: torque,
+        text: (value) => fixed(value, 0) + (joint.prismatic ? ' N' : ''),
+      };
     });
   }
 
@@ -144,6 +165,7 @@ class PlotsPanel {
         dashed: named && side > 0,
         faint: !named,
         value: shares[joint].share,
+        reading: shares[joint].reading,
         text: shares[joint].text,
       });
     }));

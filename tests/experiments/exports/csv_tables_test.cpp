@@ -172,6 +172,13 @@ TEST_F(CsvTables, GainsAreThoseOfRollouts) {
   EXPECT_DOUBLE_EQ(std::stod(rows[1][2]), 50 / gains.full_effort_error * gains.damping_time);
 }
 
+TEST_F(CsvTables, GainsHaveTheLineOfAMotorThatHasOne) {
+  models::RobotModel robot = robot_;
+  EXPECT_TRUE(GainTable(robot).ends_with("m s/rad,,\n")) << GainTable(robot);
+  robot.joints[0].actuator.line = models::TorqueSpeedLine{120.5, 8};
+  EXPECT_TRUE(GainTable(robot).ends_with("m s/rad,120.5,8\n")) << GainTable(robot);
+}
+
 TEST_F(CsvTables, MarginsWithoutAMeasurementAreEmpty) {
   actions::PlanMargins margins;
   margins.torque = {0.5, 1, 2.0};

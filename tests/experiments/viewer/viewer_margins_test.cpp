@@ -1,12 +1,15 @@
 #include "experiments/viewer/viewer_margins.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "actions/verify/plan_margins.h"
+#include "experiments/recording/headless_browser.h"
 #include "experiments/viewer/viewer_page.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/hop_plan.h"
@@ -78,6 +81,31 @@ TEST(FrameMarginsTest, NoPeakIsLostBetweenTheKnotsOfThePage) {
   EXPECT_LT(motion.margins.size(), 110u * kCount);
   EXPECT_NEAR(WorstOfPage(motion)[6], 0.95, 1e-4);
   EXPECT_NEAR(WorstOfPage(motion)[4], 0.95, 1e-4);
+}
+
+/// The plot of torques and the margin of torque agree on what a motor can do at a speed.
+TEST(FrameMarginsTest, ThePlotOfTorquesKnowsTheLinesOfMotors) {
+  if (!FindProgram({"chromium", "chromium-browser", "google-chrome"})) {
+    GTEST_SKIP() << "chromium is not installed";
+  }
+  models::RobotModel robot = testing::SampleRobot();
+  models::Joint& joint = robot.joints[0];
+  joint.effort = 20;
+  joint.actuator.line = models::TorqueSpeedLine{30, 4};
+  HeadlessBrowser browser({600, 400});
+  const std::string page = ViewerPage(testing::SamplePlan(robot, 4, 9), robot, Yard());
+  const std::string embedded = testing::EmbeddedData(page)["joints"][0].dump();
+  browser.Open(page, "#t=1&plots=1");
+  if (browser.Evaluate("page === null") == true) GTEST_SKIP() << "chromium has no WebGL here";
+  for (const double torque : {-15.0, 15.0}) {
+    for (const double rate : {-5.0, -3.0, -0.5, 0.0, 0.5, 3.0}) {
+      const double limit = joint.actuator.Limit(joint.effort, torque, rate);
+      const double shown =
+          browser.Evaluate(fmt::format("shareOfTorque({}, {}, {})", embedded, torque, rate));
+      const double share = limit > 0 ? torque / limit : std::copysign(10, torque);
+      EXPECT_NEAR(shown, 100 * std::clamp(share, -10.0, 10.0), 1e-6) << torque << " at " << rate;
+    }
+  }
 }
 
 TEST(FrameMarginsTest, FlightHasNoneOfTheGround) {
