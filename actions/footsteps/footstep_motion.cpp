@@ -303,7 +303,8 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
 /// At the origin, and carried back: far from it, rounding exceeds the tolerance of inverse
 /// kinematics.
 std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vector<Footstep>& steps,
-                                         const CancellationToken& cancellation, int* style) const {
+                                         const CancellationToken& cancellation, int* style,
+                                         double most_torque) const {
   int first = style ? *style : 0;
   const Eigen::Vector3d origin(start.stance.x, start.stance.y, start.z);
   const auto moved = [&origin](Foothold place) {
@@ -318,7 +319,7 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
     step.from = moved(step.from);
     step.to = moved(step.to);
   }
-  std::vector<Phase> motion = BuildAtOrigin(moved(start), near, cancellation, &first);
+  std::vector<Phase> motion = BuildAtOrigin(moved(start), near, most_torque, cancellation, &first);
   if (style) *style = first;
   for (Phase& phase : motion) {
     for (Knot& knot : phase.knots) knot.q.segment<3>(4) += origin;
@@ -347,9 +348,15 @@ std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
 
 std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  const std::vector<Footstep>& steps,
+                                                 double most_torque,
                                                  const CancellationToken& cancellation,
                                                  int* first) const {
-  const std::vector<Style> styles = Styles();
+  std::vector<Style> styles = Styles();
+  for (Style& style : styles) {
+    if (style.torque_margin <= most_torque) continue;
+    style.torque_margin = most_torque;
+    style.is_patient = false;
+  }
   FootstepError fault("no steps", -1);
   bool sways = false;  // in the style of that fault
   for (int i = *first; i < static_cast<int>(styles.size()); ++i) {

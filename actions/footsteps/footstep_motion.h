@@ -47,8 +47,10 @@ class FootstepMotion {
   /// @throws FootstepError naming the limit that the robot would exceed; Cancelled.
   /// `style`: number of the first style to try, 0 at first; becomes that of the result. So steps
   /// of which only lifts have changed need not fail in the others again. May be null.
+  /// `most_torque`: share of the joints' torques that is never exceeded, whatever the style.
   std::vector<Phase> Build(const Foothold& start, const std::vector<Footstep>& steps,
-                           const CancellationToken& cancellation = {}, int* style = nullptr) const;
+                           const CancellationToken& cancellation = {}, int* style = nullptr,
+                           double most_torque = 1) const;
 
   /// Of the motion, if no step has to be slower, s.
   double ExpectedDuration(const std::vector<Footstep>& steps) const;
@@ -82,7 +84,8 @@ class FootstepMotion {
   };
 
   std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,
-                                   const CancellationToken& cancellation, int* first) const;
+                                   double most_torque, const CancellationToken& cancellation,
+                                   int* first) const;
   std::vector<Style> Styles() const;
   /// Whether a slower motion may keep a limit that one in this style exceeds.
   static bool SpeedMatters(const Style& style, MotionError::Limit limit);

@@ -113,11 +113,15 @@ class PlannedSteps final : public Manoeuvre {
   std::optional<double> DurationOfOutcome(const EdgeKey& key) const;
   Suggestion SuggestedFor(const EdgeKey& key) const;
   /// Begins with the suggested steps.
-  Outcome Plan(const GroundedStance& from, const GroundedStance& to, Suggestion suggestion,
+  Outcome Plan(const GroundedStance& from, const GroundedStance& to, const Suggestion& suggestion,
                const CancellationToken& cancellation) const;
+  /// With at most this share of the torques. `suggestion`: without steps it gets the first ones.
+  Outcome PlanWithin(double most_torque, Effort effort, const GroundedStance& from,
+                     const GroundedStance& to, Suggestion* suggestion,
+                     const CancellationToken& cancellation) const;
   /// Raises swings that hit something. @throws FootstepError, Cancelled.
   std::vector<Phase> FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
-                                const CancellationToken& cancellation) const;
+                                double most_torque, const CancellationToken& cancellation) const;
   const NominalStance& stance() const { return model().gaits[from()]->stance; }
 
   /// Empty if none are found with at most so many states. `effort`: less what it takes.

@@ -10,6 +10,7 @@
 #include "collocation/robot/multibody_functions.h"
 #include "collocation/robot/point_functions.h"
 #include "models/input/file_contents.h"
+#include "models/robot/rotors.h"
 
 namespace possibility::actions {
 namespace {
@@ -37,24 +38,27 @@ JumpSettings JumpSettings::For(const models::RobotModel& robot, const NominalSta
                                const NominalStance& landing) {
   // With 90 %, motors a tenth weaker and a body 5 % heavier let jumps fall.
   constexpr double kTorqueFraction = 0.85;
+  // On ground that rises along the jump it lands early, and needs torque to stop tilting back.
+  constexpr double kSettlingTorque = 0.75;
   constexpr double kTimeWeight = 0.05;  // 1/s; from 0.2 on the whole robot cannot follow
   JumpSettings settings;
-  const bool has_rotors =
-      std::any_of(robot.joints.begin(), robot.joints.end(),
-                  [](const models::Joint& joint) { return joint.actuator.armature > 0; });
-  if (has_rotors) settings.limits.torque_fraction = kTorqueFraction;
+  if (models::HasRotors(robot)) {
+    settings.limits.torque_fraction = kTorqueFraction;
+    settings.settling_torque = kSettlingTorque;
+  }
   if (landing.gait->limbs.size() == launch.gait->limbs.size()) settings.time_weight = kTimeWeight;
   return settings;
 }
 
 std::string JumpIdentity(const models::RobotModel& robot, const JumpSettings& settings,
                          const std::string& from, const std::string& to) {
-  return models::HashOfParts(
-      {from, to,
-       MotionIdentity(robot, settings,
-                      {settings.min_stance_pitch, settings.max_stance_pitch,
-                       settings.max_contact_speed, settings.leg_reach, settings.longest_toe_push,
-                       settings.settling.heel, settings.settling.toe, settings.time_weight})});
+  std::vector<double> own = {settings.min_stance_pitch,  settings.max_stance_pitch,
+                             settings.max_contact_speed, settings.leg_reach,
+                             settings.longest_toe_push,  settings.settling.heel,
+                             settings.settling.toe,      settings.time_weight};
+  // Libraries of robots without rotors are older than this setting.
+  if (settings.settling_torque < 1) own.push_back(settings.settling_torque);
+  return models::HashOfParts({from, to, MotionIdentity(robot, settings, own)});
 }
 
 JumpProblem::JumpProblem(const SagittalModel& model, const JumpTask& task,
@@ -84,7 +88,7 @@ void JumpProblem::AddPhases(const JumpSettings& settings) {
   AddPhase("toes", {model_.toe()}, Times({kShortest, settings.longest_toe_push}));
   AddPhase("rise", {}, Times({kShortest, kLongestHalfFlight}));
   AddPhase("descent", {}, Times({kShortest, kLongestHalfFlight}));
-  AddPhase("settle", Feet(), Times({kShortest, 4.6}));
+  AddPhase("settle", Feet(), Times({kShortest, 4.6}), settings.settling_torque);
   AddPhase("landing", FeetAndHands(), Times({1.2, 5.8}));
   for (int phase = 1; phase < kNumPhases; ++phase) {
     collocation::ContinueRobot(&problem_, phases_[phase - 1], phases_[phase], phase != kSettle);

@@ -31,6 +31,9 @@ struct JumpSettings : SagittalSettings {
   /// Least shares of the soles' load until the hands touch down. The way to the toes is what a
   /// robot that lands too fast or leans too far has to stop in.
   SoleShares settling = {.heel = 0.35, .toe = 0.15};
+  /// Share of the torques that may be used until the hands touch down, if that is less than
+  /// `limits` allows.
+  double settling_torque = 1;
   double time_weight = 0;  ///< 1/s, of the duration in the cost
 
   /// The defaults. A jump that lands on its feet alone is over when it stands: its time counts,

@@ -113,10 +113,11 @@ class LongJump : public Manoeuvre {
   bool IsRefuted(const Leap& leap) const;
   void RecordImpossible(const JumpTask& task) const;
   bool IsImpossible(const JumpTask& task) const;
-  /// A solved jump, which collides with nothing on bare ground, and its poses.
+  /// A solved jump, which collides with nothing on bare ground, and its poses, all and in the air.
   struct Solved {
     std::shared_ptr<const SolvedJump> jump;
     std::shared_ptr<const MotionPoses> poses;
+    std::shared_ptr<const MotionPoses> flight;
   };
   std::shared_ptr<SharedJumpSolve> SolveOf(const JumpTask& task) const;
   Solved Examined(std::shared_ptr<const SolvedJump> jump) const;

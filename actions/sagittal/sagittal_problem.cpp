@@ -88,9 +88,10 @@ std::vector<ContactPoint> SagittalProblem::FeetAndHands() const {
 }
 
 void SagittalProblem::AddPhase(const std::string& name, const std::vector<ContactPoint>& points,
-                               Bounds duration) {
-  phases_.push_back(
-      collocation::AddRobotPhase(&problem_, name, model_.planar(), points, settings_.limits));
+                               Bounds duration, double most_torque) {
+  collocation::RobotLimits limits = settings_.limits;
+  limits.torque_fraction = std::min(limits.torque_fraction, most_torque);
+  phases_.push_back(collocation::AddRobotPhase(&problem_, name, model_.planar(), points, limits));
   phases_.back().phase->SetDuration(duration);
 }
 

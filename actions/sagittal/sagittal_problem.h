@@ -61,8 +61,9 @@ class SagittalProblem {
 
   std::vector<dynamics::ContactPoint> Feet() const;          ///< heel and toe
   std::vector<dynamics::ContactPoint> FeetAndHands() const;  ///< heel, toe, hands
+  /// `most_torque`: share of the torques; the settings may allow less.
   void AddPhase(const std::string& name, const std::vector<dynamics::ContactPoint>& points,
-                collocation::Bounds duration);
+                collocation::Bounds duration, double most_torque = 1);
 
   /// The phase begins at rest in SagittalModel::ready().
   void StartAtRest(int phase);

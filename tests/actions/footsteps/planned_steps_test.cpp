@@ -9,20 +9,21 @@
 #include "actions/wholebody/motion_collision.h"
 #include "actions/wholebody/motion_error.h"
 #include "tests/actions/footsteps/uneven_world.h"
+#include "tests/actions/geared_drchubo1.h"
 
 namespace possibility::actions {
 namespace {
 
 class PlannedStepsTest : public ::testing::Test {
  protected:
-  PlannedSteps& StepsIn(UnevenWorld* world) {
+  PlannedSteps& StepsIn(UnevenWorld* world, const LocomotionModel& model = WalkingHubo()) {
     PlanningContext context;
-    context.model = &WalkingHubo();
+    context.model = &model;
     context.world = world->Built();
     context.space = std::make_shared<PelvisPoseSpace>(world->environment.bounds,
                                                       world->ground->levels(), 0.137);
     context.gaits = {
-        std::make_shared<QuasiStaticAction>(WalkingHubo(), 0, world->world, context.space, 0.25)};
+        std::make_shared<QuasiStaticAction>(model, 0, world->world, context.space, 0.25)};
     return *(steps_ = std::make_unique<PlannedSteps>(context, 0));
   }
 
@@ -61,6 +62,48 @@ TEST_F(PlannedStepsTest, AFlightOfHighStepsIsClimbedWithBothFeetOnEachTread) {
   ASSERT_TRUE(steps.CN(edge));
   const Knot& last = steps.Motion(edge, {}).back().knots.back();
   EXPECT_NEAR(last.q[6], edge.to[2], 1e-6);
+}
+
+/// The greatest share of a joint's torque.
+double TorqueUsed(const std::vector<Phase>& motion) {
+  double used = 0;
+  for (const Phase& phase : motion) {
+    for (const Knot& knot : phase.knots) {
+      for (int j = 0; j < DrcHubo1().num_joints(); ++j) {
+        used = std::max(used, std::abs(knot.tau[j]) / DrcHubo1().joints[j].effort);
+      }
+    }
+  }
+  return used;
+}
+
+double TorqueUsedOnStairs(const models::RobotModel& robot) {
+  PlanRequest request;
+  request.library = DrcHubo1Library();
+  models::Scenario stairs = ShippedScenario("stairs");
+  stairs.robot_hash = robot.content_hash;
+  const PlanResult result = PlanTraversal(robot, stairs, request);
+  EXPECT_EQ(result.status, PlanStatus::kFound) << result.explanation;
+  double used = 0;
+  for (const Segment& segment : result.plan.segments) {
+    used = std::max(used, TorqueUsed(segment.phases));
+  }
+  return used;
+}
+
+TEST(SparingSteps, OfAGearedRobotClimbStairsWithLessTorque) {
+  EXPECT_GT(TorqueUsedOnStairs(DrcHubo1()), 0.86);
+  EXPECT_LE(TorqueUsedOnStairs(GearedDrcHubo1()), 0.85 + 1e-9);
+}
+
+/// Four sequences of footholds need more than 85 % of the torque.
+TEST_F(PlannedStepsTest, AGearedRobotUsesMoreTorqueWhereItFindsNoSparingSteps) {
+  const LocomotionModel geared =
+      BuildLocomotionModel(GearedDrcHubo1(), {"walk"}, {}, DrcHubo1Library());
+  UnevenWorld world;
+  world.Ground(-3, 0.3, 0).Ground(0.3, 4, 0.16);
+  const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.2), UnevenWorld::StanceAt(1, 0.16));
+  EXPECT_GT(TorqueUsed(StepsIn(&world, geared).Motion(edge, {})), 0.85);
 }
 
 TEST_F(PlannedStepsTest, TheSameEdgeHasTheSameMotion) {

@@ -6,15 +6,19 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "actions/jump/jump_library.h"
 #include "actions/jump/jump_reach.h"
 #include "actions/plan/interpolation.h"
+#include "actions/rollout/dynamic_stretch.h"
+#include "actions/rollout/perturbed_rollout.h"
 #include "actions/sagittal/bare_ground.h"
 #include "dynamics/simbody/simbody_dynamics.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/input/input_error.h"
-#include "tests/actions/drchubo1.h"
+#include "models/world/ground_map.h"
+#include "tests/actions/geared_drchubo1.h"
 
 namespace possibility::actions {
 namespace {
@@ -419,6 +423,47 @@ TEST_F(JumpLibraryTest, NoShippedJumpFliesBeyondItsBound) {
       EXPECT_LT(std::min(up.z(), down.z()), bounds.rise);
     }
   }
+}
+
+/// Motors a tenth weaker, a body 5 % heavier, and ground that rises by 1 degree along the jump.
+bool SurvivesAllAtOnce(const JumpSolver& solver, const JumpTask& task) {
+  const JumpAnswer answer = solver.Solve(task);
+  EXPECT_TRUE(answer.jump) << answer.reason;
+  if (!answer.jump) return false;
+  Perturbation perturbation;
+  perturbation.torque = 0.9;
+  perturbation.mass = 1.05;
+  perturbation.slope = std::numbers::pi / 180;
+  Plan plan;
+  plan.segments = {{"jump", answer.jump->phases}};
+  const models::GroundMap ground(BareGround(solver.model(), task.distance, task.height, 0.01),
+                                 GearedDrcHubo1().friction);
+  for (const DynamicStretch& stretch : DynamicStretches(plan)) {
+    if (!RollOutPerturbed(stretch.motion, GearedDrcHubo1(), ground, perturbation).survives()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// With as much torque until the hands touch down as before, its knees give way after the impact.
+TEST(GearedJumpTest, ALongJumpKeepsTorqueToSettleWith) {
+  JumpSettings settings = JumpSettings::For(GearedDrcHubo1(), Stance("walk"), Stance("crawl"));
+  const JumpTask task = {0.85, 0};
+  EXPECT_TRUE(SurvivesAllAtOnce(
+      JumpSolver(GearedDrcHubo1(), Stance("walk"), Stance("crawl"), settings), task));
+  settings.settling_torque = 1;
+  EXPECT_FALSE(SurvivesAllAtOnce(
+      JumpSolver(GearedDrcHubo1(), Stance("walk"), Stance("crawl"), settings), task));
+}
+
+TEST(GearedJumpTest, TheTorqueToSettleWithBelongsToTheIdentityWhereItLimits) {
+  JumpSettings settings = JumpSettings::For(GearedDrcHubo1(), Stance("walk"), Stance("crawl"));
+  ASSERT_LT(settings.settling_torque, settings.limits.torque_fraction);
+  const std::string identity = JumpIdentity(GearedDrcHubo1(), settings, "walk", "crawl");
+  settings.settling_torque *= 0.9;
+  EXPECT_NE(JumpIdentity(GearedDrcHubo1(), settings, "walk", "crawl"), identity);
+  EXPECT_EQ(JumpSettings::For(DrcHubo1(), Stance("walk"), Stance("crawl")).settling_torque, 1);
 }
 
 TEST(BareGroundTest, LandingGroundReachesFartherButNotIntoTheLaunchGround) {

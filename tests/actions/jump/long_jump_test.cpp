@@ -14,7 +14,7 @@
 #include "actions/jump/jump_reach.h"
 #include "graph/confirmation/confirmation_queue.h"
 #include "models/world/ground_map.h"
-#include "tests/actions/drchubo1.h"
+#include "tests/actions/geared_drchubo1.h"
 
 namespace possibility::actions {
 namespace {
@@ -55,16 +55,17 @@ models::Obstacle Wall(double x, double height) {
 class JumpScene {
  public:
   /// `jump`: of the robot's file.
-  explicit JumpScene(models::Environment environment, int jump = 0)
+  explicit JumpScene(models::Environment environment, int jump = 0,
+                     const LocomotionModel& model = Model())
       : environment_(std::move(environment)),
         ground_(environment_),
         world_{&environment_, &ground_},
         space_(std::make_shared<PelvisPoseSpace>(environment_.bounds, ground_.levels(), 0.137)) {
     for (int gait = 0; gait < 2; ++gait) {
-      gaits_.push_back(std::make_shared<QuasiStaticAction>(Model(), gait, world_, space_, 0.25));
+      gaits_.push_back(std::make_shared<QuasiStaticAction>(model, gait, world_, space_, 0.25));
     }
     PlanningContext context;
-    context.model = &Model();
+    context.model = &model;
     context.world = world_;
     context.gaits = gaits_;
     context.space = space_;
@@ -248,6 +249,32 @@ TEST(LongJumpTest, TheJobRefutesAJumpIntoABeamWithAReason) {
   EXPECT_FALSE(scene.searched().Explorable(edge));
   ASSERT_EQ(scene.searched().Refusals().size(), 1u);
   EXPECT_EQ(scene.searched().Refusals().front().reason, job->reason());
+}
+
+graph::JobVerdict VerdictOf(const JumpScene& scene, const graph::Edge& edge, std::string* reason) {
+  const auto job = scene.searched().SpawnConfirmationJob(edge);
+  graph::JobControl control;
+  const graph::JobVerdict verdict = job->Run(&control);
+  *reason = job->reason();
+  return verdict;
+}
+
+/// A leap down a step of 0.1 m: its heels pass the edge of the step.
+TEST(LongJumpTest, AGearedRobotLeapsOnlyWhereAShorterLeapHitsNothing) {
+  constexpr int kLeap = 1;
+  models::Environment step = TwoFloors(0);
+  step.obstacles[1].X_WO.translation().z() -= 0.1;
+  const graph::Edge near = {JumpScene::At(0, -0.15, 0, 0), JumpScene::At(0, 0.15, 0, 0, -0.1)};
+  const graph::Edge far = {JumpScene::At(0, -0.15, 0, 0), JumpScene::At(0, 0.35, 0, 0, -0.1)};
+  std::string reason;
+  const JumpScene scene(step, kLeap);
+  EXPECT_EQ(VerdictOf(scene, near, &reason), graph::JobVerdict::kConfirmed) << reason;
+  const LocomotionModel geared =
+      BuildLocomotionModel(GearedDrcHubo1(), {"walk", "crawl"}, {}, DrcHubo1Library());
+  const JumpScene with_rotors(step, kLeap, geared);
+  EXPECT_EQ(VerdictOf(with_rotors, near, &reason), graph::JobVerdict::kRefuted);
+  EXPECT_NE(reason.find("0.03 m less far"), std::string::npos) << reason;
+  EXPECT_EQ(VerdictOf(with_rotors, far, &reason), graph::JobVerdict::kConfirmed) << reason;
 }
 
 TEST(LongJumpTest, ACancelledJobIsUndecided) {
