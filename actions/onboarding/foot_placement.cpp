@@ -1,5 +1,7 @@
 #include "actions/onboarding/foot_placement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -109,6 +111,25 @@ std::optional<VectorXd> FootPlacement::Solve(const Eigen::Vector3d& centre, doub
     }
   }
   return best;
+}
+
+std::string FootPlacement::WhyNot(const Eigen::Vector3d& centre, double margin,
+                                  const VectorXd& joints) const {
+  constexpr double kWide = 10;  // rad: as if there were no limits
+  const std::optional<VectorXd> leg = Solve(centre, -kWide, joints);
+  if (!leg) return "out of reach";
+  double most = 0;
+  std::string reason = "out of reach but for some limits";
+  for (int i = 0; i < leg->size(); ++i) {
+    const models::Joint& joint = draft_->robot.joints[(*leg_)[i]];
+    const double value = (*leg)[i];
+    const double beyond = std::max(joint.lower + margin - value, value - joint.upper + margin);
+    if (!(beyond > most)) continue;
+    most = beyond;
+    reason = fmt::format("'{}' would be at {:.2f}, its limits are {:.2f} to {:.2f}", joint.name,
+                         value, joint.lower, joint.upper);
+  }
+  return reason;
 }
 
 }  // namespace possibility::actions

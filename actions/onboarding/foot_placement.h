@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "actions/onboarding/robot_draft.h"
@@ -25,6 +26,11 @@ class FootPlacement {
   std::optional<Eigen::VectorXd> SolveFrom(const Eigen::Vector3d& centre, double margin,
                                            const Eigen::VectorXd& joints,
                                            const Eigen::VectorXd& start) const;
+
+  /// Why Solve finds none: the joint that would leave its limits most, or that the leg is too
+  /// short.
+  std::string WhyNot(const Eigen::Vector3d& centre, double margin,
+                     const Eigen::VectorXd& joints) const;
 
  private:
   double Forwardness(const Eigen::VectorXd& leg, const Eigen::VectorXd& joints) const;

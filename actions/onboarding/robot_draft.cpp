@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 
+#include "actions/onboarding/assumed_inertials.h"
 #include "actions/onboarding/leg_measures.h"
+#include "actions/onboarding/shape_corners.h"
+#include "actions/onboarding/visual_shapes.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/facts/sole.h"
 #include "models/facts/zero_poses.h"
@@ -30,37 +34,12 @@ constexpr double kFriction = 0.7;
 /// Of a sole's corners above its lowest point, m: tried in turn until there is an area.
 constexpr double kSoleSlacks[] = {5e-4, 2e-3, 5e-3};
 constexpr double kLeastSole = 4e-4;  // m^2
+constexpr double kLeastShare = 0.4;  // of the largest sole tried
 constexpr int kMostShapes = 3;       // of one link; more are joined to one hull
 constexpr double kUnlimited = 1e5;   // N m: a placeholder
 constexpr double kLegEffort = 0.35;  // of weight times length of the leg
 constexpr double kArmEffort = 0.08;  // likewise
 constexpr double kJointSpeed = 2.5;  // rad per sqrt(leg length / gravity)
-
-/// Corners of a polytope around the shape, in the link's frame: round shapes lie in prisms.
-std::vector<Vector3d> Corners(const PosedShape& posed) {
-  const models::Shape& shape = posed.shape;
-  std::vector<Vector3d> corners;
-  if (shape.type == models::ShapeType::kConvexMesh) {
-    corners = shape.vertices;
-  } else if (shape.type == models::ShapeType::kBox) {
-    for (int i = 0; i < 8; ++i) {
-      corners.push_back(Vector3d(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5)
-                            .cwiseProduct(shape.size));
-    }
-  } else {
-    constexpr int kSides = 12;
-    const bool is_round = shape.type != models::ShapeType::kCylinder;
-    const double half = 0.5 * shape.length + (is_round ? shape.radius : 0);
-    const double radius = shape.radius / std::cos(std::numbers::pi / kSides);
-    for (int i = 0; i < 2 * kSides; ++i) {
-      const double angle = 2 * std::numbers::pi * (i / 2) / kSides;
-      corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
-                           i % 2 ? half : -half);
-    }
-  }
-  for (Vector3d& corner : corners) corner = posed.X_PS * corner;
-  return corners;
-}
 
 /// Joins the shapes of links that have many, fingers for example, to one hull each. Simple shapes
 /// alone stay: they are exact and cheap.
@@ -70,16 +49,12 @@ void JoinShapes(models::RobotModel* robot, std::vector<std::string>* findings) {
         link.shapes.begin(), link.shapes.end(),
         [](const PosedShape& posed) { return posed.shape.type == models::ShapeType::kConvexMesh; });
     if (!has_mesh || static_cast<int>(link.shapes.size()) <= kMostShapes) continue;
-    std::vector<Vector3d> corners;
-    for (const PosedShape& posed : link.shapes) {
-      const std::vector<Vector3d> more = Corners(posed);
-      corners.insert(corners.end(), more.begin(), more.end());
-    }
     findings->push_back(fmt::format("the {} shapes of link '{}' are joined to one hull",
                                     link.shapes.size(), link.name));
-    link.shapes = {{models::Shape::ConvexMesh(
-                        models::SimpleHullOfPoints(corners, models::kMostHullCorners).vertices),
-                    Eigen::Isometry3d::Identity()}};
+    link.shapes = {
+        {models::Shape::ConvexMesh(
+             models::SimpleHullOfPoints(CornersOf(link.shapes), models::kMostHullCorners).vertices),
+         Eigen::Isometry3d::Identity()}};
   }
 }
 
@@ -190,40 +165,49 @@ class Drafter {
   /// `R_RL`: at zero; turned so that the sole is level if it is not there.
   models::Sole SoleOf(const models::Link& link, Eigen::Matrix3d* R_RL) {
     if (link.shapes.empty()) {
-      Fail(fmt::format("link '{}', the foot, has no collision shape: expected one to stand on",
-                       link.name));
+      Fail(fmt::format(
+          "link '{}', the foot, has neither collision nor visual shape: expected one to stand on",
+          link.name));
     }
-    models::Sole sole;
-    for (const bool is_turned : {false, true}) {
-      if (is_turned) TurnLevel(link, R_RL);
-      for (const double slack : kSoleSlacks) {
-        sole = models::SoleOf(link, *R_RL, slack);
-        if (sole.area >= kLeastSole && sole.points.size() >= 3) return sole;
-      }
+    // Level at zero, then turned; an edge or a corner of the foot is no sole beside its largest
+    // face.
+    std::vector<models::Sole> soles;
+    double tilt = 0;
+    const Eigen::Matrix3d turned = TurnedLevel(link, *R_RL, &tilt);
+    for (const Eigen::Matrix3d& R : {*R_RL, turned}) {
+      for (const double slack : kSoleSlacks) soles.push_back(models::SoleOf(link, R, slack));
+    }
+    double widest = 0;
+    for (const models::Sole& sole : soles) widest = std::max(widest, sole.area);
+    for (std::size_t i = 0; i < soles.size(); ++i) {
+      if (soles[i].area < std::max(kLeastSole, kLeastShare * widest)) continue;
+      if (i < std::size(kSoleSlacks)) return soles[i];
+      *R_RL = turned;
+      draft_.warnings.push_back(
+          fmt::format("the sole of link '{}' is tilted by {:.1f} degrees with all joints at 0",
+                      link.name, tilt * 180 / std::numbers::pi));
+      return soles[i];
     }
     Fail(
         fmt::format("link '{}', the foot, bears on {:.1f} cm^2: expected a flat sole of at least "
                     "{:.0f} cm^2",
-                    link.name, 1e4 * sole.area, 1e4 * kLeastSole));
+                    link.name, 1e4 * widest, 1e4 * kLeastSole));
   }
 
   /// Brings the largest face within 45 degrees of the lower side down.
-  void TurnLevel(const models::Link& link, Eigen::Matrix3d* R_RL) {
-    std::vector<Vector3d> corners;
-    for (const PosedShape& posed : link.shapes) {
-      const std::vector<Vector3d> more = Corners(posed);
-      corners.insert(corners.end(), more.begin(), more.end());
-    }
-    const models::ConvexHull hull = models::HullOfPoints(corners);
+  /// `R_RL`: at zero. `tilt`: rad, by which that is turned.
+  static Eigen::Matrix3d TurnedLevel(const models::Link& link, const Eigen::Matrix3d& R_RL,
+                                     double* tilt) {
+    const models::ConvexHull hull = models::HullOfPoints(CornersOf(link.shapes));
     const auto area = [&hull](const std::array<int, 3>& f) -> Vector3d {
       return 0.5 * (hull.vertices[f[1]] - hull.vertices[f[0]])
                        .cross(hull.vertices[f[2]] - hull.vertices[f[0]]);
     };
-    Vector3d best = R_RL->transpose() * -Vector3d::UnitZ();
+    Vector3d best = R_RL.transpose() * -Vector3d::UnitZ();
     double largest = 0;
     for (const auto& facet : hull.facets) {
       const Vector3d normal = area(facet).normalized();
-      if ((*R_RL * normal).z() > -std::sqrt(0.5)) continue;
+      if ((R_RL * normal).z() > -std::sqrt(0.5)) continue;
       double sum = 0;
       for (const auto& other : hull.facets) {
         if (area(other).normalized().dot(normal) > 0.9998) sum += area(other).norm();
@@ -232,12 +216,8 @@ class Drafter {
       largest = sum;
       best = normal;
     }
-    const double tilt = std::acos(std::clamp(-(*R_RL * best).z(), -1.0, 1.0));
-    *R_RL = Eigen::Quaterniond::FromTwoVectors(*R_RL * best, -Vector3d::UnitZ()) * *R_RL;
-    draft_.warnings.push_back(
-        fmt::format("the sole of link '{}' is tilted by {:.1f} degrees with all "
-                    "joints at 0",
-                    link.name, tilt * 180 / std::numbers::pi));
+    *tilt = std::acos(std::clamp(-(R_RL * best).z(), -1.0, 1.0));
+    return Eigen::Quaterniond::FromTwoVectors(R_RL * best, -Vector3d::UnitZ()) * R_RL;
   }
 
   /// C_N tests the shapes of one link that the root carries.
@@ -362,12 +342,14 @@ RobotDraft DraftRobot(const std::filesystem::path& urdf_file,
                       const std::optional<std::filesystem::path>& srdf_file) {
   RobotDraft draft;
   draft.urdf_file = urdf_file;
-  draft.tree = models::ParseUrdf(models::ReadFileContents(urdf_file), urdf_file);
+  const std::string urdf = models::ReadFileContents(urdf_file);
+  draft.tree = models::ParseUrdf(urdf, urdf_file);
   ForgetPlaceholders(&draft.tree);
   draft.plan = models::FindBodyPlan(draft.tree, urdf_file);
   draft.findings = draft.plan.findings;
   LumpImpossibleArms(&draft);
-  models::UrdfRobot built = models::BuildUrdfRobot(draft.tree, draft.plan.lump, urdf_file);
+  models::UrdfRobot built = BuildWithAssumedInertials(urdf, packages, &draft);
+  AddVisualShapes(urdf, &draft, &built);
   draft.robot = std::move(built.robot);
   draft.robot.file = urdf_file;
   models::AddMeshShapes(built.meshes, urdf_file, packages, &draft.robot);

@@ -20,6 +20,13 @@ struct AssumedLimit {
   std::string reason;
 };
 
+/// Mass properties that replace those of a URDF's link, and why.
+struct AssumedInertial {
+  std::string link;
+  models::Inertial inertial;
+  std::string reason;
+};
+
 /// A pair of links that is not tested, and why.
 struct IgnoredPair {
   int link = 0, other = 0;
@@ -36,6 +43,7 @@ struct RobotDraft {
   std::vector<int> left_leg, right_leg, left_arm, right_arm;  ///< joints, from the trunk outwards
   models::MirrorPairs pairs;
   std::vector<AssumedLimit> efforts, speeds;
+  std::vector<AssumedInertial> inertials;
   std::vector<std::string> positions;  ///< joints whose limits of position are assumed
   std::vector<IgnoredPair> ignored;
   bool pairs_are_given = false;  ///< `ignored` is complete: postures add none

@@ -83,6 +83,7 @@ class YamlWriter {
   std::string Write(const std::string& urdf) {
     Head(urdf);
     Positions();
+    Inertials();
     Limits("effort", draft_.efforts);
     Limits("velocity", draft_.speeds);
     Shapes();
@@ -119,6 +120,19 @@ class YamlWriter {
         "URDF; "
         "assumed\n",
         Quoted(draft_.positions), joint.lower * kDegrees, joint.upper * kDegrees);
+  }
+
+  void Inertials() {
+    if (draft_.inertials.empty()) return;
+    Add("\ninertials:\n");
+    for (const AssumedInertial& assumed : draft_.inertials) {
+      const models::Inertial& body = assumed.inertial;
+      const Eigen::Matrix3d& I = body.I_LC;
+      Add("  - link: {}\n    mass: {:.10g}\n    com: {}\n    moments: [{:.10g}, {:.10g}, {:.10g}]\n"
+          "    products: [{:.10g}, {:.10g}, {:.10g}]\n    reason: {}\n",
+          Quoted(assumed.link), body.mass, List(body.p_LC), I(0, 0), I(1, 1), I(2, 2), I(0, 1),
+          I(0, 2), I(1, 2), Quoted(assumed.reason));
+    }
   }
 
   void Limits(const char* key, const std::vector<AssumedLimit>& limits) {

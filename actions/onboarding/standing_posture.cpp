@@ -104,8 +104,9 @@ class Stander {
       if (!is_first || side == 1) solved = foot.SolveFrom(centre, kJointMargin, joints_, start);
       if (!solved) solved = foot.Solve(centre, kJointMargin, joints_);
       if (!solved) {
-        *reason = fmt::format("the {} leg cannot put its sole level {:.3f} m below the root",
-                              side == 0 ? "left" : "right", -centre.z());
+        *reason = fmt::format("the {} leg cannot put its sole level {:.3f} m below the root: {}",
+                              side == 0 ? "left" : "right", -centre.z(),
+                              foot.WhyNot(centre, kJointMargin, joints_));
         return false;
       }
       for (std::size_t i = 0; i < leg.size(); ++i) joints_[leg[i]] = (*solved)[static_cast<int>(i)];

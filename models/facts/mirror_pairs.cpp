@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "models/facts/zero_poses.h"
@@ -40,8 +41,16 @@ class PairFinder {
   Vector3d Place(int joint) const { return X_RL_[joint + 1].translation(); }
   Vector3d Axis(int joint) const { return X_RL_[joint + 1].linear() * robot_.joints[joint].axis; }
 
+  Vector3d Offset(int joint, int other) const {
+    return Place(other) - Place(joint).cwiseProduct(Vector3d(1, -1, 1));
+  }
+
+  /// Where along its axis a joint that turns has its origin is arbitrary.
   double Distance(int joint, int other) const {
-    return (Place(other) - Place(joint).cwiseProduct(Vector3d(1, -1, 1))).norm();
+    const Vector3d offset = Offset(joint, other);
+    if (robot_.joints[joint].type == JointType::kPrismatic) return offset.norm();
+    const Vector3d axis = Axis(other);
+    return (offset - axis.dot(offset) * axis).norm();
   }
 
   /// 1 or -1 if the axes mirror each other. A turn about an axis mirrors to the opposite turn about
@@ -58,13 +67,13 @@ class PairFinder {
   int BestPartner(int joint) const {
     const int parent = partner_[robot_.joints[joint].parent];
     int best = -1;
-    double nearest = tolerance_;
+    double nearest = std::numeric_limits<double>::infinity();
     for (int other = 0; other < robot_.num_joints(); ++other) {
       const bool is_free = partner_[other + 1] < 0 && robot_.joints[other].parent == parent &&
                            robot_.joints[other].type == robot_.joints[joint].type;
-      if (!is_free || !Sign(joint, other)) continue;
-      // A joint in the plane is its own partner.
-      const double distance = Distance(joint, other);
+      if (!is_free || !Sign(joint, other) || !(Distance(joint, other) <= tolerance_)) continue;
+      // A joint in the plane is its own partner. Of joints on one axis the nearest origin counts.
+      const double distance = Offset(joint, other).norm();
       if (distance < nearest || (other == joint && distance <= nearest)) {
         nearest = distance;
         best = other;

@@ -32,7 +32,8 @@ struct MirrorPairs {
 
 /// Pairs joints from the root outwards: two joints of one type, on the same link or on links of a
 /// pair, of which one is within `tolerance` (m) of the other's mirror image and whose axes mirror
-/// each other to 0.1 rad. Of several the nearest.
+/// each other to 0.1 rad. For joints that turn, places along the axis do not matter, unless there
+/// are several: the nearest is taken.
 MirrorPairs FindMirrorPairs(const RobotModel& robot, double tolerance);
 
 /// Distance from symmetry above which a robot is said not to be symmetric, m.

@@ -55,6 +55,7 @@ class TreeBuilder {
   void Attach(const std::string& name, int kept, const Eigen::Isometry3d& X_KL) {
     const UrdfLink& source = *links_.at(name);
     Link& target = robot_->links[kept];
+    if (source.inertial) CheckDefinite(*source.inertial, fmt::format("{}: link '{}'", file_, name));
     // Without a mass it is a frame.
     if (source.inertial && source.inertial->mass > 0) {
       target.inertial = Combined(target.inertial, *source.inertial, X_KL);

@@ -65,6 +65,15 @@ std::optional<fs::path> FindPackage(const std::string& name, const std::vector<f
   return std::nullopt;
 }
 
+/// Where robots are published without their package's folder: beside the URDF, or one folder above.
+std::optional<fs::path> FolderOfPartialPackage(const fs::path& rest, const fs::path& urdf_folder) {
+  std::error_code error;
+  const fs::path above = urdf_folder.parent_path();
+  if (fs::is_regular_file(urdf_folder / rest, error)) return urdf_folder;
+  if (above != above.root_path() && fs::is_regular_file(above / rest, error)) return above;
+  return std::nullopt;
+}
+
 bool IsPlainName(const std::string& name) {
   return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
@@ -81,13 +90,15 @@ fs::path InPackage(const std::string& name, const fs::path& urdf_folder,
   }
   std::vector<fs::path> folders = FoldersAbove(urdf_folder);
   folders.insert(folders.end(), packages.begin(), packages.end());
-  const std::optional<fs::path> folder = FindPackage(package, folders);
+  const fs::path in_package = fs::path(rest.substr(slash + 1)).relative_path();
+  std::optional<fs::path> folder = FindPackage(package, folders);
+  if (!folder) folder = FolderOfPartialPackage(in_package, urdf_folder);
   if (!folder) {
     throw InputError(fmt::format(
         "{}: no folder above the URDF holds the package '{}' of '{}': name one under 'packages'",
         owner, package, name));
   }
-  const fs::path file = Canonical(*folder / fs::path(rest.substr(slash + 1)).relative_path());
+  const fs::path file = Canonical(*folder / in_package);
   if (!IsWithin(file, *folder)) {
     throw InputError(fmt::format("{}: '{}' leaves its package", owner, name));
   }

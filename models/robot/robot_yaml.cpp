@@ -16,6 +16,7 @@
 #include "models/input/yaml_reader.h"
 #include "models/robot/actuator_yaml.h"
 #include "models/robot/gait_yaml.h"
+#include "models/robot/inertial_yaml.h"
 #include "models/robot/mesh_shapes.h"
 #include "models/robot/urdf_reader.h"
 #include "models/robot/urdf_robot.h"
@@ -203,9 +204,10 @@ std::vector<std::pair<int, int>> ReadSagittalPairs(const YamlNode& list, const R
 }
 
 const std::vector<std::string> kRobotKeys = {
-    "name",     "urdf",     "root_link",   "pelvis_link", "lump",           "packages",
-    "friction", "position", "velocity",    "effort",      "actuators",      "shapes",
-    "contacts", "gaits",    "transitions", "jumps",       "sagittal_pairs", "ignored_collisions"};
+    "name",        "urdf",      "root_link",      "pelvis_link",       "lump",
+    "packages",    "friction",  "position",       "velocity",          "effort",
+    "inertials",   "actuators", "shapes",         "contacts",          "gaits",
+    "transitions", "jumps",     "sagittal_pairs", "ignored_collisions"};
 
 /// Folders of packages, relative to the YAML.
 std::vector<std::filesystem::path> ReadPackages(const YamlNode& root,
@@ -284,7 +286,8 @@ RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   const std::string name = root.At("name").String();
   const std::filesystem::path urdf_file = UrdfFile(root, yaml_file);
   const std::string urdf = ReadFileContents(urdf_file);
-  const UrdfTree tree = ParseUrdf(urdf, urdf_file);
+  UrdfTree tree = ParseUrdf(urdf, urdf_file);
+  if (const auto inertials = root.Find("inertials")) ReadInertials(*inertials, &tree);
   ReadRootLink(root.At("root_link"), tree);
   UrdfRobot built = BuildUrdfRobot(tree, ReadLumped(root, tree), urdf_file);
   RobotModel& robot = built.robot;

@@ -51,6 +51,11 @@ const Element& Robot() {
   return robot;
 }
 
+bool HoldsACapsule(const tinyxml2::XMLElement& collision) {
+  const tinyxml2::XMLElement* geometry = collision.FirstChildElement("geometry");
+  return geometry != nullptr && geometry->FirstChildElement("capsule") != nullptr;
+}
+
 bool IsControl(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte == 0x7f || (byte < 0x20 && c != '\t' && c != '\n' && c != '\r');
@@ -81,7 +86,8 @@ std::string Described(tinyxml2::XMLError error) {
 
 class Extraction {
  public:
-  explicit Extraction(const std::filesystem::path& file) : file_(file.string()) {}
+  Extraction(const std::filesystem::path& file, UrdfGeometry geometry)
+      : file_(file.string()), geometry_(geometry) {}
 
   const std::vector<std::string>& mesh_files() const { return mesh_files_; }
 
@@ -102,8 +108,20 @@ class Extraction {
     throw InputError(fmt::format("{}:{}: {}", file_, std::max(line, 1), what));
   }
 
+  /// Null: left out.
+  const char* NameInExtract(const tinyxml2::XMLElement& source) const {
+    const std::string_view name = source.Name();
+    const bool is_visual = geometry_ == UrdfGeometry::kVisual;
+    if (name == "visual") return is_visual ? "collision" : nullptr;
+    if (name == "collision") return is_visual ? nullptr : "collision";
+    return name == "capsule" ? "cylinder" : source.Name();
+  }
+
   void Copy(const tinyxml2::XMLElement& source, const Element& element) {
-    printer_.OpenElement(source.Name(), true);
+    printer_.OpenElement(NameInExtract(source), true);
+    if (element.name == "collision" && HoldsACapsule(source)) {
+      printer_.PushAttribute("name", kCapsuleName);
+    }
     for (const char* name : element.names) CopyAttribute(source, name, true);
     for (const char* name : element.values) CopyAttribute(source, name, false);
     for (const auto* child = source.FirstChildElement(); child != nullptr;
@@ -114,9 +132,11 @@ class Extraction {
   }
 
   void CopyChild(const tinyxml2::XMLElement& source, const Element& parent) {
+    const char* name = NameInExtract(source);
+    if (name == nullptr) return;
     const auto found = std::find_if(
         parent.children.begin(), parent.children.end(),
-        [&](const Element& child) { return child.name.empty() || child.name == source.Name(); });
+        [&](const Element& child) { return child.name.empty() || child.name == name; });
     if (found == parent.children.end()) return;
     if (&parent == &Robot() && ++num_elements_ > kMostElements) {
       Fail(source.GetLineNum(), fmt::format("expected at most {} links and joints", kMostElements));
@@ -160,6 +180,7 @@ class Extraction {
   }
 
   const std::string file_;
+  const UrdfGeometry geometry_;
   std::vector<std::string> mesh_files_;
   tinyxml2::XMLPrinter printer_{nullptr, true};
   int num_elements_ = 0;
@@ -168,8 +189,8 @@ class Extraction {
 }  // namespace
 
 std::string ExtractUrdf(const std::string& text, const std::filesystem::path& file,
-                        std::vector<std::string>* mesh_files) {
-  Extraction extraction(file);
+                        std::vector<std::string>* mesh_files, UrdfGeometry geometry) {
+  Extraction extraction(file, geometry);
   std::string extract = extraction.Run(text);
   if (mesh_files != nullptr) *mesh_files = extraction.mesh_files();
   return extract;

@@ -78,6 +78,7 @@ class UrdfConverter {
     std::ranges::sort(tree.links, {}, &UrdfLink::name);
     std::ranges::sort(tree.joints, {}, &UrdfJoint::name);
     tree.root = Root(tree);
+    LeaveOutWorld(&tree);
     CheckReachable(tree);
     return tree;
   }
@@ -120,7 +121,8 @@ class UrdfConverter {
         continue;
       }
       result.shapes.push_back(
-          {ConvertGeometry(*collision->geometry, owner), Pose(collision->origin, owner)});
+          {ConvertGeometry(*collision->geometry, collision->name == kCapsuleName, owner),
+           Pose(collision->origin, owner)});
     }
     return result;
   }
@@ -137,11 +139,6 @@ class UrdfConverter {
     Eigen::Matrix3d I_C;
     I_C << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy, inertial.iyz,
         inertial.ixz, inertial.iyz, inertial.izz;
-    constexpr double kRounding = 1e-9;     // of the greatest moment
-    constexpr double kNegligible = 1e-15;  // kg m^2
-    const Eigen::Vector3d principal = PrincipalMoments(I_C);
-    if (!(principal[0] >= -std::max(kNegligible, kRounding * std::abs(principal[2]))))
-      Fail(Indefinite(principal, owner));
     return {inertial.mass, X_LC.translation(), X_LC.linear() * I_C * X_LC.linear().transpose()};
   }
 
@@ -152,7 +149,8 @@ class UrdfConverter {
     return value;
   }
 
-  Shape ConvertGeometry(const urdf::Geometry& geometry, const std::string& owner) const {
+  Shape ConvertGeometry(const urdf::Geometry& geometry, bool is_capsule,
+                        const std::string& owner) const {
     if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
       return Shape::Box({Dimension(box->dim.x, owner, "box size"),
                          Dimension(box->dim.y, owner, "box size"),
@@ -162,10 +160,14 @@ class UrdfConverter {
       return Shape::Sphere(Dimension(sphere->radius, owner, "sphere radius"));
     }
     if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
+      if (is_capsule) {
+        return Shape::Capsule(Dimension(cylinder->radius, owner, "capsule radius"),
+                              Dimension(cylinder->length, owner, "capsule length"));
+      }
       return Shape::Cylinder(Dimension(cylinder->radius, owner, "cylinder radius"),
                              Dimension(cylinder->length, owner, "cylinder length"));
     }
-    Fail(owner + ": expected a box, cylinder, sphere or mesh");
+    Fail(owner + ": expected a box, cylinder, sphere, capsule or mesh");
   }
 
   UrdfMesh ConvertMesh(const urdf::Mesh& mesh, const Eigen::Isometry3d& X_LM,
@@ -213,6 +215,19 @@ class UrdfConverter {
       result.effort = limits.effort;
     }
     return result;
+  }
+
+  /// Some URDFs say by a joint that the robot floats, which it does anyway.
+  static void LeaveOutWorld(UrdfTree* tree) {
+    const auto world = std::ranges::find(tree->links, tree->root, &UrdfLink::name);
+    const auto joint = std::ranges::find(tree->joints, tree->root, &UrdfJoint::parent);
+    if (world->inertial || joint == tree->joints.end() || joint->type != "floating" ||
+        std::ranges::count(tree->joints, tree->root, &UrdfJoint::parent) != 1) {
+      return;
+    }
+    tree->root = joint->child;
+    tree->links.erase(world);
+    tree->joints.erase(joint);
   }
 
   std::string Root(const UrdfTree& tree) const {
@@ -276,7 +291,8 @@ urdf::ModelInterfaceSharedPtr ParseWithUrdfdom(const std::string& text, const st
 
 }  // namespace
 
-UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file) {
+UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file,
+                   UrdfGeometry geometry) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(fmt::format("{}: the file is empty, expected a URDF", file.string()));
   }
@@ -284,9 +300,18 @@ UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: not a text file, expected a URDF", file.string()));
   }
   std::vector<std::string> mesh_files;
-  const std::string extract = ExtractUrdf(text, file, &mesh_files);
+  const std::string extract = ExtractUrdf(text, file, &mesh_files, geometry);
   const urdf::ModelInterfaceSharedPtr model = ParseWithUrdfdom(extract, file.string());
   return UrdfConverter(*model, mesh_files, file).Convert();
+}
+
+void CheckDefinite(const Inertial& inertial, const std::string& owner) {
+  constexpr double kRounding = 1e-9;     // of the greatest moment
+  constexpr double kNegligible = 1e-15;  // kg m^2
+  const Eigen::Vector3d principal = PrincipalMoments(inertial.I_LC);
+  if (!(principal[0] >= -std::max(kNegligible, kRounding * std::abs(principal[2])))) {
+    throw InputError(Indefinite(principal, owner));
+  }
 }
 
 void CheckMovingBody(const Inertial& inertial, const std::string& owner) {

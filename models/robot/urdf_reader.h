@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/robot/robot_model.h"
+#include "models/robot/urdf_extract.h"
 
 namespace possibility::models {
 
@@ -41,23 +42,29 @@ struct UrdfMesh {
 
 struct UrdfLink {
   std::string name;
-  /// Mass and moments may be zero or too small for a body that moves by itself (CheckMovingBody).
+  /// Mass and moments may be those of no body that moves by itself (CheckMovingBody).
   std::optional<Inertial> inertial;
-  std::vector<PosedShape> shapes;  ///< `<collision>` elements: box, cylinder, sphere
+  std::vector<PosedShape> shapes;  ///< `<collision>` elements: box, cylinder, sphere, capsule
   std::vector<UrdfMesh> meshes;    ///< likewise
 };
 
-/// A URDF's kinematic tree: one root, every other link the child of exactly one joint.
+/// A URDF's kinematic tree: one root, every other link the child of exactly one joint. A root
+/// without `<inertial>`, from which the robot hangs by one floating joint, is left out with it.
 struct UrdfTree {
   std::string root;
   std::vector<UrdfLink> links;    ///< sorted by name
   std::vector<UrdfJoint> joints;  ///< sorted by name
 };
 
-/// Parses the text of a URDF; `file` is for messages only.
-/// @throws InputError if urdfdom rejects it, the links are not a tree, or a mass or a moment of
-/// inertia is negative.
-UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file);
+/// Parses the text of a URDF; `file` is for messages only. With `kVisual` the links' shapes and
+/// meshes are those of `<visual>` elements.
+/// @throws InputError if urdfdom rejects it, the links are not a tree, or a mass is negative.
+UrdfTree ParseUrdf(const std::string& text, const std::filesystem::path& file,
+                   UrdfGeometry geometry = UrdfGeometry::kCollision);
+
+/// What every link's inertia must be: no principal moment is negative, but for rounding.
+/// @throws InputError, beginning with `owner`.
+void CheckDefinite(const Inertial& inertial, const std::string& owner);
 
 /// What the mass properties of a link must be that moves by itself: a positive mass, and an inertia
 /// that is positive definite and satisfies the triangle inequality to 1e-4.

@@ -241,6 +241,24 @@ Vector3d ConvexHull::Centroid() const {
   return sum / volume;
 }
 
+Eigen::Matrix3d ConvexHull::Covariance() const {
+  const Vector3d centre = Centroid();
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double volume = 0;
+  for (const auto& facet : facets) {
+    // The mean of d d^T over a tetrahedron with corners 0, a, b and c is
+    // (a a^T + b b^T + c c^T + (a + b + c) (a + b + c)^T) / 20.
+    const Vector3d a = vertices[facet[0]] - centre, b = vertices[facet[1]] - centre,
+                   c = vertices[facet[2]] - centre;
+    const double six = a.dot(b.cross(c));
+    const Vector3d all = a + b + c;
+    sum += six / 20 *
+           (a * a.transpose() + b * b.transpose() + c * c.transpose() + all * all.transpose());
+    volume += six;
+  }
+  return sum / volume;
+}
+
 double ConvexHull::Outside(const Vector3d& point) const {
   double most = -std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : facets) {

@@ -13,6 +13,8 @@ struct ConvexHull {
 
   double Volume() const;             ///< m^3
   Eigen::Vector3d Centroid() const;  ///< of the volume
+  /// Mean over the volume of d d^T, d from the centroid, m^2.
+  Eigen::Matrix3d Covariance() const;
   /// Distance of a point to the farthest plane of a facet: positive outside, negative inside.
   double Outside(const Eigen::Vector3d& point) const;
 };

@@ -1,5 +1,7 @@
 // From DRC-HUBO1's URDF to a robot, without its hand-written YAML.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -14,9 +16,12 @@
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/facts/zero_poses.h"
 #include "models/input/file_contents.h"
+#include "models/input/input_error.h"
 #include "models/robot/robot_yaml.h"
 #include "models/world/collision.h"
+#include "tests/message_of.h"
 #include "tests/models/temporary_folder.h"
+#include "tests/replaced.h"
 
 namespace possibility::actions {
 namespace {
@@ -89,6 +94,16 @@ TEST_F(OnboardingTest, OutOfReachThereIsNoPosture) {
   std::string reason;
   EXPECT_FALSE(StandWith(draft(), {1.2, 1}, &reason).has_value());
   EXPECT_NE(reason.find("leg cannot put its sole level"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("out of reach"), std::string::npos) << reason;
+}
+
+TEST_F(OnboardingTest, TheJointThatForbidsAPostureIsNamed) {
+  RobotDraft stiff = draft();
+  stiff.robot.joints[stiff.robot.JointIndex("LKP")].upper = 0.1;
+  std::string reason;
+  EXPECT_FALSE(StandWith(stiff, {0.8, 1}, &reason).has_value());
+  EXPECT_NE(reason.find("the left leg cannot"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("'LKP' would be at"), std::string::npos) << reason;
 }
 
 TEST_F(OnboardingTest, StandsBalancedOnLevelSolesAndTouchesNothing) {
@@ -156,6 +171,98 @@ TEST_F(OnboardingTest, TheFileThatIsWrittenIsTheRobot) {
   // The nominal stance needs no correction.
   const NominalStance stance = SolveNominalStance(robot, robot.gaits.front());
   EXPECT_LT((stance.q - robot.Configuration(standing->posture)).norm(), 1e-4);
+}
+
+/// The draft of DRC-HUBO1 with a change in its URDF.
+RobotDraft DraftOf(const std::string& urdf) {
+  const models::TemporaryFolder folder;
+  return DraftRobot(folder.Write("robot.urdf", urdf), {}, {});
+}
+
+TEST_F(OnboardingTest, WithoutCollisionShapesWhatIsSeenStandsForThem) {
+  const std::string urdf =
+      ReplacedEverywhere(models::ReadFileContents(kDraftUrdf), "collision>", "visual>");
+  const RobotDraft seen = DraftOf(urdf);
+  for (int i = 0; i < draft().robot.num_links(); ++i) {
+    EXPECT_EQ(seen.robot.links[i].shapes.size(), draft().robot.links[i].shapes.size());
+  }
+  for (const int side : {0, 1}) {
+    EXPECT_EQ(seen.robot.contacts[side].points, draft().robot.contacts[side].points);
+  }
+  ASSERT_EQ(seen.warnings.size(), draft().warnings.size() + 1);
+  EXPECT_NE(seen.warnings.front().find("a foot has no collision shape"), std::string::npos);
+}
+
+// The foot's front edge, 2 cm deep, is lower than the sole by a tilt: it is no sole.
+TEST_F(OnboardingTest, TheEdgeOfATiltedFootIsNoSole) {
+  std::string urdf = models::ReadFileContents(kDraftUrdf);
+  for (const std::string foot : {"Body_LAR", "Body_RAR"}) {
+    const std::size_t link = urdf.find("<link name=\"" + foot + "\">");
+    const std::size_t end = urdf.find("</link>", link);
+    const std::size_t begin = urdf.find("<collision>", link);
+    urdf.replace(begin, end - begin,
+                 "<collision><origin xyz=\"0.03 0 -0.08\" rpy=\"0 0.1 0\"/><geometry><box "
+                 "size=\"0.2 0.1 0.08\"/></geometry></collision><collision><origin xyz=\"0.127 0 "
+                 "-0.125\"/><geometry><box size=\"0.02 0.1 0.02\"/></geometry></collision>");
+  }
+  const RobotDraft tilted = DraftOf(urdf);
+  const models::ContactPatch& sole = tilted.robot.contacts[0];
+  const Eigen::Vector3d toe = sole.points[0] - sole.Centre();
+  const std::string warnings = fmt::format("{}", fmt::join(tilted.warnings, "; "));
+  EXPECT_NE(warnings.find("the sole of link 'Body_LAR' is tilted"), std::string::npos) << warnings;
+  EXPECT_GT(toe.norm(), 0.06);
+  EXPECT_NEAR(sole.normal_L.dot(toe), 0, 1e-3);
+}
+
+// A box's moments are known.
+TEST_F(OnboardingTest, AnInertiaThatNoBodyHasIsThatOfTheShapes) {
+  std::string urdf = models::ReadFileContents(kDraftUrdf);
+  const std::size_t hip = urdf.find("<link name=\"Body_RHY\">");
+  const std::size_t begin = urdf.find("ixx=\"", hip);
+  urdf.insert(begin + 5, "-");
+  const RobotDraft repaired = DraftOf(urdf);
+  ASSERT_EQ(repaired.inertials.size(), 1u);
+  EXPECT_EQ(repaired.inertials[0].link, "Body_RHY");
+  const int link = draft().robot.LinkIndex("Body_RHY");
+  const models::Inertial& body = repaired.robot.links[link].inertial;
+  EXPECT_EQ(body.mass, draft().robot.links[link].inertial.mass);
+  EXPECT_EQ(body.p_LC, draft().robot.links[link].inertial.p_LC);
+  const Vector3d squares = Vector3d(0.133, 0.0899, 0.1859).cwiseAbs2();
+  const Eigen::Matrix3d expected =
+      (body.mass / 12 * (squares.sum() * Vector3d::Ones() - squares)).asDiagonal();
+  EXPECT_LT((body.I_LC - expected).norm(), 1e-9);
+  EXPECT_NE(repaired.warnings.front().find("link 'Body_RHY': inertia is not positive definite"),
+            std::string::npos);
+}
+
+TEST_F(OnboardingTest, AnInertiaThatNoBodyHasIsAnErrorWithoutShapes) {
+  std::string urdf =
+      ReplacedEverywhere(models::ReadFileContents(kDraftUrdf), "collision>", "ignored>");
+  urdf.insert(urdf.find("ixx=\"", urdf.find("<link name=\"Body_RHY\">")) + 5, "-");
+  const std::string error = MessageOf<InputError>([&] { DraftOf(urdf); });
+  EXPECT_NE(error.find("link 'Body_RHY': inertia is not positive definite"), std::string::npos);
+  EXPECT_NE(error.find("expected an <inertial> that a body can have"), std::string::npos) << error;
+}
+
+TEST_F(OnboardingTest, WhatWasAssumedOfInertiasIsWritten) {
+  RobotDraft copy = draft();
+  models::Inertial body = copy.robot.links[3].inertial;
+  body.I_LC *= 1.25;
+  copy.inertials = {{copy.robot.links[3].name, body, "a \"reason\""}};
+  std::string reason;
+  const auto standing = StandWith(copy, {0.88, 0.9}, &reason);
+  ASSERT_TRUE(standing.has_value()) << reason;
+  copy.robot.name = "robot";
+  copy.robot.gaits = {{"walk",
+                       standing->posture,
+                       {{0, true, copy.left_leg}, {1, true, copy.right_leg}},
+                       ScaledParameters(copy, 1, 1)}};
+  const models::TemporaryFolder folder;
+  folder.Write("robot.urdf", models::ReadFileContents(kDraftUrdf));
+  const models::RobotModel robot =
+      models::LoadRobotModel(folder.Write("robot.yaml", RobotYaml(copy, "robot.urdf")));
+  EXPECT_TRUE(robot.links[3].inertial.I_LC.isApprox(body.I_LC, 1e-8));
+  EXPECT_TRUE(robot.links[4].inertial.I_LC.isApprox(copy.robot.links[4].inertial.I_LC, 1e-12));
 }
 
 TEST_F(OnboardingTest, NumbersScaleWithTheLeg) {

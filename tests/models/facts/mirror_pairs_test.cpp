@@ -46,6 +46,27 @@ TEST(MirrorPairsTest, TheMirroredPostureIsTheMirrorImage) {
   }
 }
 
+// Where a URDF puts the origin along a joint's axis changes nothing of the robot.
+TEST(MirrorPairsTest, AnOriginMayBeAnywhereOnTheAxis) {
+  RobotModel robot = Hubo();
+  const MirrorPairs before = FindMirrorPairs(robot, 0.025);
+  for (const std::string name : {"LHP", "LKP", "REP", "LSR"}) {
+    const int joint = robot.JointIndex(name);
+    Joint& moved = robot.joints[joint];
+    moved.X_PJ.translation() += 0.06 * (moved.X_PJ.linear() * moved.axis);
+    for (Joint& child : robot.joints) {
+      if (child.parent == joint + 1) child.X_PJ.translation() -= 0.06 * moved.axis;
+    }
+  }
+  const MirrorPairs after = FindMirrorPairs(robot, 0.025);
+  ASSERT_EQ(after.pairs.size(), before.pairs.size());
+  for (std::size_t i = 0; i < before.pairs.size(); ++i) {
+    EXPECT_EQ(after.pairs[i].left, before.pairs[i].left);
+    EXPECT_EQ(after.pairs[i].right, before.pairs[i].right);
+  }
+  EXPECT_NEAR(after.worst_distance, before.worst_distance, 1e-3);
+}
+
 TEST(MirrorPairsTest, NamesTheWorstLinkAndWhatHasNoImage) {
   RobotModel robot = Hubo();
   robot.joints[robot.JointIndex("LEP")].X_PJ.translation().x() += 0.007;

@@ -135,6 +135,23 @@ TEST(MeshShapes, PackagesAreFoundAboveTheUrdfOrWhereTheYamlSays) {
             "'package://bodies'");
 }
 
+// Robots are published without the folder of their package, or under another name.
+TEST(MeshShapes, WithoutItsPackageAFileIsFoundBesideTheUrdf) {
+  const TemporaryFolder folder;
+  WriteInto(folder.path() / "robot/meshes/a.stl", testing::BinaryStl(kBody));
+  WriteInto(folder.path() / "robot/urdf/b.stl", testing::BinaryStl(kBody));
+  WriteInto(folder.path() / "c.stl", testing::BinaryStl(kBody));
+  const auto resolved = [&](const std::string& name) {
+    return ResolveMeshPath(name, folder.path() / "robot/urdf/robot.urdf", {}, "robot.urdf");
+  };
+  EXPECT_TRUE(fs::equivalent(resolved("package://elsewhere/meshes/a.stl"),
+                             folder.path() / "robot/meshes/a.stl"));
+  EXPECT_TRUE(
+      fs::equivalent(resolved("package://elsewhere/b.stl"), folder.path() / "robot/urdf/b.stl"));
+  EXPECT_THROW(resolved("package://elsewhere/c.stl"), InputError);
+  EXPECT_THROW(resolved("package://elsewhere/../../c.stl"), InputError);
+}
+
 TEST(MeshShapes, ALinkOfTheFileSystemLeadsNowhereElse) {
   const TemporaryFolder folder;
   WriteInto(folder.path() / "secret/a.stl", testing::BinaryStl(kBody));

@@ -378,6 +378,17 @@ const BadRobot kBadUrdf[] = {
      "iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>",
      "robot.urdf: link 'l_hip': expected an inertial (only links on fixed or lumped joints may go "
      "without)"},
+    {"InertialOfAnUnknownLink", false, "pelvis_link: base",
+     "pelvis_link: base\ninertials: [{link: l_hop, mass: 1, com: [0, 0, 0], moments: [1, 1, 1], "
+     "products: [0, 0, 0], reason: a}]",
+     "robot.yaml:5: inertials[0].link: unknown link 'l_hop' (did you mean 'l_hip'?)"},
+    {"InertialOfNoBody", false, "pelvis_link: base",
+     "pelvis_link: base\ninertials: [{link: l_hip, mass: 1, com: [0, 0, 0], moments: [1, 1, 3], "
+     "products: [0, 0, 0], reason: a}]",
+     "robot.urdf: link 'l_hip': no body has this inertia: principal moment 3 exceeds the sum of "
+     "the other two, 1 and 1 kg m^2"},
+    {"CapsuleZero", true, "<sphere radius=\"0.05\"/>", "<capsule radius=\"0\" length=\"1\"/>",
+     "robot.urdf: link 'tool': collision: expected a positive capsule radius, got 0"},
     {"PackagesNoFolder", false, "pelvis_link: base", "pelvis_link: base\npackages: [robot.urdf]",
      "robot.yaml:5: packages[0]: expected a folder, got robot.urdf"},
     {"SpeedOfAnUnknownJoint", false,

@@ -40,6 +40,27 @@ TEST(RobotYaml, ReadsTheModel) {
   EXPECT_EQ(robot.ignored_collisions.size(), 1u);
 }
 
+const std::string kInertials =
+    "inertials:\n  - {link: l_hip, mass: 3, com: [0.1, 0.2, 0.3], moments: [1, 2, 2.5], products: "
+    "[0.1, -0.2, 0.3], reason: weighed}\n";
+
+TEST(RobotYaml, InertialsReplaceThoseOfTheUrdf) {
+  const TemporaryFolder folder;
+  // No body has the one in the URDF.
+  std::string urdf = TwoLeggedUrdf();
+  const std::size_t at = urdf.find("ixx=\"0.02\"", urdf.find("<link name=\"l_hip\">"));
+  urdf.replace(at, 10, "ixx=\"-2.0\"");
+  folder.Write("robot.urdf", urdf);
+  const RobotModel robot = LoadRobotModel(folder.Write("robot.yaml", TwoLeggedYaml() + kInertials));
+  const Inertial& body = robot.links[robot.LinkIndex("l_hip")].inertial;
+  EXPECT_EQ(body.mass, 3);
+  EXPECT_TRUE(body.p_LC.isApprox(Eigen::Vector3d(0.1, 0.2, 0.3)));
+  Eigen::Matrix3d expected;
+  expected << 1, 0.1, -0.2, 0.1, 2, 0.3, -0.2, 0.3, 2.5;
+  EXPECT_TRUE(body.I_LC.isApprox(expected));
+  EXPECT_THROW(LoadRobotModel(folder.Write("robot.yaml", TwoLeggedYaml())), InputError);
+}
+
 TEST(RobotYaml, OrdersJointsDepthFirstByName) {
   const RobotModel robot = LoadTwoLegged();
   std::vector<std::string> names;

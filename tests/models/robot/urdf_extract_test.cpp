@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "models/input/file_contents.h"
@@ -72,6 +73,58 @@ TEST(UrdfExtract, KeepsLinksAndJointsAndIsIdempotent) {
   EXPECT_EQ(tree.links.size(), 52u);
   EXPECT_EQ(tree.joints.size(), 51u);
   EXPECT_EQ(ExtractUrdf(extract, file), extract);
+}
+
+TEST(UrdfExtract, ACapsuleIsRead) {
+  const UrdfTree tree = ParseUrdf(Replaced(TwoLeggedUrdf(), "<sphere radius=\"0.05\"/>",
+                                           "<capsule radius=\"0.05\" length=\"0.2\"/>"),
+                                  "robot.urdf");
+  const auto tool = std::ranges::find(tree.links, "tool", &UrdfLink::name);
+  ASSERT_EQ(tool->shapes.size(), 1u);
+  EXPECT_EQ(tool->shapes[0].shape.type, ShapeType::kCapsule);
+  EXPECT_EQ(tool->shapes[0].shape.radius, 0.05);
+  EXPECT_EQ(tool->shapes[0].shape.length, 0.2);
+}
+
+TEST(UrdfExtract, VisualsTakeThePlaceOfCollisionsIfAskedFor) {
+  const std::string urdf =
+      Replaced(TwoLeggedUrdf(), "<link name=\"tool\">",
+               "<link name=\"tool\"><visual><origin xyz=\"1 2 3\"/><geometry><box size=\"1 1 "
+               "1\"/></geometry><material/></visual>");
+  for (const bool shown : {false, true}) {
+    const UrdfTree tree =
+        ParseUrdf(urdf, "robot.urdf", shown ? UrdfGeometry::kVisual : UrdfGeometry::kCollision);
+    std::size_t shapes = 0;
+    for (const UrdfLink& link : tree.links) shapes += link.shapes.size();
+    EXPECT_EQ(shapes, shown ? 1u : 2u);
+    const auto tool = std::ranges::find(tree.links, "tool", &UrdfLink::name);
+    ASSERT_EQ(tool->shapes.size(), 1u);
+    EXPECT_EQ(tool->shapes[0].shape.type, shown ? ShapeType::kBox : ShapeType::kSphere);
+    EXPECT_EQ(tool->shapes[0].X_PS.translation().z(), shown ? 3 : 0);
+  }
+}
+
+std::string BelowAWorld(const std::string& joint_type, const std::string& world) {
+  return Replaced(TwoLeggedUrdf(), "<link name=\"base\">",
+                  "<link name=\"world\">" + world + "</link><joint name=\"free\" type=\"" +
+                      joint_type +
+                      "\"><parent link=\"world\"/><child link=\"base\"/><limit lower=\"0\" "
+                      "upper=\"1\" velocity=\"1\" effort=\"1\"/></joint><link name=\"base\">");
+}
+
+TEST(UrdfExtract, AWorldThatTheRobotFloatsInIsLeftOut) {
+  const UrdfTree tree = ParseUrdf(BelowAWorld("floating", ""), "robot.urdf");
+  const UrdfTree plain = ParseUrdf(TwoLeggedUrdf(), "robot.urdf");
+  EXPECT_EQ(tree.root, "base");
+  EXPECT_EQ(tree.links.size(), plain.links.size());
+  EXPECT_EQ(tree.joints.size(), plain.joints.size());
+  EXPECT_EQ(ParseUrdf(BelowAWorld("revolute", ""), "robot.urdf").root, "world");
+  EXPECT_EQ(ParseUrdf(BelowAWorld("floating",
+                                  "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" "
+                                  "ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>"),
+                      "robot.urdf")
+                .root,
+            "world");
 }
 
 }  // namespace

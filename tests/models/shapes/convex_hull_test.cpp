@@ -67,6 +67,9 @@ TEST(ConvexHullTest, ABoxFullOfGridPointsHasItsVolumeAndEightCorners) {
     const ConvexHull hull = HullOfPoints(points);
     EXPECT_NEAR(hull.Volume(), 0.4 * 1.0 * 0.3, 1e-9);
     EXPECT_LT((hull.Centroid() - X * Vector3d(0.2, 0.5, 0.15)).norm(), 1e-9);
+    const Eigen::Matrix3d spread =
+        X.linear() * Vector3d(0.16, 1, 0.09).asDiagonal() * X.linear().transpose() / 12;
+    EXPECT_LT((hull.Covariance() - spread).norm(), 1e-9);
     for (const Vector3d& p : points) EXPECT_LE(hull.Outside(p), 1e-8);
     if (trial == 0) {
       EXPECT_EQ(hull.vertices.size(), 8u);
