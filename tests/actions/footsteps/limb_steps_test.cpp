@@ -120,7 +120,7 @@ TEST_P(LimbStepsTest, ALimbFarFromTheOthersIsOutOfReach) {
   for (int limb = 0; limb < static_cast<int>(feet.size()); ++limb) {
     ASSERT_TRUE(reach.HighestRoot(feet, limb));
     std::vector<Foothold> apart = feet;
-    apart[limb].stance.x = 6 * limits().forward;
+    apart[limb].stance.x = 20 * limits().forward;  // five lengths of a limb
     EXPECT_FALSE(reach.HighestRoot(apart, limb));
   }
 }
