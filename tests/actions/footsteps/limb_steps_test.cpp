@@ -10,6 +10,7 @@
 #include "actions/footsteps/footstep_plan.h"
 #include "actions/footsteps/step_reach.h"
 #include "actions/planner/planner.h"
+#include "actions/wholebody/limb_bend.h"
 #include "actions/wholebody/support_polygon.h"
 #include "tests/actions/drchubo1.h"
 #include "tests/actions/footsteps/uneven_world.h"
@@ -34,6 +35,9 @@ class LimbStepsTest : public ::testing::TestWithParam<const char*> {
   const LocomotionModel& model() const { return OnFourLimbs(GetParam()); }
   const NominalStance& stance() const { return model().gaits[0]->stance; }
   FootstepLimits limits() const { return FootstepLimits::Of(*model().robot, stance()); }
+  bool IsPeg(int limb) const {
+    return model().robot->contacts[stance().gait->limbs[limb].contact].name.ends_with("peg");
+  }
   double margin() const { return stance().gait->parameters.com_margin; }
 
   /// Steps ahead over ground that the world has; empty if none are found.
@@ -119,6 +123,10 @@ TEST_P(LimbStepsTest, ALimbFarFromTheOthersIsOutOfReach) {
   std::vector<Foothold> feet(stance().gait->limbs.size());
   for (int limb = 0; limb < static_cast<int>(feet.size()); ++limb) {
     ASSERT_TRUE(reach.HighestRoot(feet, limb));
+    // The joints of DRC-HUBO1's arms are no chain: held ones are between them.
+    const bool is_chain = BendOf(*model().robot, stance().gait->limbs[limb]).has_value();
+    EXPECT_EQ(is_chain, !IsPeg(limb));
+    if (!is_chain) continue;
     std::vector<Foothold> apart = feet;
     apart[limb].stance.x = 20 * limits().forward;  // five lengths of a limb
     EXPECT_FALSE(reach.HighestRoot(apart, limb));
