@@ -25,9 +25,8 @@ std::string Fault(const models::UrdfLink& link) {
 
 class InertialRepair {
  public:
-  InertialRepair(const std::string& urdf, const std::vector<std::filesystem::path>& packages,
-                 RobotDraft* draft)
-      : urdf_(urdf), packages_(packages), draft_(*draft) {
+  InertialRepair(const std::vector<std::filesystem::path>& packages, RobotDraft* draft)
+      : packages_(packages), draft_(*draft) {
     moving_.insert(draft_.tree.root);
     for (const models::UrdfJoint& joint : draft_.tree.joints) {
       if (joint.type != "fixed" && !draft_.plan.lump.contains(joint.name)) {
@@ -55,7 +54,7 @@ class InertialRepair {
   void Repair(const std::string& fault, models::UrdfLink* link) {
     std::vector<models::PosedShape> shapes = ShapesOf(*link);
     if (shapes.empty()) {
-      if (!shown_) shown_ = VisualTree(draft_, urdf_);
+      if (!shown_) shown_ = VisualTree(draft_);
       // Links keep their order.
       shapes = ShapesOf(shown_->links[link - draft_.tree.links.data()]);
     }
@@ -82,7 +81,6 @@ class InertialRepair {
     return alone.links[0].shapes;
   }
 
-  const std::string& urdf_;
   const std::vector<std::filesystem::path>& packages_;
   RobotDraft& draft_;
   std::set<std::string> moving_;
@@ -91,13 +89,12 @@ class InertialRepair {
 
 }  // namespace
 
-models::UrdfRobot BuildWithAssumedInertials(const std::string& urdf,
-                                            const std::vector<std::filesystem::path>& packages,
+models::UrdfRobot BuildWithAssumedInertials(const std::vector<std::filesystem::path>& packages,
                                             RobotDraft* draft) {
   try {
     return models::BuildUrdfRobot(draft->tree, draft->plan.lump, draft->urdf_file);
   } catch (const InputError&) {
-    if (!InertialRepair(urdf, packages, draft).Run()) throw;
+    if (!InertialRepair(packages, draft).Run()) throw;
   }
   return models::BuildUrdfRobot(draft->tree, draft->plan.lump, draft->urdf_file);
 }

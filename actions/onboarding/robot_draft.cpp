@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "actions/onboarding/assumed_inertials.h"
+#include "actions/onboarding/facing.h"
 #include "actions/onboarding/leg_measures.h"
 #include "actions/onboarding/shape_corners.h"
 #include "actions/onboarding/visual_shapes.h"
@@ -335,26 +336,41 @@ void IgnoreDisabledPairs(const models::Srdf& srdf, RobotDraft* draft) {
       fmt::format("{} pairs of links are not tested because the SRDF disables them", count));
 }
 
-}  // namespace
-
-RobotDraft DraftRobot(const std::filesystem::path& urdf_file,
-                      const std::vector<std::filesystem::path>& packages,
-                      const std::optional<std::filesystem::path>& srdf_file) {
+RobotDraft DraftOfText(const std::string& urdf, const std::filesystem::path& urdf_file,
+                       const std::vector<std::filesystem::path>& packages) {
   RobotDraft draft;
   draft.urdf_file = urdf_file;
-  const std::string urdf = models::ReadFileContents(urdf_file);
+  draft.urdf = urdf;
   draft.tree = models::ParseUrdf(urdf, urdf_file);
   ForgetPlaceholders(&draft.tree);
   draft.plan = models::FindBodyPlan(draft.tree, urdf_file);
   draft.findings = draft.plan.findings;
   LumpImpossibleArms(&draft);
-  models::UrdfRobot built = BuildWithAssumedInertials(urdf, packages, &draft);
-  AddVisualShapes(urdf, &draft, &built);
+  models::UrdfRobot built = BuildWithAssumedInertials(packages, &draft);
+  AddVisualShapes(&draft, &built);
   draft.robot = std::move(built.robot);
   draft.robot.file = urdf_file;
   models::AddMeshShapes(built.meshes, urdf_file, packages, &draft.robot);
   JoinShapes(&draft.robot, &draft.findings);
   Drafter(&draft).Derive();
+  return draft;
+}
+
+}  // namespace
+
+RobotDraft DraftRobot(const std::filesystem::path& urdf_file,
+                      const std::vector<std::filesystem::path>& packages,
+                      const std::optional<std::filesystem::path>& srdf_file) {
+  const std::string urdf = models::ReadFileContents(urdf_file);
+  RobotDraft draft = DraftOfText(urdf, urdf_file, packages);
+  if (FacesBackward(draft)) {
+    const std::string root = draft.tree.root;
+    draft = DraftOfText(WithTurnedRoot(urdf, root), urdf_file, packages);
+    draft.warnings.push_back(
+        fmt::format("the robot looks along -x of '{}', as feet and knees say: the copy of the URDF "
+                    "has a root turned by half a turn",
+                    root));
+  }
   if (srdf_file) IgnoreDisabledPairs(models::ReadSrdf(*srdf_file, draft.tree), &draft);
   return draft;
 }

@@ -36,6 +36,7 @@ struct IgnoredPair {
 /// What follows from a URDF (and an SRDF) for a robot that walks on two feet, without postures.
 struct RobotDraft {
   std::filesystem::path urdf_file;
+  std::string urdf;  ///< its text; with a turned root if the robot looks along -x of its own
   models::UrdfTree tree;
   models::BodyPlan plan;
   /// Links, joints, shapes, limits, friction; contacts 0 and 1 are the left and the right sole.

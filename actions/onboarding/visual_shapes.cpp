@@ -14,11 +14,11 @@ bool HasShape(const models::UrdfRobot& built, int link) {
 
 }  // namespace
 
-models::UrdfTree VisualTree(const RobotDraft& draft, const std::string& urdf) {
+models::UrdfTree VisualTree(const RobotDraft& draft) {
   models::UrdfTree tree = draft.tree;
   // Both trees' links are sorted by name.
   const models::UrdfTree shown =
-      models::ParseUrdf(urdf, draft.urdf_file, models::UrdfGeometry::kVisual);
+      models::ParseUrdf(draft.urdf, draft.urdf_file, models::UrdfGeometry::kVisual);
   for (std::size_t i = 0; i < tree.links.size(); ++i) {
     tree.links[i].shapes = shown.links[i].shapes;
     tree.links[i].meshes = shown.links[i].meshes;
@@ -26,13 +26,13 @@ models::UrdfTree VisualTree(const RobotDraft& draft, const std::string& urdf) {
   return tree;
 }
 
-void AddVisualShapes(const std::string& urdf, RobotDraft* draft, models::UrdfRobot* built) {
+void AddVisualShapes(RobotDraft* draft, models::UrdfRobot* built) {
   const auto is_covered = [&](const models::LimbChain& leg) {
     return HasShape(*built, built->robot.LinkIndex(leg.tip));
   };
   if (is_covered(draft->plan.left_leg) && is_covered(draft->plan.right_leg)) return;
   const models::UrdfRobot shown =
-      models::BuildUrdfRobot(VisualTree(*draft, urdf), draft->plan.lump, draft->urdf_file);
+      models::BuildUrdfRobot(VisualTree(*draft), draft->plan.lump, draft->urdf_file);
   std::vector<std::string> names;
   for (int link = 0; link < built->robot.num_links(); ++link) {
     if (HasShape(*built, link) || !HasShape(shown, link)) continue;

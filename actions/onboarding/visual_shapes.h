@@ -8,12 +8,12 @@
 namespace possibility::actions {
 
 /// The draft's tree with the links' `<visual>` shapes and meshes in place of the collision ones.
-/// `urdf`: its text. @throws InputError as ParseUrdf.
-models::UrdfTree VisualTree(const RobotDraft& draft, const std::string& urdf);
+/// @throws InputError as ParseUrdf.
+models::UrdfTree VisualTree(const RobotDraft& draft);
 
 /// If a foot has no collision shape, every link of `built` without any gets those that it shows,
-/// with a warning. `urdf`: the URDF's text, whose `<visual>` elements are read only then.
+/// with a warning. The URDF's `<visual>` elements are read only then.
 /// @throws InputError as ParseUrdf.
-void AddVisualShapes(const std::string& urdf, RobotDraft* draft, models::UrdfRobot* built);
+void AddVisualShapes(RobotDraft* draft, models::UrdfRobot* built);
 
 }  // namespace possibility::actions

@@ -17,7 +17,6 @@
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
 #include "experiments/viewer/viewer_page.h"
-#include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 #include "models/input/json_text.h"
 #include "models/robot/robot_yaml.h"
@@ -119,7 +118,7 @@ class Init {
     draft.ignored = fitted.ignored;
     draft.findings.insert(draft.findings.end(), gait_findings_.begin(), gait_findings_.end());
     const std::string urdf = draft.robot.name + ".urdf";
-    WriteOutput(options_.out / urdf, models::ReadFileContents(options_.urdf));
+    WriteOutput(options_.out / urdf, draft_.urdf);
     WriteOutput(RobotFile(), actions::RobotYaml(draft, urdf));
     WriteOutput(ScenarioFile(),
                 actions::FlatScenarioYaml(draft.robot.name + "_flat", "robot.yaml",

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "actions/onboarding/facing.h"
 #include "actions/onboarding/foot_placement.h"
 #include "actions/onboarding/gait_numbers.h"
 #include "actions/onboarding/robot_draft.h"
@@ -191,6 +192,26 @@ TEST_F(OnboardingTest, WithoutCollisionShapesWhatIsSeenStandsForThem) {
   }
   ASSERT_EQ(seen.warnings.size(), draft().warnings.size() + 1);
   EXPECT_NE(seen.warnings.front().find("a foot has no collision shape"), std::string::npos);
+}
+
+// iCub's root looks backward.
+TEST_F(OnboardingTest, ARobotThatLooksBackwardIsTurned) {
+  EXPECT_FALSE(FacesBackward(draft()));
+  const std::string urdf = models::ReadFileContents(kDraftUrdf);
+  const RobotDraft turned = DraftOf(WithTurnedRoot(urdf, draft().tree.root));
+  EXPECT_FALSE(FacesBackward(turned));
+  EXPECT_EQ(turned.plan.left_leg.joints, draft().plan.left_leg.joints);
+  EXPECT_NEAR(turned.leg_length, draft().leg_length, 1e-9);
+  for (const int side : {0, 1}) {
+    const auto places = [&](const RobotDraft& of) {
+      const models::ContactPatch& patch = of.robot.contacts[side];
+      return Vector3d(
+          models::PosesInRoot(of.robot, Eigen::VectorXd::Zero(of.robot.num_joints()))[patch.link] *
+          patch.Centre());
+    };
+    EXPECT_LT((places(turned) - places(draft())).norm(), 1e-9);
+  }
+  EXPECT_NE(turned.warnings.back().find("looks along -x"), std::string::npos);
 }
 
 // The foot's front edge, 2 cm deep, is lower than the sole by a tilt: it is no sole.
