@@ -36,6 +36,7 @@ struct QuasiStaticGait::Progress {
   std::vector<PlanarPose> limbs;  ///< stance of each limb
   Vector2d centre_of_mass;
   double root_yaw = 0;
+  double root_roll = 0;
   double z = 0;
   double time_scale = 1;
 };
@@ -96,11 +97,13 @@ std::vector<MotionPhase> QuasiStaticGait::Phases(const std::vector<PlanarPose>& 
     for (int j = 0; j < limb_count; ++j) {
       const PlanarPose reference = Interpolate(a, b, (j + 0.5) / limb_count);
       const bool begins = phases.empty();
-      AppendShift(SupportedCentreOfMass(progress, order[j], reference), begins, &progress, &phases);
+      AppendShift({SupportedCentreOfMass(progress, order[j], reference),
+                   RollFor(progress, order[j], reference)},
+                  begins, &progress, &phases);
       AppendSwing(order[j], b, Interpolate(a, b, (j + 1.0) / limb_count).yaw, &progress, &phases);
     }
   }
-  AppendShift(strides.back() * stance_->centre_of_mass, true, &progress, &phases);
+  AppendShift({strides.back() * stance_->centre_of_mass, 0}, true, &progress, &phases);
   return phases;
 }
 
@@ -149,6 +152,19 @@ Vector2d QuasiStaticGait::SupportedCentreOfMass(const Progress& progress, int sw
                                         stance_->gait->parameters.com_margin);
 }
 
+double QuasiStaticGait::RollFor(const Progress& progress, int swinging,
+                                const PlanarPose& reference) const {
+  const double sway = stance_->gait->parameters.sway;
+  if (sway == 0) return 0;
+  double aside = 0;  // m, to the left, of the limbs that bear
+  for (size_t limb = 0; limb < progress.limbs.size(); ++limb) {
+    if (static_cast<int>(limb) == swinging) continue;
+    const Vector2d centre = stance_->patch_centres[limb].head<2>();
+    aside += (reference.Inverse() * (progress.limbs[limb] * centre)).y();
+  }
+  return aside > 0 ? -sway : sway;
+}
+
 LimbTask QuasiStaticGait::StandingLimb(int limb, const PlanarPose& at, double z) const {
   LimbTask task;
   task.limb = &stance_->gait->limbs[limb];
@@ -162,6 +178,9 @@ WholeBodyTask QuasiStaticGait::StandingTask(const Progress& progress) const {
   WholeBodyTask task;
   task.root_yaw = Constant(progress.root_yaw);
   task.root_pitch = Constant(stance_->gait->posture.root_pitch);
+  if (stance_->gait->parameters.sway != 0) {
+    task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, Constant(progress.root_roll));
+  }
   task.root_height = Constant(stance_->gait->posture.root_height + progress.z);
   task.centre_of_mass = ConstantVector<Vector2d>(progress.centre_of_mass);
   task.joints = ConstantVector<Eigen::VectorXd>(stance_->q.tail(robot_->num_joints()));
@@ -171,12 +190,12 @@ WholeBodyTask QuasiStaticGait::StandingTask(const Progress& progress) const {
   return task;
 }
 
-void QuasiStaticGait::AppendShift(const Vector2d& target, bool is_end, Progress* progress,
+void QuasiStaticGait::AppendShift(const Balance& target, bool is_end, Progress* progress,
                                   std::vector<MotionPhase>* phases) const {
-  const Vector2d from = progress->centre_of_mass;
-  const double distance = (target - from).norm();
+  const Balance from{progress->centre_of_mass, progress->root_roll};
+  const double distance = (target.centre_of_mass - from.centre_of_mass).norm();
   // The robot stands on all its limbs where the motion begins and ends.
-  if (distance < kNegligibleShift && !is_end) return;
+  if (distance < kNegligibleShift && target.roll == from.roll && !is_end) return;
   const models::GaitParameters& parameters = stance_->gait->parameters;
   MotionPhase phase;
   phase.duration =
@@ -185,11 +204,16 @@ void QuasiStaticGait::AppendShift(const Vector2d& target, bool is_end, Progress*
   for (const models::GaitLimb& limb : stance_->gait->limbs) phase.contacts.push_back(limb.contact);
   phase.task = [task = StandingTask(*progress), from, target,
                 duration = phase.duration](double t) mutable {
-    task.centre_of_mass = BlendVector<Vector2d>(from, target, RestToRest(t, duration));
+    const ScalarSignal s = RestToRest(t, duration);
+    task.centre_of_mass = BlendVector<Vector2d>(from.centre_of_mass, target.centre_of_mass, s);
+    if (task.root_turn) {
+      task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, Blend(from.roll, target.roll, s));
+    }
     return task;
   };
   phases->push_back(std::move(phase));
-  progress->centre_of_mass = target;
+  progress->centre_of_mass = target.centre_of_mass;
+  progress->root_roll = target.roll;
 }
 
 void QuasiStaticGait::AppendSwing(int limb, const PlanarPose& to, double root_yaw,
@@ -205,7 +229,8 @@ void QuasiStaticGait::AppendSwing(int limb, const PlanarPose& to, double root_ya
   const LimbTask from = StandingLimb(limb, progress->limbs[limb], progress->z);
   const LimbTask target = StandingLimb(limb, to, progress->z);
   phase.task = [=, task = StandingTask(*progress), from_yaw = progress->root_yaw,
-                clearance = parameters.clearance, duration = phase.duration](double t) mutable {
+                roll = progress->root_roll, clearance = parameters.clearance,
+                duration = phase.duration](double t) mutable {
     const ScalarSignal s = RestToRest(t, duration);
     const ScalarSignal lift = Bump(t, duration);
     LimbTask& swing = task.limbs[limb];
@@ -215,6 +240,7 @@ void QuasiStaticGait::AppendSwing(int limb, const PlanarPose& to, double root_ya
     swing.position.acceleration.z() += clearance * lift.acceleration;
     swing.yaw = Blend(from.yaw.value, target.yaw.value, s);
     task.root_yaw = Blend(from_yaw, root_yaw, s);
+    if (task.root_turn) task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, Constant(roll));
     return task;
   };
   phases->push_back(std::move(phase));

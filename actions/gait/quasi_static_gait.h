@@ -34,6 +34,10 @@ class QuasiStaticGait final : public GaitMotion {
 
  private:
   struct Progress;
+  struct Balance {
+    Eigen::Vector2d centre_of_mass;  ///< m
+    double roll = 0;                 ///< rad, of the root
+  };
   double DurationOfStridesAhead(int count) const;
   Progress AtRest(const PlanarPose& stance, double z) const;
   /// The gait's cycle from its start or from half-way: the one whose first swing ends farther from
@@ -43,7 +47,9 @@ class QuasiStaticGait final : public GaitMotion {
   std::vector<Eigen::Vector2d> Placed(int limb, const PlanarPose& at) const;
   Eigen::Vector2d SupportedCentreOfMass(const Progress& progress, int swinging,
                                         const PlanarPose& reference) const;
-  void AppendShift(const Eigen::Vector2d& target, bool is_end, Progress* progress,
+  /// Roll of the root over the limbs that bear while `swinging` swings, rad: GaitParameters::sway.
+  double RollFor(const Progress& progress, int swinging, const PlanarPose& reference) const;
+  void AppendShift(const Balance& target, bool is_end, Progress* progress,
                    std::vector<MotionPhase>* phases) const;
   void AppendSwing(int limb, const PlanarPose& to, double root_yaw, Progress* progress,
                    std::vector<MotionPhase>* phases) const;

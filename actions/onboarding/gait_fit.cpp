@@ -22,6 +22,8 @@ constexpr double kSpreads[] = {0.8, 1, 1.2, 0.6};
 constexpr double kExtensions[] = {0.9, 0.86, 0.94, 0.82, 0.97, 0.76};
 constexpr double kQuickness[] = {1, 0.8, 1.25};
 constexpr double kMarginShares[] = {1, 1.6, 0.6};
+/// rad: tried one after the other, until something walks.
+constexpr double kSways[] = {0, 0.08, 0.16};
 /// Of the longest strides ahead, aside and in turns.
 constexpr double kStrides[] = {1, 0.75, 0.5, 0.35, 0.2};
 
@@ -38,21 +40,28 @@ class WalkFit {
         trials_(trials),
         progress_(progress) {}
 
-  /// One number after the other, each from the best so far.
   std::vector<FittedGait> Run() {
-    FitTrial start;
-    start.choice = {kExtensions[0], kSpreads[0]};
-    Try(start);
-    Vary(kSpreads, [](FitTrial* trial, double value) { trial->choice.spread = value; });
-    Vary(kExtensions, [](FitTrial* trial, double value) { trial->choice.extension = value; });
-    Vary(kMarginShares, [](FitTrial* trial, double value) { trial->margin = value; });
-    Vary(kQuickness, [](FitTrial* trial, double value) { trial->quickness = value; });
-    Vary(kExtensions, [](FitTrial* trial, double value) { trial->choice.extension = value; });
+    for (const double sway : kSways) {
+      Search(draft_.sway.value_or(sway));
+      if (!fits_.empty() || draft_.sway) break;
+    }
     if (fits_.size() > kKept) fits_.resize(kKept);
     return std::move(fits_);
   }
 
  private:
+  /// One number after the other, each from the best so far.
+  void Search(double sway) {
+    start_.choice = {kExtensions[0], kSpreads[0]};
+    start_.sway = sway;
+    Try(start_);
+    Vary(kSpreads, [](FitTrial* trial, double value) { trial->choice.spread = value; });
+    Vary(kExtensions, [](FitTrial* trial, double value) { trial->choice.extension = value; });
+    Vary(kMarginShares, [](FitTrial* trial, double value) { trial->margin = value; });
+    Vary(kQuickness, [](FitTrial* trial, double value) { trial->quickness = value; });
+    Vary(kExtensions, [](FitTrial* trial, double value) { trial->choice.extension = value; });
+  }
+
   bool IsDone() const {
     const bool quick = !fits_.empty() && fits_.front().trial.speed >= wanted_;
     return quick || watch_.Seconds() > seconds_;
@@ -60,7 +69,7 @@ class WalkFit {
 
   template <std::size_t count, typename Set>
   void Vary(const double (&values)[count], const Set& set) {
-    const FitTrial from = fits_.empty() ? trials_->front() : fits_.front().trial;
+    const FitTrial from = fits_.empty() ? start_ : fits_.front().trial;
     for (const double value : values) {
       if (IsDone()) return;
       FitTrial trial = from;
@@ -73,7 +82,7 @@ class WalkFit {
     return std::any_of(trials_->begin(), trials_->end(), [&](const FitTrial& other) {
       return other.choice.extension == trial.choice.extension &&
              other.choice.spread == trial.choice.spread && other.quickness == trial.quickness &&
-             other.margin == trial.margin;
+             other.margin == trial.margin && other.sway == trial.sway;
     });
   }
 
@@ -121,6 +130,7 @@ class WalkFit {
     gait.limbs = {{0, true, draft_.left_leg}, {1, true, draft_.right_leg}};
     gait.parameters = ScaledParameters(draft_, 1, trial.quickness);
     gait.parameters.com_margin *= trial.margin;
+    gait.parameters.sway = trial.sway;
     return gait;
   }
 
@@ -230,6 +240,7 @@ class WalkFit {
   std::vector<FitTrial>* trials_;
   const std::function<void(const FitTrial&)>& progress_;
   Stopwatch watch_;
+  FitTrial start_;
   std::vector<FittedGait> fits_;  ///< the quickest first
 };
 
@@ -239,9 +250,10 @@ std::string TextOf(const FitTrial& trial) {
   const std::string what = trial.reason.empty()
                                ? fmt::format("{:.2f} m/s (quicker: {})", trial.speed, trial.binding)
                                : "no: " + trial.reason;
-  return fmt::format("hips at {:.2f}, feet at {:.2f}, balance {:.1f}, quickness {:.2f}: {}",
+  const std::string sway = trial.sway == 0 ? "" : fmt::format(", sway {:.2f}", trial.sway);
+  return fmt::format("hips at {:.2f}, feet at {:.2f}, balance {:.1f}, quickness {:.2f}{}: {}",
                      trial.choice.extension, trial.choice.spread, trial.margin, trial.quickness,
-                     what);
+                     sway, what);
 }
 
 std::vector<FittedGait> FitWalk(const RobotDraft& draft, double seconds, double enough,

@@ -16,6 +16,7 @@ struct FitTrial {
   StandingChoice choice;
   double quickness = 1;
   double margin = 1;    ///< of ScaledParameters' com_margin
+  double sway = 0;      ///< rad, GaitParameters
   double speed = 0;     ///< m/s, of the quickest pace that fits, or of quasi-static strides
   std::string reason;   ///< why there is no walk; empty otherwise
   std::string binding;  ///< what forbids a quicker pace
@@ -35,8 +36,8 @@ struct FittedGait {
 
 /// Searches the distance of the feet, the posture's height, the margin of balance and the time of
 /// swings, one after the other, for the quickest walk. Stops after `seconds`, or when the walk is
-/// as quick as ExpectedSpeed times `enough`. None if no trial gives a walk at all; the trials say
-/// why. `progress`: called after each trial.
+/// as quick as ExpectedSpeed times `enough`. Only if nothing walks, the trunk sways. None if no
+/// trial gives a walk at all; the trials say why. `progress`: called after each trial.
 std::vector<FittedGait> FitWalk(const RobotDraft& draft, double seconds, double enough,
                                 std::vector<FitTrial>* trials,
                                 const std::function<void(const FitTrial&)>& progress);

@@ -55,6 +55,7 @@ RobotDraft DraftToRefit(const models::RobotModel& robot, const models::Gait& gai
   draft.pairs = models::FindMirrorPairs(robot, kMirrored);
   draft.pairs_are_given = true;
   draft.rest = gait.posture.joints;
+  draft.sway = gait.parameters.sway;
   for (const auto* leg : {&draft.left_leg, &draft.right_leg}) {
     for (const int joint : *leg) (*draft.rest)[joint] = 0;
   }

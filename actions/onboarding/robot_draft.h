@@ -50,6 +50,8 @@ struct RobotDraft {
   bool pairs_are_given = false;  ///< `ignored` is complete: postures add none
   /// Of joints outside the legs, which then stay; none: 0, and arms are placed.
   std::optional<Eigen::VectorXd> rest;
+  /// rad, GaitParameters::sway of a gait that is fitted again, which then stays.
+  std::optional<double> sway;
   double leg_length = 0;              ///< m: height of the hips above the soles at zero
   double sole_width = 0;              ///< m: least width of the left sole
   double sole_breadth = 0;            ///< m: its extent aside

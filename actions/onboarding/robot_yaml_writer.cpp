@@ -202,6 +202,7 @@ class YamlWriter {
         "      com_acceleration: {:.4g}\n      minimum_shift_time: {:.4g}\n",
         p.forward, p.lateral, p.turn * kDegrees, p.clearance, p.com_margin, p.swing_time,
         p.com_acceleration, p.minimum_shift_time);
+    if (p.sway != 0) Add("      sway_deg: {:.4g}\n", p.sway * kDegrees);
   }
 
   const RobotDraft& draft_;

@@ -143,7 +143,7 @@ std::vector<GaitLimb> ReadLimbs(const YamlNode& list, const RobotModel& robot) {
 
 GaitParameters ReadParameters(const YamlNode& node) {
   node.MapOf({"forward", "lateral", "turn_deg", "clearance", "com_margin", "swing_time",
-              "com_acceleration", "minimum_shift_time"});
+              "com_acceleration", "minimum_shift_time", "sway_deg"});
   GaitParameters parameters;
   parameters.forward = node.At("forward").Positive();
   parameters.lateral = node.At("lateral").Positive();
@@ -154,6 +154,11 @@ GaitParameters ReadParameters(const YamlNode& node) {
   parameters.swing_time = node.At("swing_time").Positive();
   parameters.com_acceleration = node.At("com_acceleration").Positive();
   parameters.minimum_shift_time = node.At("minimum_shift_time").Positive();
+  constexpr double kMostSway = 45;  // degrees
+  if (const auto sway = node.Find("sway_deg")) {
+    sway->Number(0, kMostSway);
+    parameters.sway = sway->Degrees();
+  }
   return parameters;
 }
 

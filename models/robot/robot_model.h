@@ -91,6 +91,9 @@ struct GaitParameters {
   double swing_time = 0;        ///< s, duration of one limb's swing
   double com_acceleration = 0;  ///< m/s^2, peak; sets the duration of weight shifts
   double minimum_shift_time = 0;  ///< s
+  /// rad: roll of the root over the limbs that bear while another one swings, in strides from rest
+  /// to rest.
+  double sway = 0;
 };
 
 /// A quasi-static gait: posture, limbs in the order in which they swing, and bounds.

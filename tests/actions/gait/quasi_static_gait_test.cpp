@@ -117,6 +117,45 @@ TEST_P(QuasiStaticGaitTest, BeginsAndEndsOnAllLimbs) {
   }
 }
 
+// While one foot swings, the trunk's top is over the other one.
+TEST(SwayingGaitTest, TheTrunkRollsOverTheFootThatBears) {
+  const LocomotionModel& model = DrcHubo1Locomotion();
+  const LocomotionModel::GaitEntry& walk = *model.gaits[model.GaitIndex("walk")];
+  models::Gait swaying = *walk.stance.gait;
+  swaying.parameters.sway = 0.1;
+  NominalStance stance = walk.stance;
+  stance.gait = &swaying;
+  const QuasiStaticGait gait(*model.robot, stance);
+  const PlanarPose from{0.3, -0.2, 0.7}, to = from * PlanarPose{0.2, 0.05, 0.1};
+  WholeBodySolver solver(*model.robot);
+  VectorXd guess = stance.q;
+  guess.segment<2>(4) = from.position();
+  constexpr double kStep = 1e-4;
+  int swings = 0;
+  for (const MotionPhase& phase : gait.Phases(PlanStrides(swaying.parameters, from, to), 0, 1)) {
+    const double t = 0.4 * phase.duration;
+    const WholeBodyState before = solver.Solve(phase.task(t - kStep), guess);
+    const WholeBodyState after = solver.Solve(phase.task(t + kStep), guess);
+    const WholeBodyState now = solver.Solve(phase.task(t), guess);
+    EXPECT_LT(((after.v - before.v) / (2 * kStep) - now.a).lpNorm<Eigen::Infinity>(), 1e-4);
+    guess = solver.Solve(phase.task(phase.duration), now.q).q;
+    if (phase.contacts.size() == 2) continue;
+    ++swings;
+    const Vector3d up =
+        Eigen::Quaterniond(guess[0], guess[1], guess[2], guess[3]) * Vector3d::UnitZ();
+    const models::ContactPatch& patch = model.robot->contacts[phase.contacts.front()];
+    const Vector3d foot = solver.kinematics().Position(patch.link, patch.Centre());
+    const Vector2d left(-std::sin(to.yaw), std::cos(to.yaw));
+    const double side = left.dot(Vector2d(foot.head<2>()) - to.position());
+    EXPECT_NEAR(std::asin(up.head<2>().norm()), 0.1, 1e-9);
+    EXPECT_GT(side * left.dot(Vector2d(up.head<2>())), 0);
+  }
+  EXPECT_GE(swings, 2);
+  // Upright again at the end.
+  EXPECT_NEAR(guess[1], 0, 1e-9);
+  EXPECT_NEAR(guess[2], 0, 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Gaits, QuasiStaticGaitTest, ::testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
 

@@ -152,11 +152,13 @@ TEST_F(OnboardingTest, TheFileThatIsWrittenIsTheRobot) {
                        standing->posture,
                        {{0, true, copy.left_leg}, {1, true, copy.right_leg}},
                        ScaledParameters(copy, 1, 1)}};
+  copy.robot.gaits.front().parameters.sway = 0.08;
   const models::TemporaryFolder folder;
   folder.Write("robot.urdf", models::ReadFileContents(kDraftUrdf));
   const models::RobotModel robot =
       models::LoadRobotModel(folder.Write("robot.yaml", RobotYaml(copy, "robot.urdf")));
   EXPECT_EQ(robot.name, copy.robot.name);
+  EXPECT_NEAR(robot.gaits.front().parameters.sway, 0.08, 1e-5);
   EXPECT_EQ(robot.sagittal_pairs.size(), copy.pairs.pairs.size());
   EXPECT_EQ(robot.ignored_collisions.size(), copy.ignored.size());
   for (int i = 0; i < robot.num_links(); ++i) {
