@@ -19,7 +19,7 @@ namespace {
 
 /// In the order in which they are tried; the first of each is where the search begins.
 constexpr double kSpreads[] = {0.8, 1, 1.2, 0.6};
-constexpr double kExtensions[] = {0.9, 0.86, 0.94, 0.82, 0.97, 0.76};
+constexpr double kExtensions[] = {0.9, 0.86, 0.94, 0.82, 0.97, 0.92, 0.76};
 constexpr double kQuickness[] = {1, 0.8, 1.25};
 constexpr double kMarginShares[] = {1, 1.6, 0.6};
 /// rad: tried one after the other, until something walks.
