@@ -26,6 +26,19 @@ if(BUILD_TESTING)
   find_package(GTest REQUIRED)
 endif()
 
+# MuJoCo (libmujoco-dev): robots of MJCF files, and its opinion of exported models in the tests.
+find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h)
+find_library(MUJOCO_LIBRARY mujoco)
+mark_as_advanced(MUJOCO_INCLUDE_DIR MUJOCO_LIBRARY)
+if(MUJOCO_INCLUDE_DIR AND MUJOCO_LIBRARY)
+  add_library(possibility_mujoco INTERFACE)
+  target_include_directories(possibility_mujoco SYSTEM INTERFACE ${MUJOCO_INCLUDE_DIR})
+  target_link_libraries(possibility_mujoco INTERFACE ${MUJOCO_LIBRARY})
+  target_compile_definitions(possibility_mujoco INTERFACE POSSIBILITY_WITH_MUJOCO)
+else()
+  message(STATUS "MuJoCo (libmujoco-dev) is not installed: MJCF files are not read, and no test loads exported models")
+endif()
+
 # Python and pybind11: only for `import possibility`, which is left out without them.
 set(POSSIBILITY_PYTHON_FOUND FALSE)
 if(POSSIBILITY_PYTHON AND POSSIBILITY_SANITIZE)

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kThickness = 1e-3;  // m
-constexpr double kRounding = 1e-4;   // m: distances are too small by less
+constexpr double kThickness = 1e-3;         // m
+constexpr double kDistanceRounding = 1e-4;  // m: distances are too small by less
 
 /// Radius of the greatest disc about the centres of all patches that the bearing points surround.
 double RadiusOf(const NominalStance& stance) {
@@ -30,7 +30,7 @@ double RadiusOf(const NominalStance& stance) {
       radius = std::min(radius, std::max(0.0, away));
     }
   }
-  return std::max(0.0, radius - kRounding);
+  return std::max(0.0, radius - kDistanceRounding);
 }
 
 }  // namespace

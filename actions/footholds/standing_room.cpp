@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kHeading = std::numbers::pi / StandingRoom::kHeadings;
-constexpr double kLeastCell = 0.06;   // m
-constexpr double kMostCells = 100e3;  // seen from above; in larger places cells are larger
+constexpr double kLeastRoomCell = 0.06;   // m
+constexpr double kMostRoomCells = 100e3;  // seen from above; in larger places cells are larger
 
 }  // namespace
 
@@ -25,7 +25,7 @@ StandingRoom::StandingRoom(const FootholdCells& cells, const NominalStance& stan
       first_heading_(first_heading),
       around_(cells.reach() / 2 + cells.cell()),
       layer_of_plane_(world.ground->planes().size(), -1),
-      cell_(kLeastCell),
+      cell_(kLeastRoomCell),
       fits_(cells.size()) {
   // Both limbs' soles are alike but for their side.
   const Vector2d centre = stance.patch_centres[0].head<2>();
@@ -54,7 +54,7 @@ StandingRoom::StandingRoom(const FootholdCells& cells, const NominalStance& stan
   }
   const Eigen::AlignedBox2d& bounds = world.environment->bounds;
   if (!bounds.isEmpty()) {
-    cell_ = std::max(kLeastCell, std::sqrt(bounds.sizes().prod() / kMostCells));
+    cell_ = std::max(kLeastRoomCell, std::sqrt(bounds.sizes().prod() / kMostRoomCells));
     columns_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().x() / cell_)));
     rows_ = std::max(1, static_cast<int>(std::ceil(bounds.sizes().y() / cell_)));
   }

@@ -12,7 +12,7 @@ namespace possibility::actions {
 namespace {
 
 /// Largest number of places: the cost of a search grows with their cube.
-constexpr std::size_t kMostPlaces = 32;
+constexpr std::size_t kMostStops = 32;
 
 /// Spacing of places within legs of the route, m.
 constexpr double kPlaceSpacing = 0.4;
@@ -38,7 +38,7 @@ ShortcutRoadmap::ShortcutRoadmap(const RouteSpace& space, const std::vector<Rout
 }
 
 void ShortcutRoadmap::AddPlaces() {
-  const std::size_t room = kMostPlaces - std::min(kMostPlaces, stops_.size());
+  const std::size_t room = kMostStops - std::min(kMostStops, stops_.size());
   double length = 0;
   for (std::size_t i = 1; i < stops_.size(); ++i) {
     length += (stops_[i].stance.pose.position() - stops_[i - 1].stance.pose.position()).norm();

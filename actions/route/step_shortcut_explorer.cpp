@@ -7,8 +7,8 @@
 namespace possibility::actions {
 namespace {
 
-constexpr std::int64_t kStatesPerTurn = 50;
-constexpr std::int64_t kMostStates = 1000;  // of one stretch
+constexpr std::int64_t kStretchStatesPerTurn = 50;
+constexpr std::int64_t kMostStretchStates = 1000;  // of one stretch
 
 std::vector<double> EndsOf(const graph::Edge& edge) {
   std::vector<double> numbers(edge.from.data(), edge.from.data() + edge.from.size());
@@ -46,15 +46,14 @@ std::vector<graph::PathEdge> StepShortcutExplorer::Continue(const CancellationTo
     search_.emplace(*space_.model, steps_.from(), world,
                     FootstepEnds{{stretch.from}, {stretch.to}, {}, {}}, steps_.limits(),
                     steps_.known_ground(), cancellation);
-    search_->most_states = kMostStates;
+    search_->most_states = kMostStretchStates;
   }
-  const FootstepSearch::Status status = search_->Advance(kStatesPerTurn, cancellation);
+  const FootstepSearch::Status status = search_->Advance(kStretchStatesPerTurn, cancellation);
   if (status == FootstepSearch::Status::kSearching) return {};
   const std::vector<Footstep> steps =
       status == FootstepSearch::Status::kFound ? search_->steps() : std::vector<Footstep>();
   search_.reset();
-  const bool is_quicker =
-      !steps.empty() && steps_.ExpectedDuration(steps) < stretch.duration;
+  const bool is_quicker = !steps.empty() && steps_.ExpectedDuration(steps) < stretch.duration;
 
   if (!is_quicker) return {};
   steps_.Suggest(stretch.edge, steps, stretch.duration);

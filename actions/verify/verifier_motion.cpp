@@ -31,7 +31,7 @@ constexpr int kManySteps = 64;
 /// Forces that need more samples than this between two knots are thousands of times the weight.
 constexpr int kMostSteps = 2000;
 /// m, beyond what is asked: more than all tolerances of the checks.
-constexpr double kReachMargin = 2e-3;
+constexpr double kRadiusMargin = 2e-3;
 
 /// A run of knot intervals of one phase: the unit of work of a thread. The division does not depend
 /// on the number of threads.
@@ -196,7 +196,7 @@ class Worker {
   void ExtendReach(const Sample& sample) {
     for (std::size_t link = 0; link < sample.state.X_WL.size(); ++link) {
       const double radius =
-          evaluator_.link_radii()[link] + sample.collision.environment_threshold + kReachMargin;
+          evaluator_.link_radii()[link] + sample.collision.environment_threshold + kRadiusMargin;
       const Eigen::Vector3d p = sample.state.X_WL[link].translation();
       reach_.extend((p.array() - radius).matrix());
       reach_.extend((p.array() + radius).matrix());

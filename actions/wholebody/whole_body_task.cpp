@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kMaximumIterations = 30;
-constexpr double kTolerance = 1e-12;
+constexpr double kConverged = 1e-12;
 constexpr double kLargestStep = 0.3;
 /// While a step leaves less than this share of the residual, the next one uses the same Jacobian
 /// (Shamanskii 1967).
@@ -66,7 +66,7 @@ WholeBodyState WholeBodySolver::Solve(const WholeBodyTask& task, const VectorXd&
     Residual(task);
     if (residual_.size() == 0) break;
     const double error = residual_.lpNorm<Eigen::Infinity>();
-    if (error < kTolerance) break;
+    if (error < kConverged) break;
     if (iteration == kMaximumIterations || !residual_.allFinite()) {
       throw MotionError("whole-body inverse kinematics does not converge (out of reach?)");
     }

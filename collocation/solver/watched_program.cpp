@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-void Write(const VectorXd& from, double* to) { std::copy(from.begin(), from.end(), to); }
+void CopyTo(const VectorXd& from, double* to) { std::copy(from.begin(), from.end(), to); }
 
 }  // namespace
 
@@ -66,7 +66,7 @@ bool WatchedProgram::Gradient(const double* x, double* gradient) {
         return fmt::format("the derivative of the objective with respect to '{}'",
                            program_->VariableName(k));
       });
-  if (good) Write(values_, gradient);
+  if (good) CopyTo(values_, gradient);
   return good;
 }
 
@@ -76,7 +76,7 @@ bool WatchedProgram::Constraints(const double* x, double* g) {
       x, &result_->evaluations.constraints, &result_->times.functions,
       [&] { program_->Constraints(x_, &values_); },
       [&](int k) { return fmt::format("constraint '{}'", program_->ConstraintName(k)); });
-  if (good) Write(values_, g);
+  if (good) CopyTo(values_, g);
   return good;
 }
 
@@ -91,7 +91,7 @@ bool WatchedProgram::Jacobian(const double* x, double* values) {
                            program_->ConstraintName(pattern.rows[k]),
                            program_->VariableName(pattern.columns[k]));
       });
-  if (good) Write(values_, values);
+  if (good) CopyTo(values_, values);
   return good;
 }
 
@@ -108,7 +108,7 @@ bool WatchedProgram::Hessian(const double* x, double objective_factor, const dou
                            program_->VariableName(pattern.rows[k]),
                            program_->VariableName(pattern.columns[k]));
       });
-  if (good) Write(values_, values);
+  if (good) CopyTo(values_, values);
   return good;
 }
 

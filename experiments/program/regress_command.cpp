@@ -150,14 +150,15 @@ void CheckOutput(const std::filesystem::path& file) {
 }
 
 /// Rewrites "problem 3 of 17: kirk, about 12 s left" on stderr, if it is a terminal.
-class Progress {
+class RegressionProgress {
  public:
-  explicit Progress(int count) : count_(count), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
-  ~Progress() {
+  explicit RegressionProgress(int count)
+      : count_(count), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+  ~RegressionProgress() {
     if (is_terminal_) PrintError("\r\x1b[K");
   }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  RegressionProgress(const RegressionProgress&) = delete;
+  RegressionProgress& operator=(const RegressionProgress&) = delete;
 
   void Show(int done, const std::string& name) const {
     if (!is_terminal_) return;
@@ -175,7 +176,7 @@ class Progress {
 
 RegressionReport RunWithProgress(const std::vector<RegressionProblem>& problems,
                                  const RegressionOptions& options) {
-  const Progress progress(static_cast<int>(problems.size()));
+  const RegressionProgress progress(static_cast<int>(problems.size()));
   return RunRegression(problems, options, [&progress](int done, const std::string& name) {
     progress.Show(done, name);
   });

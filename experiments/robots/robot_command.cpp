@@ -26,6 +26,7 @@ struct RobotOptions {
   std::vector<std::string> packages;
   std::string out;
   std::string gait = "walk";
+  bool mjcf = false;
   std::string fit_seconds = "90";
   bool abilities = false;
   bool json = false;
@@ -35,6 +36,7 @@ ExitCode RunInit(const RobotOptions& options) {
   if (options.out.empty()) throw InputError("robot init: expected --out DIR");
   RobotInitOptions init;
   init.urdf = options.path;
+  init.is_mjcf = options.mjcf;
   if (!options.srdf.empty()) init.srdf = options.srdf;
   for (const std::string& folder : options.packages) {
     if (!std::filesystem::is_directory(folder)) {
@@ -110,6 +112,7 @@ Command AddRobotCommand(CLI::App& program) {
   command.AddRequired("PATH", &options->path,
                       "URDF; for check and fit: a robot's YAML or its folder");
   command.AddOptional("--srdf", &options->srdf, "SRDF: disabled collision pairs");
+  command.AddFlag("--mjcf", &options->mjcf, "For init: the file is MJCF (needs MuJoCo)");
   command.AddOptional("--packages", &options->packages,
                       "Folder in which package:// is looked for as well");
   command.AddOptional("--out", &options->out, "Folder for the robot");

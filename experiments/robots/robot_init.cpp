@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "actions/gait/pace_library.h"
@@ -12,6 +13,7 @@
 #include "actions/onboarding/robot_yaml_writer.h"
 #include "actions/plan/plan_writer.h"
 #include "actions/planner/planner.h"
+#include "experiments/mjcf/mjcf_robot.h"
 #include "experiments/robots/winding_ways.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/output_file.h"
@@ -47,7 +49,9 @@ class Init {
 
   ExitCode Run() {
     PrepareOutputFolder("--out", options_.out);
-    draft_ = actions::DraftRobot(options_.urdf, options_.packages, options_.srdf);
+    draft_ = options_.is_mjcf
+                 ? DraftOfMjcf()
+                 : actions::DraftRobot(options_.urdf, options_.packages, options_.srdf);
     draft_.robot.name = SafeName(options_.urdf);
     if (!options_.json) PrintFindings();
     std::vector<actions::FittedGait> fits = Fit();
@@ -60,6 +64,23 @@ class Init {
   }
 
  private:
+  /// Restates the MJCF file in the robot's folder, and goes on from there.
+  actions::RobotDraft DraftOfMjcf() const {
+    const std::string name = SafeName(options_.urdf);
+    const MjcfRobot robot = ReadMjcf(options_.urdf, name);
+    for (const NamedBytes& file : robot.files) WriteOutput(options_.out / file.name, file.bytes);
+    const fs::path urdf = options_.out / (name + ".urdf");
+    WriteOutput(urdf, robot.urdf);
+    std::optional<fs::path> srdf = options_.srdf;
+    if (!srdf && !robot.srdf.empty()) {
+      srdf = options_.out / (name + ".srdf");
+      WriteOutput(*srdf, robot.srdf);
+    }
+    actions::RobotDraft draft = actions::DraftRobot(urdf, options_.packages, srdf);
+    draft.findings.insert(draft.findings.begin(), robot.findings.begin(), robot.findings.end());
+    return draft;
+  }
+
   void PrintFindings() const {
     for (const std::string& finding : draft_.findings) PrintOut("{}\n", finding);
     for (const std::string& warning : draft_.warnings) PrintOut("warning: {}\n", warning);

@@ -169,7 +169,7 @@ void AddExtremes(const LoadedJump& loaded, PageHeading* heading) {
   heading->facts.emplace_back("Joint torque", torque.Text());
 }
 
-PageHeading HeadingOf(const LoadedJump& loaded) {
+PageHeading JumpHeading(const LoadedJump& loaded) {
   const actions::JumpTask& task = loaded.jump->task;
   const Gap gap = GapOf(loaded);
   const std::string name =
@@ -244,7 +244,7 @@ std::string JumpPage(const LoadedJump& loaded) {
   actions::Plan plan;
   for (const models::Joint& joint : loaded.robot.joints) plan.joints.push_back(joint.name);
   plan.segments = {{loaded.kind.name, loaded.jump->phases}};
-  return ViewerPage(plan, loaded.robot, TwoFloors(loaded), HeadingOf(loaded));
+  return ViewerPage(plan, loaded.robot, TwoFloors(loaded), JumpHeading(loaded));
 }
 
 }  // namespace possibility::experiments

@@ -136,7 +136,7 @@ class ProgramFuzz : public experiments::testing::ProgramRun,
   }
 };
 
-TEST_P(ProgramFuzz, SpoiltFilesEndWithADocumentedExitCode) { RunCases(20000, 4); }
+TEST_P(ProgramFuzz, SpoiltFilesEndWithADocumentedExitCode) { RunCases(20000, 2); }
 
 class ProgramFuzzLong : public ProgramFuzz {};
 

@@ -40,7 +40,7 @@ class ReadingFuzz : public ::testing::TestWithParam<ReadingKind> {};
 
 TEST_P(ReadingFuzz, SpoiltFilesAreUsedOrRefused) {
   const models::TemporaryFolder folder;
-  RunCases(GetParam().make(folder.path()), 0, 300);
+  RunCases(GetParam().make(folder.path()), 0, 150);
 }
 
 class ReadingFuzzLong : public ReadingFuzz {};

@@ -1,7 +1,9 @@
 // From a URDF to a verified walk in one command. Suites that end in "Long" take minutes.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -71,6 +73,39 @@ TEST_F(RobotCommandLong, DrcHubo1WalksFromItsUrdfAlone) {
   EXPECT_EQ(Run("verify hubo").code, 0) << Errors();
   const Outcome check = Run("robot check hubo --json");
   EXPECT_EQ(check.code, 0) << check.out;
+}
+
+/// DRC-HUBO1 with hips that turn inwards by 0.08 rad: upright it cannot stand on one foot.
+TEST_F(RobotCommandLong, ATrunkSwaysOnlyWhereHipsCannotTurnInwards) {
+  std::string narrow = testing::ReadText(kHuboUrdf);
+  for (const auto& [joint, from, to] : {std::array{"LHR", "lower=\"-0.52\"", "lower=\"-0.08\""},
+                                        std::array{"RHR", "upper=\"0.52\"", "upper=\"0.08\""}}) {
+    const std::size_t at = narrow.find(fmt::format("<joint name=\"{}\"", joint));
+    ASSERT_NE(at, std::string::npos);
+    narrow = narrow.substr(0, at) + Replaced(narrow.substr(at), from, to);
+  }
+  Write("narrow.urdf", narrow);
+  const Outcome outcome = Run("robot init narrow.urdf --out narrow --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["winding_ways_verified"], report["winding_ways"]);
+  EXPECT_NE(testing::ReadText(folder_ / "narrow/robot.yaml").find("sway_deg: "), std::string::npos);
+  ASSERT_EQ(Run("robot init " + kHuboUrdf + " --out usual").code, 0);
+  EXPECT_EQ(testing::ReadText(folder_ / "usual/robot.yaml").find("sway_deg"), std::string::npos);
+}
+
+TEST_F(RobotCommand, MjcfFilesAreRestated) {
+  Write("short.xml",
+        "<mujoco><worldbody><body name=\"trunk\"><freejoint/><geom size=\"0.1\"/><body><joint "
+        "name=\"hip\"/><geom size=\"0.1\"/></body></body></worldbody></mujoco>");
+  const std::string error = ExpectRefused("robot init short.xml --mjcf --out y");
+#ifdef POSSIBILITY_WITH_MUJOCO
+  EXPECT_EQ(error.substr(0, 14), "y/short.urdf: ") << error;
+  EXPECT_NE(testing::ReadText(folder_ / "y/short.urdf").find("<joint name=\"hip\""),
+            std::string::npos);
+#else
+  EXPECT_NE(error.find("libmujoco-dev"), std::string::npos);
+#endif
 }
 
 TEST_F(RobotCommand, FitNamesWhatItCannotFit) {
