@@ -68,7 +68,11 @@ class Init {
   actions::RobotDraft DraftOfMjcf() const {
     const std::string name = SafeName(options_.urdf);
     const MjcfRobot robot = ReadMjcf(options_.urdf, name);
-    for (const NamedBytes& file : robot.files) WriteOutput(options_.out / file.name, file.bytes);
+    for (const NamedBytes& file : robot.files) {
+      const fs::path path = options_.out / file.name;
+      PrepareOutputFolder("--out", path.parent_path());
+      WriteOutput(path, file.bytes);
+    }
     const fs::path urdf = options_.out / (name + ".urdf");
     WriteOutput(urdf, robot.urdf);
     std::optional<fs::path> srdf = options_.srdf;

@@ -95,14 +95,17 @@ TEST_F(RobotCommandLong, ATrunkSwaysOnlyWhereHipsCannotTurnInwards) {
 }
 
 TEST_F(RobotCommand, MjcfFilesAreRestated) {
-  Write("short.xml",
-        "<mujoco><worldbody><body name=\"trunk\"><freejoint/><geom size=\"0.1\"/><body><joint "
-        "name=\"hip\"/><geom size=\"0.1\"/></body></body></worldbody></mujoco>");
+  Write(
+      "short.xml",
+      "<mujoco><asset><mesh name=\"wedge\" vertex=\"0 0 0 1 0 0 0 1 0 0 0 1\"/></asset><worldbody>"
+      "<body name=\"trunk\"><freejoint/><geom type=\"mesh\" mesh=\"wedge\"/><body><joint "
+      "name=\"hip\"/><geom size=\"0.1\"/></body></body></worldbody></mujoco>");
   const std::string error = ExpectRefused("robot init short.xml --mjcf --out y");
 #ifdef POSSIBILITY_WITH_MUJOCO
   EXPECT_EQ(error.substr(0, 14), "y/short.urdf: ") << error;
   EXPECT_NE(testing::ReadText(folder_ / "y/short.urdf").find("<joint name=\"hip\""),
             std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "y/meshes/0_wedge.stl"));
 #else
   EXPECT_NE(error.find("libmujoco-dev"), std::string::npos);
 #endif
