@@ -384,7 +384,7 @@ class Converter {
     for (char& c : name) {
       if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
     }
-    const std::string file = fmt::format("meshes/{}_{}.stl", mesh, name);
+    std::string file = fmt::format("meshes/{}_{}.stl", mesh, name);
     if (meshes_.insert(mesh).second) result_.files.push_back({file, Stl(model_, mesh)});
     return file;
   }

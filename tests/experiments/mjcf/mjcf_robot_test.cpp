@@ -1,5 +1,6 @@
 #include "experiments/mjcf/mjcf_robot.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -293,7 +294,7 @@ TEST_F(MjcfRobotTest, ThreeSlidesAndThreeHingesFloat) {
   std::string joints;
   for (const std::string type : {"slide", "hinge"}) {
     for (const std::string axis : {"1 0 0", "0 1 0", "0 0 1"}) {
-      joints += "<joint type=\"" + type + "\" axis=\"" + axis + "\"/>";
+      joints += fmt::format("<joint type=\"{}\" axis=\"{}\"/>", type, axis);
     }
   }
   const models::RobotModel robot = RobotOf(Read(Replaced(kTree, "<freejoint/>", joints)));
