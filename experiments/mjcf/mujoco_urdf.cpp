@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 
+#include "experiments/support/xml_text.h"
 #include "models/input/input_error.h"
 
 namespace possibility::experiments {
@@ -32,29 +33,6 @@ Isometry3d PoseOf(const mjtNum* position, const mjtNum* quaternion) {
                    .normalized()
                    .toRotationMatrix();
   return X;
-}
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
 }
 
 /// A URDF turns about fixed axes by roll, pitch and yaw, in this order.
@@ -96,7 +74,7 @@ class Converter {
   MjcfRobot Convert() {
     root_ = FindRoot();
     ReadEqualities();
-    urdf_ = fmt::format("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n", Escaped(robot_));
+    urdf_ = fmt::format("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n", XmlText(robot_));
     LevelRoot();
     for (int body = 1; body < model_.nbody; ++body) {
       if (IsPart(body)) AddBody(body);
@@ -172,7 +150,7 @@ class Converter {
     const Isometry3d X = PoseOf(model_.body_pos + 3 * root_, model_.body_quat + 4 * root_);
     if (X.linear().isIdentity(1e-12)) return;
     const std::string level = Body(root_) + "_level";
-    urdf_ += fmt::format("  <link name=\"{}\"/>\n", Escaped(level));
+    urdf_ += fmt::format("  <link name=\"{}\"/>\n", XmlText(level));
     AddFixed(Body(root_), level, Isometry3d(X.linear()));
   }
 
@@ -195,7 +173,7 @@ class Converter {
                           name, Joint(first)));
         }
         mimics_[first] = fmt::format("<mimic joint=\"{}\" multiplier=\"{}\" offset=\"{}\"/>",
-                                     Escaped(Joint(second)), c[1], c[0]);
+                                     XmlText(Joint(second)), c[1], c[0]);
         continue;
       }
       const bool is_between =
@@ -253,7 +231,7 @@ class Converter {
     urdf_ += fmt::format(
         "  <joint name=\"{0}_fixed\" type=\"fixed\">\n    {1}\n    <parent link=\"{2}\"/>\n"
         "    <child link=\"{0}\"/>\n  </joint>\n",
-        Escaped(child), Origin(X_PB), Escaped(parent));
+        XmlText(child), Origin(X_PB), XmlText(parent));
   }
 
   void AddJoint(int joint, const std::string& parent, const std::string& child,
@@ -276,8 +254,8 @@ class Converter {
         "  <joint name=\"{}\" type=\"{}\">\n    {}\n    <parent link=\"{}\"/>\n"
         "    <child link=\"{}\"/>\n    <axis xyz=\"{}\"/>\n"
         "    <limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"0\"/>\n{}  </joint>\n",
-        Escaped(Joint(joint)), type == mjJNT_SLIDE ? "prismatic" : "revolute", Origin(X),
-        Escaped(parent), Escaped(child), Numbers(VectorOf(model_.jnt_axis + 3 * joint)),
+        XmlText(Joint(joint)), type == mjJNT_SLIDE ? "prismatic" : "revolute", Origin(X),
+        XmlText(parent), XmlText(child), Numbers(VectorOf(model_.jnt_axis + 3 * joint)),
         has_range ? range[0] - zero : 0, has_range ? range[1] - zero : 0, EffortOf(joint),
         mimic == mimics_.end() ? "" : "    " + mimic->second + "\n");
   }
@@ -321,14 +299,14 @@ class Converter {
     urdf_ += fmt::format(
         "  <link name=\"{}\">\n    <inertial><mass value=\"{}\"/><inertia ixx=\"{}\" ixy=\"0\" "
         "ixz=\"0\" iyy=\"{}\" iyz=\"0\" izz=\"{}\"/></inertial>\n  </link>\n",
-        Escaped(link), mass, moment, moment, moment);
+        XmlText(link), mass, moment, moment, moment);
     result_.findings.push_back(fmt::format(
         "link '{}' stands between two joints of body '{}', with a millionth of its mass", link,
         Body(body)));
   }
 
   void AddLink(int body) {
-    urdf_ += fmt::format("  <link name=\"{}\">\n", Escaped(Body(body)));
+    urdf_ += fmt::format("  <link name=\"{}\">\n", XmlText(Body(body)));
     const Vector3d link = LinkIn(body);
     if (model_.body_mass[body] > 0) {
       Isometry3d X = PoseOf(model_.body_ipos + 3 * body, model_.body_iquat + 4 * body);
@@ -397,11 +375,11 @@ class Converter {
       if (!IsPart(first) || !IsPart(second)) continue;
       pairs += fmt::format(
           "  <disable_collisions link1=\"{}\" link2=\"{}\" reason=\"excluded in the MJCF\"/>\n",
-          Escaped(Body(first)), Escaped(Body(second)));
+          XmlText(Body(first)), XmlText(Body(second)));
     }
     if (pairs.empty()) return "";
     return fmt::format("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n{}</robot>\n",
-                       Escaped(robot_), pairs);
+                       XmlText(robot_), pairs);
   }
 
   const mjModel& model_;

@@ -10,6 +10,7 @@
 #include "experiments/report/svg_plot.h"
 #include "experiments/report/trajectory_plot.h"
 #include "experiments/support/output_file.h"
+#include "experiments/support/xml_text.h"
 #include "models/input/json_text.h"
 
 namespace possibility::experiments {

@@ -4,6 +4,7 @@
 
 #include "experiments/report/svg_plot.h"
 #include "experiments/support/base64.h"
+#include "experiments/support/xml_text.h"
 
 namespace possibility::experiments {
 namespace {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/support/xml_text.h"
+
 namespace possibility::experiments {
 namespace {
 
@@ -360,30 +362,6 @@ std::string TickLabel(double value, double distance) {
   }
   if (text.front() == '-') text.replace(0, 1, "\u2212");
   return text;
-}
-
-std::string XmlText(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        // XML allows no control characters, not even escaped.
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
 }
 
 std::string SvgDocument(const std::vector<Plot>& plots) {

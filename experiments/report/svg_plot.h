@@ -67,9 +67,6 @@ std::pair<double, double> AxisRange(const std::vector<double>& values, bool loga
                                     double padding);
 /// The number at a tick, with as many digits as the distance to the next tick needs.
 std::string TickLabel(double value, double distance);
-/// Escapes text between XML tags or in an attribute's quotes.
-std::string XmlText(const std::string& text);
-
 /// An SVG document of plots one above the other.
 std::string SvgDocument(const std::vector<Plot>& plots);
 

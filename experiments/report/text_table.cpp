@@ -1,6 +1,7 @@
 #include "experiments/report/text_table.h"
 
 #include "experiments/report/svg_plot.h"
+#include "experiments/support/xml_text.h"
 
 namespace possibility::experiments {
 namespace {

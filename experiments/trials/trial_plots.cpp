@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/support/xml_text.h"
+
 namespace possibility::experiments {
 namespace {
 

@@ -5,30 +5,11 @@
 #include <map>
 #include <string_view>
 
+#include "experiments/support/xml_text.h"
 #include "experiments/viewer/viewer_resources.h"
 
 namespace possibility::experiments {
 namespace {
-
-std::string EscapeHtml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '&':
-        escaped += "&amp;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 /// Replaces every {{name}} of the template in one pass, so that inserted text is never searched.
 std::string FillIn(std::string_view text,
@@ -46,7 +27,7 @@ std::string FillIn(std::string_view text,
 
 /// `others`: elements with the data of further plans.
 std::string PageOf(const std::string& title, const std::string& data, const std::string& others) {
-  const std::string escaped_title = EscapeHtml(title);
+  const std::string escaped_title = XmlText(title);
   return FillIn(viewer_resources::page, {{"title", escaped_title},
                                          {"data", data},
                                          {"others", others},
