@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the system packages that the build needs, if any is missing (Debian 12), and says on
-# standard output which it has installed.
+# standard output which it has installed. Who watches a terminal sees how far it is.
 #   --with-tests    also what tests are better off with: goes on without it if it cannot be had
 #   --with-python   also what `import possibility` and its examples need
 set -eu
@@ -43,6 +43,15 @@ fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
+# As long as this script lives: every package is fetched, unpacked and set up.
+show_progress() {
+  while sleep 1 && kill -0 "$$" 2>/dev/null; do
+    awk '/newly installed/ { all = $3; done = 0 }
+      /^(Get:[0-9]+ .* \[[0-9]|Unpacking |Setting up )/ { done++ }
+      END { if (all > 0) printf "\rinstalling: %d %% ", 100 * done / (3 * all) }' "$log" >&2
+  done
+}
+
 install() {
   for tool in apt-get $as_root; do
     if ! command -v "$tool" >/dev/null; then
@@ -51,9 +60,20 @@ install() {
     fi
   done
   echo "possibility: installing $*" >&2
-  if ! { $as_root apt-get -q update &&
+  watcher=""
+  if [ -t 2 ]; then
+    show_progress &
+    watcher=$!
+  fi
+  failed=""
+  { $as_root apt-get -q update &&
          $as_root env DEBIAN_FRONTEND=noninteractive \
-             apt-get -q -y --no-install-recommends install "$@"; } >"$log" 2>&1; then
+             apt-get -q -y --no-install-recommends install "$@"; } >"$log" 2>&1 || failed=yes
+  if [ -n "$watcher" ]; then
+    kill "$watcher"
+    printf '\r\033[K' >&2
+  fi
+  if [ -n "$failed" ]; then
     cat "$log" >&2
     echo "possibility: could not install: $*" >&2
     return 1

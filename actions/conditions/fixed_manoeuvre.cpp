@@ -270,30 +270,48 @@ std::optional<graph::Point> FixedManoeuvre::FindLandingPoint(const graph::Point&
   return StanceNear(End::kLanding, v, v1);
 }
 
-FixedManoeuvre::Outcome FixedManoeuvre::OutcomeOf(double rise,
+std::optional<FixedManoeuvre::Outcome> FixedManoeuvre::KnownOutcome(std::int64_t rise) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = outcomes_.find(rise);
+  if (known == outcomes_.end()) return std::nullopt;
+  return known->second;
+}
+
+FixedManoeuvre::Outcome FixedManoeuvre::OutcomeOf(std::int64_t rise,
                                                   const CancellationToken& cancellation) const {
-  const std::int64_t key = KeyOf(rise);
-  {
-    const std::lock_guard lock(mutex_);
-    const auto known = outcomes_.find(key);
-    if (known != outcomes_.end()) return known->second;
-  }
+  if (std::optional<Outcome> known = KnownOutcome(rise)) return *std::move(known);
   Outcome outcome;
   try {
     // The rounded rise, so that the motion does not depend on which edge asks first.
-    outcome.motion = motion_(static_cast<double>(key) * kSameRise, cancellation);
+    outcome.motion = motion_(static_cast<double>(rise) * kSameRise, cancellation);
   } catch (const MotionError& error) {
     outcome.fault = error.what();
   }
   const std::lock_guard lock(mutex_);
-  return outcomes_.emplace(key, std::move(outcome)).first->second;
+  return outcomes_.emplace(rise, std::move(outcome)).first->second;
+}
+
+graph::SharedWork& FixedManoeuvre::WorkOf(std::int64_t rise) const {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<graph::SharedWork>& work = works_[rise];
+  if (!work) {
+    work = std::make_unique<graph::SharedWork>(
+        [this, rise](graph::SharedWork* self) { OutcomeOf(rise, self->charging_token()); });
+  }
+  return *work;
+}
+
+bool FixedManoeuvre::Prepare(const graph::Edge& edge, graph::JobControl* job) const {
+  const std::optional<Execution> execution = AsExecution(edge);
+  if (!execution) throw MotionError("the edge is no '" + shape_.name + "'");
+  return WorkOf(KeyOf(execution->rise)).Await(job);
 }
 
 std::vector<Phase> FixedManoeuvre::Motion(const graph::Edge& edge,
                                           const CancellationToken& cancellation) const {
   const std::optional<Execution> execution = AsExecution(edge);
   if (!execution) throw MotionError("the edge is no '" + shape_.name + "'");
-  Outcome outcome = OutcomeOf(execution->rise, cancellation);
+  Outcome outcome = OutcomeOf(KeyOf(execution->rise), cancellation);
   if (!outcome.fault.empty()) throw MotionError(outcome.fault);
   std::vector<Phase> motion =
       Placed(std::move(outcome.motion), execution->launch.pose, execution->launch.z);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "actions/conditions/manoeuvre.h"
 #include "actions/wholebody/planar_pose.h"
+#include "graph/action/shared_work.h"
 
 namespace possibility::actions {
 
@@ -47,8 +49,8 @@ struct FixedManoeuvreShape {
 class FixedManoeuvre final : public Manoeuvre {
  public:
   /// The motion from the nominal stance at the origin on ground at z = 0, at rest, to the displaced
-  /// one on ground at z = `rise` (m), at rest; times from 0. Called from any thread, about once per
-  /// rise. Throws MotionError if there is no motion, and Cancelled.
+  /// one on ground at z = `rise` (m), at rest; times from 0. Called from any thread; by jobs once
+  /// per rise. Throws MotionError if there is no motion, and Cancelled.
   using MotionAtOrigin =
       std::function<std::vector<Phase>(double rise, const CancellationToken& cancellation)>;
 
@@ -67,6 +69,8 @@ class FixedManoeuvre final : public Manoeuvre {
   std::optional<graph::Point> FindLandingPoint(const graph::Point& v,
                                                const graph::Point& v1) const override;
   double ExpectedDuration(const graph::Edge&) const override { return shape_.duration; }
+  /// The motion at the origin, for all jobs of its rise.
+  bool Prepare(const graph::Edge& edge, graph::JobControl* job) const override;
   std::vector<Phase> Motion(const graph::Edge& edge,
                             const CancellationToken& cancellation) const override;
   ManoeuvreBounds Bounds() const override;
@@ -121,7 +125,9 @@ class FixedManoeuvre final : public Manoeuvre {
   /// The closest one square to an obstacle to be led over, beside which the stance is.
   std::optional<GroundedStance> AtAnObstacle(End end, const GroundedStance& stance,
                                              const Eigen::Vector2d& towards) const;
-  Outcome OutcomeOf(double rise, const CancellationToken& cancellation) const;
+  std::optional<Outcome> KnownOutcome(std::int64_t rise) const;
+  Outcome OutcomeOf(std::int64_t rise, const CancellationToken& cancellation) const;
+  graph::SharedWork& WorkOf(std::int64_t rise) const;
 
   FixedManoeuvreShape shape_;
   MotionAtOrigin motion_;
@@ -130,6 +136,8 @@ class FixedManoeuvre final : public Manoeuvre {
   mutable std::mutex mutex_;                          ///< of what follows
   mutable std::map<std::int64_t, Outcome> outcomes_;  ///< by rise in nm
   std::set<std::int64_t> refuted_;                    ///< rises in nm
+  /// Finds the outcomes that jobs wait for. Last, because it uses the rest until it ends.
+  mutable std::map<std::int64_t, std::unique_ptr<graph::SharedWork>> works_;
 };
 
 }  // namespace possibility::actions

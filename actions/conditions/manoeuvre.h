@@ -68,6 +68,11 @@ class Manoeuvre : public graph::NonholonomicAction {
   std::unique_ptr<graph::ConfirmationJob> SpawnConfirmationJob(
       const graph::Edge& edge) const override;
 
+  /// Called by a job before `Motion`: finds what the motion of this edge has in common with others,
+  /// so that the work survives a job that is cancelled. False if the job is cancelled. Nothing
+  /// unless overridden. @throws MotionError as `Motion`.
+  virtual bool Prepare(const graph::Edge&, graph::JobControl*) const { return true; }
+
   /// Motion of an edge in the world frame, from rest in the launch stance to rest in the landing
   /// stance, times from 0. Deterministic: the same edge has the same motion. Called from any
   /// thread, by jobs for edges that meet C_N and by the planner for confirmed edges. `cancellation`

@@ -16,6 +16,7 @@ graph::JobVerdict MotionJob::Run(graph::JobControl* control) {
   const CancellationToken cancellation = control->token();
   std::vector<Phase> motion;
   try {
+    if (!manoeuvre_.Prepare(edge_, control)) return graph::JobVerdict::kUndecided;
     motion = manoeuvre_.Motion(edge_, cancellation);
   } catch (const Cancelled&) {
     return graph::JobVerdict::kUndecided;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "actions/gait/dynamic_gait.h"
+#include "actions/gait/pace_library.h"
 #include "actions/gait/swept_volume.h"
 #include "actions/onboarding/pace_limits.h"
 #include "actions/wholebody/motion_builder.h"
@@ -29,7 +30,8 @@ constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 class Reporter {
  public:
-  explicit Reporter(const models::RobotModel& robot) : robot_(robot) {}
+  Reporter(const models::RobotModel& robot, const std::filesystem::path& library)
+      : robot_(robot), paces_(robot, library) {}
 
   std::vector<RobotFinding> Run() {
     Symmetry();
@@ -153,7 +155,9 @@ class Reporter {
   }
 
   void Strides(const models::Gait& gait, const NominalStance& stance) {
-    const DynamicGait motion(robot_, stance);
+    const std::optional<std::vector<Pace>> paces = paces_.Find(gait);
+    const DynamicGait motion =
+        paces ? DynamicGait(robot_, stance, *paces) : DynamicGait(robot_, stance);
     const PaceLimits limits(robot_, stance);
     try {
       SweepGait(robot_, stance, motion);
@@ -170,13 +174,15 @@ class Reporter {
   }
 
   const models::RobotModel& robot_;
+  PaceLibrary paces_;
   std::vector<RobotFinding> findings_;
 };
 
 }  // namespace
 
-std::vector<RobotFinding> ReportOn(const models::RobotModel& robot) {
-  return Reporter(robot).Run();
+std::vector<RobotFinding> ReportOn(const models::RobotModel& robot,
+                                   const std::filesystem::path& library) {
+  return Reporter(robot, library).Run();
 }
 
 }  // namespace possibility::actions

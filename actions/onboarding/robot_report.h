@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ struct RobotFinding {
 
 /// Everything that can be said of a robot without a scene: its symmetry and, for each of its gaits,
 /// balance, margins of joints and torques, links that are close, strides, speed and what forbids
-/// more. All findings, not only the first fault.
-std::vector<RobotFinding> ReportOn(const models::RobotModel& robot);
+/// more. All findings, not only the first fault. Paces are those of `library` (pace_library.h), which
+/// may be empty; a gait without any there is fitted.
+std::vector<RobotFinding> ReportOn(const models::RobotModel& robot,
+                                   const std::filesystem::path& library);
 
 }  // namespace possibility::actions

@@ -24,9 +24,10 @@ inline constexpr double kTouching = 1.1e-3;  // m
 
 /// A segment as a simulation follows it: the simulated robot, the ground, the motion, and the
 /// control that follows it by joint torques alone. The ground has the planes on which the plan
-/// bears. If the perturbation tilts the ground, the robot and its plan are tilted with it. Coordinates are relative to
-/// the segment's beginning: far from the origin, the integrator's relative tolerance would be too
-/// coarse for the motion. Arguments must outlive it; it must outlive its contacts and its control.
+/// bears. If the perturbation tilts the ground, the robot and its plan are tilted with it.
+/// Coordinates are relative to the segment's beginning: far from the origin, the integrator's
+/// relative tolerance would be too coarse for the motion. Segment, robot and ground must outlive
+/// it; it must outlive its contacts and its control.
 class RolloutReference {
  public:
   RolloutReference(const Segment& segment, const models::RobotModel& robot,
@@ -83,11 +84,11 @@ class RolloutReference {
 
   const Segment& segment_;
   const models::GroundMap& ground_;
-  const Perturbation& perturbation_;
-  Eigen::VectorXd stiffness_;  ///< joints of the tree
-  double damping_time_ = 0;    ///< s
-  Eigen::Vector3d origin_;  ///< m
-  Eigen::Matrix3d tilt_;    ///< of the perturbation
+  Perturbation perturbation_;
+  Eigen::VectorXd stiffness_;                              ///< joints of the tree
+  double damping_time_ = 0;                                ///< s
+  Eigen::Vector3d origin_;                                 ///< m
+  Eigen::Matrix3d tilt_;                                   ///< of the perturbation
   std::shared_ptr<const dynamics::MultibodyModel> model_;  ///< perturbed
   Track track_;
   std::set<int> planes_;  ///< of the ground, on which the segment bears

@@ -111,7 +111,7 @@ bool MjcfTexts::LimitByRanges() {
   const std::size_t root = text.find("<mujoco");
   const std::size_t end = root == std::string::npos ? root : text.find('>', root);
   if (end == std::string::npos || text[end - 1] == '/') return false;
-  text.insert(end + 1, "<compiler autolimits=\"true\"/>");
+  text.insert(end + 1, std::string_view("<compiler autolimits=\"true\"/>"));
   return texts_.front().has_changed = true;
 }
 

@@ -62,10 +62,10 @@ std::filesystem::path RobotFileOf(const std::filesystem::path& path) {
 ExitCode RunCheck(const RobotOptions& options) {
   const std::filesystem::path file = RobotFileOf(options.path);
   const models::RobotModel robot = models::LoadRobotModel(file);
-  std::vector<actions::RobotFinding> findings = actions::ReportOn(robot);
+  const std::filesystem::path library = file.parent_path() / "jumps";
+  std::vector<actions::RobotFinding> findings = actions::ReportOn(robot, library);
   if (options.abilities) {
-    const std::vector<actions::RobotFinding> more =
-        AbilitiesOf(robot, file.parent_path() / "jumps");
+    const std::vector<actions::RobotFinding> more = AbilitiesOf(robot, library);
     findings.insert(findings.end(), more.begin(), more.end());
   }
   int faults = 0;

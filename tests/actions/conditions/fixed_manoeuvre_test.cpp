@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "actions/conditions/exploration_pose.h"
 #include "actions/wholebody/motion_error.h"
@@ -147,6 +149,33 @@ TEST_F(FixedManoeuvreTest, TheReasonWhyThereIsNoMotionIsKept) {
     EXPECT_EQ(job->reason(), fault_);
   }
   EXPECT_EQ(calls_, 1);
+}
+
+/// The work on a motion takes longer than the search keeps its interest in one edge.
+TEST_F(FixedManoeuvreTest, AMotionGoesOnForOtherEdgesWhereACancelledJobHasLeftIt) {
+  constexpr int kSteps = 50;
+  std::atomic<int> steps = 0;
+  const FixedManoeuvre vault(context_, shape_,
+                             [&](double rise, const CancellationToken& cancellation) {
+                               for (int i = 0; i < kSteps; ++i) {
+                                 cancellation.ThrowIfCancelled();
+                                 ++steps;
+                                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                               }
+                               return StandStill(rise);
+                             });
+  graph::JobControl cancelled;
+  std::jthread first([&] {
+    EXPECT_EQ(vault.SpawnConfirmationJob(up_)->Run(&cancelled), graph::JobVerdict::kUndecided);
+  });
+  while (steps < kSteps / 5) std::this_thread::yield();
+  cancelled.Cancel();
+  first.join();
+  EXPECT_LT(steps, kSteps);
+  const graph::Edge elsewhere = {At(-0.3, -2, 0, 0), At(0.3, -2, 0, kHeight)};
+  graph::JobControl control;
+  EXPECT_NE(vault.SpawnConfirmationJob(elsewhere)->Run(&control), graph::JobVerdict::kUndecided);
+  EXPECT_EQ(steps, kSteps);
 }
 
 TEST_F(FixedManoeuvreTest, ARiseRefutedOnceIsRefusedEverywhere) {

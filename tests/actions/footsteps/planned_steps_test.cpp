@@ -60,7 +60,7 @@ TEST_F(PlannedStepsTest, AFlightOfHighStepsIsClimbedWithBothFeetOnEachTread) {
   const PlannedSteps& steps = StepsIn(&world);
   const graph::Edge edge = EdgeOf(UnevenWorld::StanceAt(-0.4), UnevenWorld::StanceAt(1.6, 0.45));
   ASSERT_TRUE(steps.CN(edge));
-  const Knot& last = steps.Motion(edge, {}).back().knots.back();
+  const Knot last = steps.Motion(edge, {}).back().knots.back();
   EXPECT_NEAR(last.q[6], edge.to[2], 1e-6);
 }
 

@@ -23,7 +23,7 @@ Phase Bearing(const std::vector<std::string>& contacts) {
   return phase;
 }
 
-std::string Refusal(const std::vector<std::string>& contacts) {
+std::string RefusalOf(const std::vector<std::string>& contacts) {
   try {
     BearingPatches(TwoPatches(), Bearing(contacts));
   } catch (const InputError& error) {
@@ -78,13 +78,13 @@ TEST(BearingPatches, AreAPatchOfTheirPoints) {
 }
 
 TEST(BearingPatches, RefuseUnknownRepeatedAndUnorderedContacts) {
-  EXPECT_NE(Refusal({"tail"}).find("\"tail\" unknown"), std::string::npos);
-  EXPECT_NE(Refusal({"tail[0]"}).find("\"tail[0]\" unknown"), std::string::npos);
-  EXPECT_NE(Refusal({"sole[3,4]"}).find("points from 0 to 3"), std::string::npos);
-  EXPECT_NE(Refusal({"sole", "sole"}).find("twice"), std::string::npos);
-  EXPECT_NE(Refusal({"sole[0]", "a peg [left", "sole[1]"}).find("twice"), std::string::npos);
-  EXPECT_NE(Refusal({"sole[1,0]"}).find("ascending"), std::string::npos);
-  EXPECT_EQ(Refusal({"sole[0,1,2,3]", "a peg [left"}), "");
+  EXPECT_NE(RefusalOf({"tail"}).find("\"tail\" unknown"), std::string::npos);
+  EXPECT_NE(RefusalOf({"tail[0]"}).find("\"tail[0]\" unknown"), std::string::npos);
+  EXPECT_NE(RefusalOf({"sole[3,4]"}).find("points from 0 to 3"), std::string::npos);
+  EXPECT_NE(RefusalOf({"sole", "sole"}).find("twice"), std::string::npos);
+  EXPECT_NE(RefusalOf({"sole[0]", "a peg [left", "sole[1]"}).find("twice"), std::string::npos);
+  EXPECT_NE(RefusalOf({"sole[1,0]"}).find("ascending"), std::string::npos);
+  EXPECT_EQ(RefusalOf({"sole[0,1,2,3]", "a peg [left"}), "");
 }
 
 }  // namespace

@@ -8,21 +8,13 @@
 #include <thread>
 
 #include "tests/graph/steered_routine.h"
+#include "tests/graph/wait.h"
 
 namespace possibility::graph {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// Waits until `done`, at most 5 s, and returns whether it came.
-template <typename Done>
-bool Wait(Done done) {
-  const auto begin = std::chrono::steady_clock::now();
-  while (!done() && std::chrono::steady_clock::now() - begin < std::chrono::seconds(5)) {
-    std::this_thread::sleep_for(milliseconds(1));
-  }
-  return done();
-}
+using test::Wait;
 
 TEST(JobControl, APausedJobWaitsAtItsCheckpointUntilResumed) {
   std::atomic<int> held = 0;
