@@ -240,7 +240,7 @@ std::optional<GroundedStance> FixedManoeuvre::AtAnObstacle(End end, const Ground
     const Eigen::Rotation2Dd turn(crossable.heading);
     const double beside = (turn.inverse() * stance.pose.position()).y();
     const Vector2d place = turn * Vector2d(crossable.bounds.center().x() - middle, beside);
-    const PlanarPose launch(place.x(), place.y(), crossable.heading);
+    const PlanarPose launch{place.x(), place.y(), crossable.heading};
     for (const bool forwards : Directions(end)) {
       GroundedStance there = stance;
       there.pose = forwards ? launch : launch * shape_.displacement;

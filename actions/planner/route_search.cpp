@@ -244,7 +244,9 @@ graph::PathResult RouteSearch::FindOnce(std::uint64_t attempt) {
   if (path.status == graph::PathStatus::kFound) return path;
   const bool is_open = *oracle_answer_ == graph::RouteOracleAnswer::kUnknown;
   if (is_open && !deadline_.Passed()) return After(path, Explore(attempt));
-  path.status = is_open ? graph::PathStatus::kTimeLimit : graph::PathStatus::kExhausted;
+  // Contact planning has answered only if time did not end it.
+  const bool is_undecided = is_open || deadline_.Passed();
+  path.status = is_undecided ? graph::PathStatus::kTimeLimit : graph::PathStatus::kExhausted;
   return path;
 }
 

@@ -150,8 +150,7 @@ TEST_P(PointFeetTest, FeetThatCannotBalanceTheRobotDoNotBear) {
 INSTANTIATE_TEST_SUITE_P(Robots, PointFeetTest, ::testing::Values("quadruped", "a1"));
 INSTANTIATE_TEST_SUITE_P(Robots, LimbStepsTest, ::testing::Values("drchubo1", "quadruped", "a1"));
 
-PlanResult PlanOnFourLimbs(const std::string& scene) {
-  PlanRequest request;
+PlanResult PlanOnFourLimbs(const std::string& scene, PlanRequest request = {}) {
   const bool is_a1 = scene.starts_with("a1/");
   request.library = is_a1 ? RobotNamed("a1").Library() : DrcHubo1Library();
   return PlanTraversal(is_a1 ? RobotNamed("a1").robot() : DrcHubo1(), ShippedScenario(scene),
@@ -170,6 +169,13 @@ TEST_P(LimbScenes, AreCrossedByPlannedSteps) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LimbScenes,
                          ::testing::Values("a1/crack", "a1/steps", "crawl_crack"));
+
+/// The steps over the sill take longer.
+TEST(LimbScenesInTime, TimeThatEndsBeforeStepsAreFoundIsNoExhaustedSearch) {
+  PlanRequest request;
+  request.time_limit = 3;
+  EXPECT_EQ(PlanOnFourLimbs("crawl_sill", request).status, PlanStatus::kTimeLimit);
+}
 
 TEST(LimbScenesLong, ACrawlLeadsOverASill) {
   const PlanResult result = PlanOnFourLimbs("crawl_sill");
