@@ -62,10 +62,11 @@ TEST(AnytimeLong, NoVerifiedPlanOfAShippedSceneIsBelowTheBound) {
     const std::string name = entry.path().stem().string();
     if (name == "closed_room" || name.find("infeasible") != std::string::npos) continue;
     const models::Scenario scenario = ShippedScenario(name);
-    // crawl_sill takes longer, and more scenes may on a busy machine.
-    const std::vector<PlanResult> plans = PlansOf(scenario, 15);
+    // The steps over the sill of crawl_sill take longer to find.
+    const std::vector<PlanResult> plans = PlansOf(scenario, name == "crawl_sill" ? 60 : 15);
+    EXPECT_FALSE(plans.empty()) << name;
     ExpectBounded(plans, scenario);
-    scenes += plans.empty() ? 0 : 1;
+    ++scenes;
   }
   EXPECT_GE(scenes, 20);
 }
