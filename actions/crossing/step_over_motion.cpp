@@ -1,6 +1,11 @@
 #include "actions/crossing/step_over_motion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "actions/motion/motion_folder.h"
 #include "actions/wholebody/motion_builder.h"
@@ -13,6 +18,8 @@
 
 namespace possibility::actions {
 namespace {
+
+using collocation::StoredSolution;
 
 /// The obstacle at its highest and thickest.
 models::Environment BeamAlone(const Beam& beam) {
@@ -36,22 +43,62 @@ void RequireOffBeam(const StepOverProblem& problem, const std::vector<Phase>& ph
   if (!hit.empty()) throw MotionError(hit);
 }
 
+std::string FileName(const StepOverProblem& problem) {
+  return "step_over_" + problem.limbs().name + ".json";
+}
+
+bool HasJointsOf(const StepOverProblem& problem, const StoredSolution& solution) {
+  const std::vector<std::string>& names = solution.phases.front().coordinates;
+  for (const models::GaitLimb& limb : problem.limbs().limbs) {
+    for (const int joint : limb.joints) {
+      const std::string& name = problem.robot().joints[joint].name;
+      if (std::find(names.begin(), names.end(), name) == names.end()) return false;
+    }
+  }
+  return true;
+}
+
+/// How much farther or less far than the problem's a motion leads, m.
+double Difference(const StepOverProblem& problem, const StoredSolution& solution) {
+  constexpr int kAhead = 0;  // coordinate of the root
+  const double end = solution.trajectory.phases.back().coordinates[0].rightCols<1>()(kAhead);
+  return std::abs(end - problem.displacement().x);
+}
+
+/// The solution of another robot or obstacle in the library whose motion is the most similar.
+std::optional<StoredSolution> MostSimilar(const StepOverProblem& problem,
+                                          const std::filesystem::path& library) {
+  std::optional<StoredSolution> best;
+  for (const std::filesystem::path& file : FilesOfIdentities(library, FileName(problem))) {
+    try {
+      StoredSolution solution = collocation::ReadSolution(file);
+      if (!HasJointsOf(problem, solution)) continue;
+      if (best && Difference(problem, *best) <= Difference(problem, solution)) continue;
+      best = std::move(solution);
+    } catch (const std::exception&) {
+      // A solution that cannot be read is no beginning.
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 StepOverMotion::StepOverMotion(const StepOverProblem& problem, const std::filesystem::path& library,
                                const CancellationToken& cancellation) {
   if (!library.empty()) {
-    file_ =
-        MotionFolder(library, problem.Identity()) / ("step_over_" + problem.limbs().name + ".json");
+    file_ = MotionFolder(library, problem.Identity()) / FileName(problem);
   }
   if (FindInLibrary(problem, cancellation)) return;
-  SpatialSolution solved =
-      SolveSpatialMotion(problem.robot(), problem.limbs(), problem.schedule(), problem.from(),
-                         problem.to(), problem.solver(), cancellation);
+  SpatialSolverSettings settings = problem.solver();
+  settings.start = MostSimilar(problem, library);
+  SpatialSolution solved = SolveSpatialMotion(problem.robot(), problem.limbs(), problem.schedule(),
+                                              problem.from(), problem.to(), settings, cancellation);
   RequireOffBeam(problem, solved.phases, cancellation);
   phases_ = std::move(solved.phases);
+  iterations_ = solved.iterations;
   solution_ = std::move(solved.solution);
-  // No solve starts from it.
+  // A solve that begins with it needs its motion alone.
   solution_.multipliers = {};
 }
 

@@ -21,6 +21,7 @@
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 #include "models/robot/mesh_shapes.h"
+#include "models/robot/shape_reach.h"
 #include "models/robot/urdf_robot.h"
 #include "models/shapes/convex_hull.h"
 
@@ -351,6 +352,7 @@ RobotDraft DraftOfText(const std::string& urdf, const std::filesystem::path& urd
   draft.robot = std::move(built.robot);
   draft.robot.file = urdf_file;
   models::AddMeshShapes(built.meshes, urdf_file, packages, &draft.robot);
+  models::RequireShapesInReach(urdf_file, draft.robot);
   JoinShapes(&draft.robot, &draft.findings);
   Drafter(&draft).Derive();
   return draft;

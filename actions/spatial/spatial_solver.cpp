@@ -54,12 +54,7 @@ class Rounds {
       ++solution.rounds;
       const SpatialProblem stated =
           StateSpatialProblem(robot_, limbs_, schedule_, from_, to_, problem);
-      // From the straight line each time: from the last motion, which the planes cut, a walk of 2.8
-      // m did not converge in 100 iterations, from the line it takes 40.
-      solution.result =
-          SolveOptimalControl(*stated.problem, Options(), std::nullopt, cancellation, log);
-      solution.iterations += solution.result.iterations;
-      cancellation.ThrowIfCancelled();
+      SolveRound(*stated.problem, &solution, cancellation, log);
       if (!solution.result.succeeded()) throw MotionError(solution.result.message);
       solution.phases = Build(stated.model, solution.result.trajectory, cancellation);
       const std::vector<Separation> missing = MissingPlanes(solution.phases);
@@ -92,6 +87,23 @@ class Rounds {
       options.intervals.push_back(std::max(settings_.least_intervals, intervals));
     }
     return options;
+  }
+
+  void SolveRound(const collocation::OptimalControlProblem& problem, SpatialSolution* solution,
+                  const CancellationToken& cancellation,
+                  const std::function<void(const collocation::SolverIteration&)>& log) const {
+    const auto& start = settings_.start;
+    if (solution->rounds == 1 && start && HasSameQuantities(problem, *start)) {
+      solution->result = SolveOptimalControl(problem, *start, Options(), cancellation, log);
+      solution->iterations += solution->result.iterations;
+      cancellation.ThrowIfCancelled();
+      if (solution->result.succeeded()) return;
+    }
+    // Later rounds begin with the straight line, too: from the last motion, which the planes cut, a
+    // walk of 2.8 m did not converge in 100 iterations, from the line it takes 40.
+    solution->result = SolveOptimalControl(problem, Options(), std::nullopt, cancellation, log);
+    solution->iterations += solution->result.iterations;
+    cancellation.ThrowIfCancelled();
   }
 
   std::vector<Phase> Build(const collocation::RobotSystem& model,

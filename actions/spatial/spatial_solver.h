@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "actions/plan/plan.h"
@@ -23,6 +24,9 @@ struct SpatialSolverSettings {
   double clearance = 0.01;  ///< m, of links from each other
   int max_rounds = 8;       ///< of solving again with planes between links that came too close
   MotionSettings motion = MotionDefaults();  ///< of the whole robot
+  /// Solution of a neighbouring problem. If it has the same quantities, the first round begins with
+  /// its motion. If that leads nowhere, or there is none, it begins with the straight line.
+  std::optional<collocation::StoredSolution> start;
 
   /// The problem keeps a tenth of the robot's limits for what lies between the knots.
   static SpatialSettings ProblemDefaults();

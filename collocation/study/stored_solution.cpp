@@ -57,4 +57,13 @@ void CheckSameQuantities(const OptimalControlProblem& problem, const StoredSolut
   }
 }
 
+bool HasSameQuantities(const OptimalControlProblem& problem, const StoredSolution& solution) {
+  try {
+    CheckSameQuantities(problem, solution);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
 }  // namespace possibility::collocation

@@ -25,5 +25,7 @@ struct StoredSolution {
 /// @throws std::invalid_argument naming the first phase, coordinate, control or parameter in which
 /// the solution differs from the problem.
 void CheckSameQuantities(const OptimalControlProblem& problem, const StoredSolution& solution);
+/// Whether CheckSameQuantities finds no difference.
+bool HasSameQuantities(const OptimalControlProblem& problem, const StoredSolution& solution);
 
 }  // namespace possibility::collocation

@@ -18,6 +18,7 @@
 #include "models/robot/gait_yaml.h"
 #include "models/robot/inertial_yaml.h"
 #include "models/robot/mesh_shapes.h"
+#include "models/robot/shape_reach.h"
 #include "models/robot/urdf_reader.h"
 #include "models/robot/urdf_robot.h"
 #include "models/shapes/shape_yaml.h"
@@ -296,6 +297,7 @@ RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   ReadPhysics(root, urdf_file, &built);
   const MeshFiles meshes =
       AddMeshShapes(built.meshes, urdf_file, ReadPackages(root, yaml_file), &robot);
+  RequireShapesInReach(yaml_file, robot);
   std::vector<std::string_view> parts = {yaml, urdf};
   parts.insert(parts.end(), meshes.contents.begin(), meshes.contents.end());
   robot.content_hash = HashOfParts(parts);

@@ -176,6 +176,12 @@ TEST(StepOverLong, ASolutionIsKeptInTheLibrary) {
   const StepOverProblem problem = Stepping(low);
   const StepOverMotion first(problem, folder.path(), {});
   EXPECT_FALSE(first.was_known());
+  // From the shipped step over a higher beam, to the same optimum.
+  const StepOverMotion from_shipped(problem, DrcHubo1Library(), {});
+  EXPECT_FALSE(from_shipped.was_known());
+  EXPECT_LT(from_shipped.iterations(), first.iterations() / 2);
+  EXPECT_NEAR(from_shipped.phases().back().knots.back().t, first.phases().back().knots.back().t,
+              1e-3);
   first.Save();
   const StepOverMotion second(problem, folder.path(), {});
   EXPECT_TRUE(second.was_known());

@@ -267,6 +267,16 @@ TEST_F(OnboardingTest, AnInertiaThatNoBodyHasIsAnErrorWithoutShapes) {
   EXPECT_NE(error.find("expected an <inertial> that a body can have"), std::string::npos) << error;
 }
 
+TEST_F(OnboardingTest, AShapeLargerThanAnyRobotIsAnError) {
+  std::string urdf = models::ReadFileContents(kDraftUrdf);
+  const std::size_t size = urdf.find("<box size=\"") + 11;
+  urdf.replace(size, urdf.find(' ', size) - size, "1e5");
+  const std::string error = MessageOf<InputError>([&] { DraftOf(urdf); });
+  EXPECT_NE(error.find("reaches 5e+04 m from the link's origin, expected at most 100 m"),
+            std::string::npos)
+      << error;
+}
+
 TEST_F(OnboardingTest, WhatWasAssumedOfInertiasIsWritten) {
   RobotDraft copy = draft();
   models::Inertial body = copy.robot.links[3].inertial;

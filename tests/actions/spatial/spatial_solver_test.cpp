@@ -117,6 +117,25 @@ TEST(SpatialSolver, FeetUnloadBeforeTheyLiftAndLoadAfterTheyLand) {
   }
 }
 
+TEST(SpatialSolver, BeginsWithTheSolutionOfANeighbouringProblem) {
+  const OneStep& step = OneStep::Get();
+  WalkByCollocation again(0.26, 0.26);
+  again.settings.interval = step.walk.settings.interval;
+  const SpatialSolution from_line = again.Solve();
+  again.settings.start = step.solution.solution;
+  const SpatialSolution from_step = again.Solve();
+  EXPECT_LT(from_step.iterations, from_line.iterations);
+  EXPECT_NEAR(from_step.result.objective, from_line.result.objective,
+              1e-5 * from_line.result.objective);
+}
+
+TEST(SpatialSolver, AStartWithOtherQuantitiesIsNotUsed) {
+  WalkByCollocation again = OneStep::Get().walk;
+  again.settings.start = OneStep::Get().solution.solution;
+  again.settings.start->phases.front().coordinates.front() = "other";
+  EXPECT_EQ(again.Solve().iterations, OneStep::Get().solution.iterations);
+}
+
 TEST(SpatialSolver, AStepOutOfReachIsRefused) {
   const WalkByCollocation walk(1.2, 1.2);
   EXPECT_THROW(

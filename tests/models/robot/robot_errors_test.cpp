@@ -359,6 +359,9 @@ const BadRobot kBadUrdf[] = {
     {"OriginHuge", true, "0.01 0.02 -0.03", "0.01 0.02 1e300",
      "robot.urdf: link 'base': inertial: origin: expected numbers of at most 1e6 in magnitude, got "
      "1e+300"},
+    {"ShapeHuge", true, "<box size=\"0.2 0.3 0.1\"/>", "<box size=\"0.2 300 0.1\"/>",
+     "robot.yaml: link 'base': a collision shape reaches 150 m from the link's origin, expected at "
+     "most 100 m (lengths are in metres)"},
     {"MeshMissing", true, "<box size=\"0.2 0.3 0.1\"/>", "<mesh filename=\"a.stl\"/>",
      "robot.urdf: link 'base': mesh: no such file: a.stl"},
     {"MeshOutside", true, "<box size=\"0.2 0.3 0.1\"/>", "<mesh filename=\"/etc/passwd\"/>",
