@@ -16,6 +16,7 @@
 #include "actions/onboarding/shape_corners.h"
 #include "actions/onboarding/visual_shapes.h"
 #include "dynamics/tree/tree_kinematics.h"
+#include "models/facts/contact_points.h"
 #include "models/facts/sole.h"
 #include "models/facts/zero_poses.h"
 #include "models/input/file_contents.h"
@@ -363,7 +364,8 @@ RobotDraft DraftOfText(const std::string& urdf, const std::filesystem::path& urd
 RobotDraft DraftRobot(const std::filesystem::path& urdf_file,
                       const std::vector<std::filesystem::path>& packages,
                       const std::optional<std::filesystem::path>& srdf_file) {
-  const std::string urdf = models::ReadFileContents(urdf_file);
+  const models::UrdfWithoutPoints read = models::WithoutPoints(models::ReadFileContents(urdf_file));
+  const std::string& urdf = read.urdf;
   RobotDraft draft = DraftOfText(urdf, urdf_file, packages);
   if (FacesBackward(draft)) {
     const std::string root = draft.tree.root;
@@ -372,6 +374,11 @@ RobotDraft DraftRobot(const std::filesystem::path& urdf_file,
         fmt::format("the robot looks along -x of '{}', as feet and knees say: the copy of the URDF "
                     "has a root turned by half a turn",
                     root));
+  }
+  for (const auto& [link, count] : read.points) {
+    draft.findings.push_back(fmt::format(
+        "{} spheres of radius 0 on link '{}': points, no shapes; the copy of the URDF has none",
+        count, link));
   }
   if (srdf_file) IgnoreDisabledPairs(models::ReadSrdf(*srdf_file, draft.tree), &draft);
   return draft;

@@ -52,9 +52,9 @@ std::optional<Attribute> NextAttribute(std::string_view text, std::size_t at) {
   return attribute;
 }
 
-/// Blanks the attributes of all tags of `element` that have this name or this value.
-bool Blank(const std::string& element, const std::string& name, const std::string& value,
-           std::string* text) {
+/// Blanks the attributes of all tags of `element` that are `unwanted`.
+template <typename Predicate>
+bool Blank(const std::string& element, const Predicate& unwanted, std::string* text) {
   bool found = false;
   const std::string tag = "<" + element;
   for (std::size_t at = 0; (at = text->find(tag, at)) != std::string::npos;) {
@@ -62,7 +62,7 @@ bool Blank(const std::string& element, const std::string& name, const std::strin
     if (at >= text->size() || !IsBlank((*text)[at])) continue;
     while (const std::optional<Attribute> attribute = NextAttribute(*text, at)) {
       at = attribute->end;
-      if (attribute->name != name && (value.empty() || attribute->value != value)) continue;
+      if (!unwanted(*attribute)) continue;
       std::replace_if(
           text->begin() + attribute->begin, text->begin() + attribute->end,
           [](char c) { return c != '\n'; }, ' ');
@@ -115,16 +115,36 @@ bool MjcfTexts::LimitByRanges() {
   return texts_.front().has_changed = true;
 }
 
+bool MjcfTexts::LeaveOutMaterial(const std::string& material, std::vector<std::string>* findings) {
+  const auto is_material = [&](const Attribute& attribute) {
+    return attribute.name == "material" && attribute.value == material;
+  };
+  bool found = false;
+  for (Text& text : texts_) {
+    for (const char* element : {"geom", "site"}) {
+      if (Blank(element, is_material, &text.bytes)) text.has_changed = found = true;
+    }
+  }
+  if (found)
+    findings->push_back(fmt::format("material '{}' is not defined, and left out", material));
+  return found;
+}
+
 bool MjcfTexts::Mend(const std::string& message, std::vector<std::string>* findings) {
   if (message.find("autolimits") != std::string::npos) return LimitByRanges();
+  if (const std::optional<std::string> material = QuotedAfter(message, "material ")) {
+    return LeaveOutMaterial(*material, findings);
+  }
   const std::optional<std::string> element = QuotedAfter(message, "Element ");
   const std::optional<std::string> name = QuotedAfter(message, "unrecognized attribute: ");
   const std::optional<std::string> value = QuotedAfter(message, "invalid keyword: ");
   if (!element || (!name && !value)) return false;
   bool found = false;
   for (Text& text : texts_) {
-    if (!Blank(*element, name.value_or(""), value.value_or(""), &text.bytes)) continue;
-    text.has_changed = found = true;
+    const auto is_unknown = [&](const Attribute& attribute) {
+      return (name && attribute.name == *name) || (value && attribute.value == *value);
+    };
+    if (Blank(*element, is_unknown, &text.bytes)) text.has_changed = found = true;
   }
   if (found && name != "actuatorfrcrange") {
     findings->push_back(fmt::format("'{}' of <{}> is left out: this MuJoCo does not know it",

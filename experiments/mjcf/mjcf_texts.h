@@ -16,8 +16,9 @@ class MjcfTexts {
   /// Files that cannot be read or are no XML are left to MuJoCo.
   explicit MjcfTexts(const std::filesystem::path& file) { Add(file, 0); }
 
-  /// Changes what a message of MuJoCo complains of: blanks what it does not know, and says so in
-  /// `findings`. False if the message is of anything else, or nothing was found.
+  /// Changes what a message of MuJoCo complains of: blanks what it does not know, and materials
+  /// that nothing defines, and says so in `findings`. False if the message is of anything else, or
+  /// nothing was found.
   bool Mend(const std::string& message, std::vector<std::string>* findings);
 
   /// The texts that have changed, by file name without folder.
@@ -34,6 +35,7 @@ class MjcfTexts {
 
   /// Newer versions limit what has a range; older ones want to be told so.
   bool LimitByRanges();
+  bool LeaveOutMaterial(const std::string& material, std::vector<std::string>* findings);
   void Add(const std::filesystem::path& file, int depth);
 
   std::vector<Text> texts_;

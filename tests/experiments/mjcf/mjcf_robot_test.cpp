@@ -290,6 +290,15 @@ TEST_F(MjcfRobotTest, WhatOnlyNewerMujocoKnowsIsLeftOut) {
   EXPECT_EQ(robot.TotalMass(), RobotOf(Read(kTree)).TotalMass());
 }
 
+TEST_F(MjcfRobotTest, MaterialsThatNothingDefinesAreLeftOut) {
+  const std::string text = Replaced(kTree, "<geom ", "<geom material=\"grid\" ");
+  const MjcfRobot mjcf = Read(text);
+  EXPECT_EQ(std::count(mjcf.findings.begin(), mjcf.findings.end(),
+                       "material 'grid' is not defined, and left out"),
+            1);
+  EXPECT_EQ(mjcf.urdf, Read(kTree).urdf);
+}
+
 TEST_F(MjcfRobotTest, ThreeSlidesAndThreeHingesFloat) {
   std::string joints;
   for (const std::string type : {"slide", "hinge"}) {
