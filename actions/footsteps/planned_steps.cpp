@@ -14,6 +14,7 @@ namespace {
 
 // Effort of one job, before it is doubled.
 constexpr int kSequences = 24;
+constexpr int kLowSequences = 5;               // in which the root sinks lower than usual
 constexpr std::int64_t kStates = 120000;       // expanded in all its searches
 constexpr std::int64_t kStatesOfOne = 16000;   // and in each of them
 constexpr std::int64_t kShareFartherAway = 4;  // steps farther from obstacles: a fourth of that
@@ -217,6 +218,16 @@ std::optional<double> PlannedSteps::HighestRoot(std::vector<Foothold> feet,
   return std::min(*before, *after);
 }
 
+bool PlannedSteps::SinkLow(const GroundedStance& from, const std::vector<Footstep>& steps) const {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::vector<Foothold> feet =
+        FeetBefore(from, stance().gait->limbs.size(), steps, static_cast<int>(i));
+    const std::optional<double> root = HighestRoot(feet, steps[i]);
+    if (!root || *root < limits_.usual_root) return true;
+  }
+  return false;
+}
+
 PlannedSteps::Effort PlannedSteps::FullEffort() const {
   const int doublings = doublings_;
   return {kSequences << doublings, kStates << doublings, kStatesOfOne << doublings};
@@ -246,19 +257,31 @@ PlannedSteps::Outcome PlannedSteps::PlanWithin(double most_torque, Effort effort
   Outcome outcome;
   outcome.fault = "no footholds";
   const double upright = stance().gait->posture.root_height;
+  double lowest = limits_.lowest_root;
+  bool is_first = true;
   int taller = 0;
   while (effort.sequences-- > 0) {
     if (steps.empty()) {
       steps = Search(from, to, limits, refusals, effort.each, &effort, cancellation);
       if (steps.empty()) {
         outcome.is_decided = effort.proves_none;
-        if (outcome.is_decided || limits.lowest_root == limits_.lowest_root) return outcome;
-        limits.lowest_root = limits_.lowest_root;
+        if (outcome.is_decided || limits.lowest_root == lowest) return outcome;
+        limits.lowest_root = lowest;
         taller = kMostTaller;
         continue;
       }
       if (suggestion->steps.empty()) suggestion->steps = steps;
     }
+    if (is_first && doublings_ == 0) {
+      // Where usual steps exist, lower ones seldom do better: they are left to greater efforts. Low
+      // ones seldom do at all, and another route may not need them.
+      if (SinkLow(from, steps)) {
+        effort.sequences = std::min(effort.sequences, kLowSequences);
+      } else {
+        lowest = limits.lowest_root = std::max(lowest, limits_.usual_root);
+      }
+    }
+    is_first = false;
     if (ExpectedDuration(steps) > suggestion->most_duration) {
       outcome.fault += "; other steps take too long";
       outcome.is_decided = true;

@@ -138,6 +138,8 @@ class PlannedSteps final : public Manoeuvre {
   /// Refuses what a motion failed at.
   static void Refuse(const FootstepError& error, const Footstep& step, const Foothold& rest,
                      StepRefusals* refusals);
+  /// Whether the root has to be lower than usual in any of the steps.
+  bool SinkLow(const GroundedStance& from, const std::vector<Footstep>& steps) const;
   /// Of the root all through a step (StepReach). `feet`: before it.
   std::optional<double> HighestRoot(std::vector<Foothold> feet, const Footstep& step) const;
 

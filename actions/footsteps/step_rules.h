@@ -30,6 +30,7 @@ class StepRules {
   double Extent() const;  ///< m, from the stance's origin to its farthest limb
   int NumLimbs() const { return static_cast<int>(displacements_.size()); }
   const FootstepLimits& limits() const { return limits_; }
+  void SetLowestRoot(double root) { limits_.lowest_root = root; }  ///< m, of the limits
   const FootholdGround& ground() const { return ground_; }
 
   /// Displacements of a limb's stance in the others' that leave a gap between the patches.

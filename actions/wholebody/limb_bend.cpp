@@ -1,6 +1,7 @@
 #include "actions/wholebody/limb_bend.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace possibility::actions {
 namespace {
@@ -22,21 +23,40 @@ Eigen::Vector3d LowerPart(const models::RobotModel& robot, const models::GaitLim
   return robot.contacts[limb.contact].Centre();
 }
 
+/// What a bend may be: the parts above and below it, and how far both lead along its axis, where it
+/// does not matter at which point of the axis the joint is said to be.
+struct Parts {
+  std::size_t first = 0;  ///< of the limb's joints, the one in which the upper part begins
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();  ///< in that joint's frame, square to the axis
+  double lower = 0;                                 ///< m, square to the axis
+  double aside = 0;                                 ///< m, along the axis
+
+  double Shorter() const { return std::min(upper.norm(), lower); }
+  double Length() const { return std::hypot(upper.norm() + lower, aside); }
+};
+
 /// The upper part begins at the last joint before the bend that swings it: hips may have their
 /// twist below.
-void FindUpperPart(const models::RobotModel& robot, const models::GaitLimb& limb, LimbBend* bend) {
+Parts PartsAbout(const models::RobotModel& robot, const models::GaitLimb& limb, std::size_t bend) {
   const auto joint = [&](std::size_t k) -> const models::Joint& {
     return robot.joints[limb.joints[k]];
   };
-  std::size_t first = bend->joint - 1;
-  Eigen::Vector3d upper = joint(bend->joint).X_PJ.translation();
-  while (first > 0 && Twists(joint(first), upper) &&
-         joint(first).parent == limb.joints[first - 1] + 1) {
-    upper = joint(first).X_PJ * upper;
-    --first;
+  Parts parts;
+  const bool turns = joint(bend).type == models::JointType::kRevolute;
+  const Eigen::Vector3d axis = turns ? joint(bend).axis : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d axis_above = joint(bend).X_PJ.linear() * axis;
+  const Eigen::Vector3d above = joint(bend).X_PJ.translation();
+  const Eigen::Vector3d below = LowerPart(robot, limb, bend);
+  parts.first = bend - 1;
+  parts.aside = axis_above.dot(above) + axis.dot(below);
+  parts.upper = above - axis_above.dot(above) * axis_above;
+  parts.lower = (below - axis.dot(below) * axis).norm();
+  while (parts.first > 0 && Twists(joint(parts.first), parts.upper) &&
+         joint(parts.first).parent == limb.joints[parts.first - 1] + 1) {
+    parts.upper = joint(parts.first).X_PJ * parts.upper;
+    --parts.first;
   }
-  bend->before = limb.joints[first] + 1;
-  bend->length = upper.norm() + LowerPart(robot, limb, bend->joint).norm();
+  return parts;
 }
 
 }  // namespace
@@ -53,18 +73,16 @@ std::optional<LimbBend> BendOf(const models::RobotModel& robot, const models::Ga
     const bool goes_on = is_last ? robot.contacts[limb.contact].link == limb.joints[i] + 1
                                  : joint(i + 1).parent == limb.joints[i] + 1;
     if (joint(i).parent != limb.joints[i - 1] + 1 || !goes_on) continue;
-    const double upper = joint(i).X_PJ.translation().norm();
-    const double lower = LowerPart(robot, limb, i).norm();
-    if (std::min(upper, lower) <= shorter) continue;
-    shorter = std::min(upper, lower);
+    const Parts parts = PartsAbout(robot, limb, i);
+    if (parts.Shorter() <= shorter) continue;
+    shorter = parts.Shorter();
     best = LimbBend{joint(i).name,
                     i,
-                    limb.joints[i - 1] + 1,
+                    limb.joints[parts.first] + 1,
                     limb.joints[is_last ? i : i + 1] + 1,
                     is_last ? robot.contacts[limb.contact].Centre() : Eigen::Vector3d::Zero(),
-                    upper + lower};
+                    parts.Length()};
   }
-  if (best) FindUpperPart(robot, limb, &*best);
   return best;
 }
 

@@ -37,6 +37,58 @@ TEST(LimbReachTest, TheRootIsHighestOverAStraightLeg) {
   EXPECT_NEAR(*highest, q[6], 1e-3);  // the knee is a little off the line from hip to ankle
 }
 
+/// A URDF may put a joint anywhere on its axis.
+TEST(LimbReachTest, AKneeElsewhereOnItsAxisIsTheSameKnee) {
+  for (const char* name : {"drchubo1", "t1", "h1_2"}) {
+    models::RobotModel robot = RobotNamed(name).robot();
+    const models::GaitLimb leg = robot.GaitNamed("walk").limbs[0];
+    const LimbBend before = *BendOf(robot, leg);
+    models::Joint& knee = robot.joints[leg.joints[before.joint]];
+    models::Joint& ankle = robot.joints[leg.joints[before.joint + 1]];
+    const Eigen::Vector3d along = 0.05 * knee.axis;
+    knee.X_PJ.translation() += knee.X_PJ.linear() * along;
+    ankle.X_PJ.translation() -= along;
+    const std::optional<LimbBend> bend = BendOf(robot, leg);
+    ASSERT_TRUE(bend) << name;
+    EXPECT_EQ(bend->name, before.name) << name;
+    EXPECT_EQ(bend->before, before.before) << name;
+    EXPECT_EQ(bend->after, before.after) << name;
+    EXPECT_NEAR(bend->length, before.length, 1e-3) << name;
+  }
+}
+
+/// Over random angles, and with the knee straight.
+TEST(LimbReachTest, TheLengthIsTheGreatestDistanceOfHipAndAnkle) {
+  std::mt19937_64 random(5);
+  for (const std::string& name : ShippedRobotNames()) {
+    const models::RobotModel& robot = RobotNamed(name).robot();
+    dynamics::TreeKinematics kinematics(robot);
+    const models::GaitLimb& leg = robot.GaitNamed("walk").limbs[0];
+    const LimbBend bend = *BendOf(robot, leg);
+    double greatest = 0;
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(robot.nq());
+    q[0] = 1;
+    const auto look = [&] {
+      kinematics.SetPosition(q);
+      const Eigen::Vector3d hip = kinematics.X_WL()[bend.before].translation();
+      const double distance = (kinematics.Position(bend.after, bend.end) - hip).norm();
+      EXPECT_LT(distance, bend.length + 2e-3) << name;
+      greatest = std::max(greatest, distance);
+    };
+    for (int i = 0; i < 2000; ++i) {
+      for (const int joint : leg.joints) {
+        q[7 + joint] = std::uniform_real_distribution(-1.5, 1.5)(random);
+      }
+      look();
+    }
+    for (double angle = -3; angle <= 3; angle += 0.002) {
+      q[7 + leg.joints[bend.joint]] = angle;
+      look();
+    }
+    EXPECT_NEAR(greatest, bend.length, 2e-3) << name;
+  }
+}
+
 /// T1's hips have their twist below, in the thigh: it begins at the joint above.
 TEST(LimbReachTest, AThighBeginsAboveItsTwist) {
   const models::RobotModel& robot = RobotNamed("t1").robot();
