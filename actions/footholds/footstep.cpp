@@ -15,8 +15,8 @@ constexpr double kSecondsPerMetreLifted = 2;
 constexpr double kAheadOfMany = 0.25;
 constexpr double kAsideOfMany = 0.12;
 constexpr double kTurnOfMany = 0.2;
-/// How far the root may sink, as a share of a limb's length. Of two limbs usually, and if there is
-/// no other way: of 21 published robots, 7 take steps up only that way. A trunk that keeps its
+/// How far the root may sink, as a share of a limb's length. Of two limbs: usually, and if there is
+/// no other way; SA01, X1, R1 and AzureLoong take steps up only that way. A trunk that keeps its
 /// pitch over more limbs is as low as its lower end needs.
 constexpr double kUsualSquatOfTwo = 0.1;
 constexpr double kSquatOfTwo = 0.2;

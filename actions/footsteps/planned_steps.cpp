@@ -14,7 +14,7 @@ namespace {
 
 // Effort of one job, before it is doubled.
 constexpr int kSequences = 24;
-constexpr int kLowSequences = 5;               // in which the root sinks lower than usual
+constexpr int kLowSequences = 2;               // in which the root sinks lower than usual
 constexpr std::int64_t kStates = 120000;       // expanded in all its searches
 constexpr std::int64_t kStatesOfOne = 16000;   // and in each of them
 constexpr std::int64_t kShareFartherAway = 4;  // steps farther from obstacles: a fourth of that
