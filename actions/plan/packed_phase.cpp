@@ -115,8 +115,8 @@ int BitsOfTime(double h) { return static_cast<int>(std::ceil(-std::log2(h))); }
 
 bool Fits(const Knot& knot, const PackedOutline& outline) {
   return knot.q.size() == 7 + outline.num_joints && knot.v.size() == 6 + outline.num_joints &&
-         knot.a.size() == 6 + outline.num_joints && knot.tau.size() == outline.num_joints &&
-         knot.forces.cols() == outline.num_points;
+         knot.a.size() == 6 + outline.num_joints && knot.forces.cols() == outline.num_points &&
+         knot.tau.size() == (outline.has_torques ? outline.num_joints : 0);
 }
 
 bool Continues(const Knot& knot, const Phase& phase_before) {
@@ -162,7 +162,8 @@ PackedOutline OutlineOf(const Phase& phase, int force_bits, const Phase* before)
   outline.num_knots = static_cast<Index>(phase.knots.size());
   if (outline.num_knots < 2) throw std::invalid_argument("a phase of a plan has less than 2 knots");
   const Knot& first = phase.knots.front();
-  outline.num_joints = first.tau.size();
+  outline.num_joints = std::max<Index>(first.v.size() - 6, 0);
+  outline.has_torques = first.tau.size() > 0;
   outline.num_points = first.forces.cols();
   outline.force_bits = force_bits;
   for (const Knot& knot : phase.knots) {
@@ -292,16 +293,17 @@ std::size_t PackedOutline::CountOf(PackedQuantity quantity) const {
     case kPositions:
       return (6 + joints) * (knots - 1);
     case kTorques:
-      return joints * knots;
+      return has_torques ? joints * knots : 0;
     case kForces:
       return 3 * static_cast<std::size_t>(num_points) * knots;
   }
   return 0;
 }
 
-PackedPhase Pack(const Phase& phase, int force_bits, const Phase* before) {
+PackedPhase Pack(const Phase& phase, int force_bits, const Phase* before, PackedTorques torques) {
   PackedPhase packed;
   packed.outline = OutlineOf(phase, force_bits, before);
+  if (torques == PackedTorques::kLeftOut) packed.outline.has_torques = false;
   const PackedOutline& outline = packed.outline;
   const Knot* last = before != nullptr ? &before->knots.back() : nullptr;
   packed.numbers[kTimes] = TimesOf(phase, outline.start ? outline.start->t : last->t);
@@ -309,8 +311,10 @@ PackedPhase Pack(const Phase& phase, int force_bits, const Phase* before) {
   const double step = Step(outline.acceleration_bits);
   AppendRows(Stacked(phase, [](const Knot& knot) { return knot.a; }), step,
              &packed.numbers[kAccelerations]);
-  AppendRows(Stacked(phase, [](const Knot& knot) { return knot.tau; }),
-             Step(force_bits - kTorqueBitsFewer), &packed.numbers[kTorques]);
+  if (outline.has_torques) {
+    AppendRows(Stacked(phase, [](const Knot& knot) { return knot.tau; }),
+               Step(force_bits - kTorqueBitsFewer), &packed.numbers[kTorques]);
+  }
   AppendRows(Stacked(phase, [](const Knot& knot) { return VectorXd(knot.forces.reshaped()); }),
              Step(force_bits), &packed.numbers[kForces]);
 
@@ -336,8 +340,8 @@ std::vector<Knot> Unpack(const PackedPhase& packed, const Knot* before) {
   const Index nv = 6 + outline.num_joints;
   const Index n = outline.num_knots;
   const MatrixXd a = Rows(packed.numbers[kAccelerations], nv, n, Step(outline.acceleration_bits));
-  const MatrixXd tau = Rows(packed.numbers[kTorques], outline.num_joints, n,
-                            Step(outline.force_bits - kTorqueBitsFewer));
+  const MatrixXd tau = Rows(packed.numbers[kTorques], outline.has_torques ? outline.num_joints : 0,
+                            n, Step(outline.force_bits - kTorqueBitsFewer));
   const MatrixXd forces =
       Rows(packed.numbers[kForces], 3 * outline.num_points, n, Step(outline.force_bits));
   const IntegerMatrix rates = FromRows(packed.numbers[kRates], nv, n - 1);

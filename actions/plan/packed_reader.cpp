@@ -40,12 +40,14 @@ PackedOutline::Start ReadStart(const JsonCursor& cursor, Eigen::Index num_joints
 }
 
 /// The outline of a phase whose keys are checked.
-PackedOutline ReadOutline(const JsonCursor& phase, int force_bits, std::size_t num_joints) {
+PackedOutline ReadOutline(const JsonCursor& phase, int force_bits, bool has_torques,
+                          std::size_t num_joints) {
   PackedOutline outline;
   outline.num_knots = phase["knots"].Integer(2, kMostKnots);
   outline.num_joints = static_cast<Eigen::Index>(num_joints);
   outline.num_points = phase["points"].Integer(0, kMostKnots);
   outline.force_bits = force_bits;
+  outline.has_torques = has_torques;
   const JsonCursor bits = phase["bits"];
   if (bits.ArraySize() != 3) bits.Fail("expected those of accelerations, rates and positions");
   outline.acceleration_bits = ReadBits(bits[std::size_t{0}]);
@@ -63,7 +65,8 @@ class PackedPhases {
       : archive_(archive),
         file_(std::move(file)),
         num_joints_(root["joints"].ArraySize()),
-        force_bits_(ReadBits(root["force_bits"])) {
+        force_bits_(ReadBits(root["force_bits"])),
+        has_torques_(!root.Has("torques") || root["torques"].Bool()) {
     const JsonCursor blocks = root["blocks"];
     for (std::size_t i = 0, n = blocks.ArraySize(); i < n; ++i) {
       block_sizes_.push_back(blocks[i].Integer(1, kMostKnots));
@@ -105,7 +108,7 @@ class PackedPhases {
       for (std::size_t k = 0, m = phases.ArraySize(); k < m; ++k) {
         const JsonCursor phase = phases[k];
         phase.ExpectKeys({"contacts", "knots", "points", "bits"}, {"impulses", "start"});
-        outlines_.push_back(ReadOutline(phase, force_bits_, num_joints_));
+        outlines_.push_back(ReadOutline(phase, force_bits_, has_torques_, num_joints_));
         for (std::size_t j = 0; j < kNumPackedQuantities; ++j) {
           count += static_cast<double>(outlines_.back().CountOf(static_cast<PackedQuantity>(j)));
         }
@@ -153,6 +156,7 @@ class PackedPhases {
   std::string file_;
   std::size_t num_joints_;
   int force_bits_;
+  bool has_torques_;
   std::vector<std::int64_t> block_sizes_;  ///< in phases
   std::vector<PackedOutline> outlines_;    ///< of all phases
   std::size_t next_outline_ = 0;
@@ -176,7 +180,7 @@ Plan ReadPackedPlan(std::string_view bytes, const std::filesystem::path& file) {
   root.ExpectFormat(kPackedPlanFormat);
   root.ExpectKeys({"format", "robot", "scenario", "seed", "goal", "timings", "statistics", "joints",
                    "force_bits", "segments", "blocks", "explored"},
-                  {"schedule", "search", "no"});
+                  {"torques", "schedule", "search", "no"});
   PackedPhases phases(root, archive, file.string());
   Plan plan =
       ReadPlanDocument(root, std::filesystem::absolute(file).parent_path(),

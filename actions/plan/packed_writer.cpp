@@ -50,11 +50,11 @@ OrderedJson OutlineJson(const Phase& phase, const PackedOutline& outline) {
 /// Packs phases one after the other, and writes a block whenever there are enough of them.
 class BlockWriter {
  public:
-  BlockWriter(int force_bits, models::ZipWriter* archive)
-      : force_bits_(force_bits), archive_(archive) {}
+  BlockWriter(int force_bits, PackedTorques torques, models::ZipWriter* archive)
+      : force_bits_(force_bits), torques_(torques), archive_(archive) {}
 
   OrderedJson Add(const Phase& phase) {
-    packed_.push_back(Pack(phase, force_bits_, has_before_ ? &before_ : nullptr));
+    packed_.push_back(Pack(phase, force_bits_, has_before_ ? &before_ : nullptr, torques_));
     const PackedPhase& packed = packed_.back();
     OrderedJson json = OutlineJson(phase, packed.outline);
     std::vector<Knot> knots = Unpack(packed, has_before_ ? &before_.knots.back() : nullptr);
@@ -81,6 +81,7 @@ class BlockWriter {
   }
 
   int force_bits_;
+  PackedTorques torques_;
   models::ZipWriter* archive_;
   OrderedJson blocks_ = OrderedJson::array();
   std::vector<PackedPhase> packed_;
@@ -106,6 +107,24 @@ OrderedJson SegmentJson(const Segment& segment, BlockWriter* blocks) {
   return json;
 }
 
+/// Whether any knot of the plan has torques; all must, or none. A plan without motion has them.
+bool HasTorques(const Plan& plan) {
+  std::size_t knots = 0;
+  std::size_t with = 0;
+  for (const Segment& segment : plan.segments) {
+    for (const Phase& phase : segment.phases) {
+      for (const Knot& knot : phase.knots) {
+        ++knots;
+        if (knot.tau.size() > 0 || knot.v.size() <= 6) ++with;
+      }
+    }
+  }
+  if (with > 0 && with < knots) {
+    throw std::invalid_argument("some knots of a plan have torques, others have none");
+  }
+  return with == knots;
+}
+
 void RequireKnots(const Plan& plan) {
   for (const Segment& segment : plan.segments) {
     for (const Phase& phase : segment.phases) {
@@ -118,14 +137,16 @@ void RequireKnots(const Plan& plan) {
 
 }  // namespace
 
-void WritePackedPlan(const Plan& plan, const std::filesystem::path& file) {
+void WritePackedPlan(const Plan& plan, const std::filesystem::path& file, PackedTorques torques) {
   RequireKnots(plan);
+  if (!HasTorques(plan)) torques = PackedTorques::kLeftOut;
   models::ZipWriter archive(file, models::Deflation::kThorough);
-  BlockWriter blocks(plan.force_bits, &archive);
+  BlockWriter blocks(plan.force_bits, torques, &archive);
   try {
     OrderedJson json =
         PlanHead(plan, kPackedPlanFormat, std::filesystem::absolute(file).parent_path());
     json["force_bits"] = plan.force_bits;
+    if (torques == PackedTorques::kLeftOut) json["torques"] = false;
     json["segments"] = OrderedJson::array();
     for (const Segment& segment : plan.segments) {
       json["segments"].push_back(SegmentJson(segment, &blocks));
@@ -147,8 +168,8 @@ bool IsPackedPlanName(const std::filesystem::path& file) {
       "{}: expected a name that ends in .json (format 1) or .zip (format 2)", file.string()));
 }
 
-void WritePlanAs(const Plan& plan, const std::filesystem::path& file) {
-  IsPackedPlanName(file) ? WritePackedPlan(plan, file) : WritePlan(plan, file);
+void WritePlanAs(const Plan& plan, const std::filesystem::path& file, PackedTorques torques) {
+  IsPackedPlanName(file) ? WritePackedPlan(plan, file, torques) : WritePlan(plan, file);
 }
 
 }  // namespace possibility::actions

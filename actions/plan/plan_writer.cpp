@@ -53,6 +53,9 @@ std::vector<Quantity> QuantitiesOf(const Phase& phase) {
     }
     return values;
   };
+  if (!phase.knots.empty() && phase.knots[0].tau.size() == 0 && phase.knots[0].v.size() > 6) {
+    throw std::invalid_argument("a plan without torques, which format 1 needs");
+  }
   return {
       {"q", PlanDigits::kPosition, stack([](const Knot& knot) { return knot.q; })},
       {"v", PlanDigits::kRate, stack([](const Knot& knot) { return knot.v; })},

@@ -15,9 +15,10 @@
 namespace possibility::actions {
 namespace {
 
-constexpr int kBitsOnTheGround =
-    12;                            // of accelerations: 2.4e-4 m/s^2, which the ground makes up for
-constexpr int kBitsInFlight = 18;  // 3.8e-6 m/s^2: nothing makes up for it
+// Of accelerations. On the ground 1e-3 m/s^2, for which the contact forces make up; in flight
+// 3.8e-6 m/s^2, since nothing does.
+constexpr int kBitsOnTheGround = 10;
+constexpr int kBitsInFlight = 18;
 constexpr double kForceStep = 2e-7;  // of the weight
 constexpr double kSamePlace = 1e-7;  // m, rad: phases follow each other
 constexpr double kSameRate = 1e-6;   // m/s, rad/s
@@ -120,7 +121,6 @@ class Refinement {
       RoundToBits(force_bits_, &knot.forces);
       state.knot.forces = knot.forces;
       knot.tau = RealiseForces(state, points, robot_, evaluator_.dynamics()).torques;
-      RoundToBits(force_bits_ - kTorqueBitsFewer, &knot.tau);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "actions/checks/plan_torques.h"
 #include "actions/plan/contact_name.h"
 #include "actions/plan/plan_reader.h"
 #include "models/input/input_error.h"
@@ -40,6 +41,7 @@ LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory) {
   LoadedPlan loaded = LoadAlone(file_or_directory);
   loaded.scenario = models::LoadScenario(loaded.plan.scenario_file);
   loaded.robot = models::LoadRobotModel(loaded.plan.robot_file);
+  actions::CompleteTorques(loaded.robot, &loaded.plan);
   return loaded;
 }
 
@@ -55,6 +57,7 @@ LoadedPlan LoadPlanToVerify(const std::filesystem::path& file_or_directory,
                                  loaded.scenario.file.string(), named.string()));
   }
   loaded.robot = models::LoadRobotModel(files.robot.empty() ? named : files.robot);
+  actions::CompleteTorques(loaded.robot, &loaded.plan);
   return loaded;
 }
 

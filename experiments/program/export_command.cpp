@@ -32,6 +32,7 @@ struct ExportOptions {
   std::string period;
   std::string step;
   bool margins = false;
+  bool torques = false;
 };
 
 /// A kind of export that is one file.
@@ -78,6 +79,7 @@ ExitCode RunExport(const ExportOptions& options) {
   }
   ExportSampling sampling;
   sampling.margins = options.margins;
+  sampling.torques = options.torques;
   if (!options.step.empty()) sampling.period = ParseSeconds("--step", options.step);
   if (!options.period.empty()) sampling.period = ParseSeconds("--period", options.period);
   const LoadedPlan loaded = LoadPlan(options.plan);
@@ -101,6 +103,8 @@ Command AddExportCommand(CLI::App& program) {
                       "s between samples (default: the plan's knots)");
   command.AddOptional("--step", &options->step, "Older name of --period");
   command.AddFlag("--margins", &options->margins, "Also the margins at every sample");
+  command.AddFlag("--torques", &options->torques,
+                  "Torques in plan.zip even if they follow from the rest");
   return {command, [options] { return RunExport(*options); }};
 }
 

@@ -164,7 +164,7 @@ ExitCode RunPlan(const PlanOptions& options) {
     PrintError("{}", actions::FormatText(result.verification));
     return kVerificationFailed;
   }
-  WriteOnlyPlan(result.plan, files);
+  WriteOnlyPlan(result.plan, robot, files);
   WritePage(result.plan, robot, scenario, files);
   // Its objects are printed.
   if (options.anytime && options.json && result.status == actions::PlanStatus::kFound) return kDone;

@@ -16,10 +16,11 @@ struct ExportSubject {
   const models::Scenario& scenario;
 };
 
-/// Which instants are exported, and what of them.
+/// Which instants are exported, and what.
 struct ExportSampling {
   std::optional<double> period;  ///< s; none: the plan's knots
   bool margins = false;
+  bool torques = false;  ///< also in a plan.zip, if they follow from the rest
 };
 
 /// Visits the plan's knots, or samples a period apart with exact feed-forward (FeedForward).

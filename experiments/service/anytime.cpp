@@ -45,7 +45,7 @@ actions::PlanResult PlanAnytime(const models::RobotModel& robot, const models::S
   ProgressLine line(request.time_limit);
   request.progress = [&line](const actions::PlanProgress& progress) { line.Show(progress); };
   request.improved = [&](const actions::PlanResult& result) {
-    WriteOnlyPlan(result.plan, files);
+    WriteOnlyPlan(result.plan, robot, files);
     if (json) return PrintImprovementJson(result, robot, files, deadline);
     PrintImprovement(result, deadline);
   };

@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "actions/checks/plan_torques.h"
 #include "actions/plan/packed_writer.h"
 #include "experiments/support/output_file.h"
 #include "experiments/viewer/viewer_page.h"
@@ -18,8 +19,9 @@ PlanFiles PlanFilesIn(const std::filesystem::path& folder, int plan_version) {
   return {folder / (plan_version == 2 ? kPacked : kPlain), folder / "plan.html"};
 }
 
-void WriteOnlyPlan(const actions::Plan& plan, const PlanFiles& files) {
-  actions::WritePlanAs(plan, files.plan);
+void WriteOnlyPlan(const actions::Plan& plan, const models::RobotModel& robot,
+                   const PlanFiles& files) {
+  actions::WritePlanAs(plan, files.plan, actions::TorquesToPack(robot, plan));
   std::error_code ignored;  // mostly there is none
   const char* other = files.plan.filename() == kPlain ? kPacked : kPlain;
   std::filesystem::remove(files.plan.parent_path() / other, ignored);

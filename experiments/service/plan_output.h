@@ -16,7 +16,8 @@ PlanFiles PlanFilesIn(const std::filesystem::path& folder, int plan_version);
 /// Writes the plan in its format, by rename. A plan of the other format beside it is of an older
 /// run, would be read in its place, and is removed.
 /// @throws InputError if the file cannot be written.
-void WriteOnlyPlan(const actions::Plan& plan, const PlanFiles& files);
+void WriteOnlyPlan(const actions::Plan& plan, const models::RobotModel& robot,
+                   const PlanFiles& files);
 
 /// Writes the page. @throws InputError likewise.
 void WritePage(const actions::Plan& plan, const models::RobotModel& robot,

@@ -112,7 +112,7 @@ class Watch {
     request.cancellation = CancellationToken([this] { return !file_.HasChanged(); });
     const actions::PlanResult result = PlanWithProgress(scenario, request);
     const PlanFiles files = PlanFilesIn(job_.folder, request.plan_version);
-    WriteOnlyPlan(result.plan, files);
+    WriteOnlyPlan(result.plan, *robot_, files);
     Print({*robot_, result, replanner_.reuse(), files, stopwatch.Seconds()});
     WritePage(result.plan, *robot_, scenario, files);
   }

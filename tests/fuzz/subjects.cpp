@@ -309,12 +309,14 @@ void UsePlan(const fs::path& file) {
 /// right again), or the archive.
 constexpr std::array<const char*, 3> kPackedParts = {"plan.json", "motion/0", ""};
 
-/// The members of packed plans that contain everything a plan can hold.
+/// The members of packed plans that contain everything a plan can hold; the third has no torques.
 std::vector<std::map<std::string, std::string>> PackedPlans(const fs::path& folder) {
   std::vector<std::map<std::string, std::string>> plans;
   const fs::path file = folder / "whole_plan.zip";
   for (const std::string& text : PlanTexts(folder)) {
-    actions::WritePackedPlan(actions::ParsePlan(text, folder / "whole_plan.json"), file);
+    actions::WritePackedPlan(
+        actions::ParsePlan(text, folder / "whole_plan.json"), file,
+        plans.size() == 2 ? actions::PackedTorques::kLeftOut : actions::PackedTorques::kStored);
     plans.push_back(models::ReadZip(models::ReadFileContents(file), file));
     plans.back().emplace("motion/0", "");  // that of a "no"
   }

@@ -13,7 +13,8 @@ import unittest
 import plan_cases
 from bad_input import BadInput
 from plan_cases import CheckCase, make_packed_plan, make_plan
-from spoilt_plans import SpoiltJump, SpoiltPackedJump, SpoiltPackedStride, SpoiltStride
+from spoilt_plans import (SpoiltJump, SpoiltPackedJump, SpoiltPackedStride, SpoiltStride,
+                          SpoiltStrideWithoutTorques)
 
 
 class Agrees(CheckCase):
@@ -66,7 +67,8 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     cases = [AgreesLong] if sys.argv[3] == "long" else [
-        Agrees, SpoiltStride, SpoiltJump, SpoiltPackedStride, SpoiltPackedJump, BadInput]
+        Agrees, SpoiltStride, SpoiltJump, SpoiltPackedStride, SpoiltPackedJump,
+        SpoiltStrideWithoutTorques, BadInput]
     suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromTestCase(case)
                                for case in cases)
     passed = unittest.TextTestRunner().run(suite).wasSuccessful()

@@ -63,7 +63,7 @@ class Phase:
     q: np.ndarray
     v: np.ndarray
     a: np.ndarray
-    tau: np.ndarray
+    tau: object  # None: not in the file
     forces: np.ndarray  # knots x points x 3
     impulses: object  # points x 3, or None
 
@@ -231,7 +231,7 @@ def _courses(indices, width, knots, series, where):
     return values
 
 
-def _read_phase(node, segment, index, action, robot, num_joints, series, file):
+def _read_phase(node, segment, index, action, robot, num_joints, series, has_torques, file):
     where = f"{file}: segment {segment}, phase {index}"
     points = _bearing_points(_get(node, "contacts", list, where), robot, where)
     t = _numbers(_get(node, "t", list, where), (None,), f"{where}: t")
@@ -254,8 +254,9 @@ def _read_phase(node, segment, index, action, robot, num_joints, series, file):
             raise InputError(f"{where}: impulses: nothing can hit the ground here")
         impulses = _numbers(node["impulses"], (3 * len(points),), f"{where}: impulses")
         impulses = impulses.reshape(len(points), 3)
+    tau = rows("tau", num_joints) if "tau" in node or has_torques else None
     return Phase(segment, index, action, points, t, q, rows("v", 6 + num_joints),
-                 rows("a", 6 + num_joints), rows("tau", num_joints), forces, impulses)
+                 rows("a", 6 + num_joints), tau, forces, impulses)
 
 
 def _refuse_constant(name):
@@ -316,7 +317,7 @@ def read_plan(file):
         action = _get(segment, "action", str, f"{file}: segment {i}")
         for j, phase in enumerate(_get(segment, "phases", list, f"{file}: segment {i}")):
             phases.append(_read_phase(phase, i, j, action, robot, len(joints), series,
-                                      file))
+                                      node.get("torques", True), file))
     if not phases:
         raise InputError(f"{file}: there is no motion in this plan")
     return Plan(joints, robot, _read_ground(beside("scenario"), robot.friction), phases, version)

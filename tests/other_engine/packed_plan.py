@@ -12,24 +12,29 @@ def is_packed(file):
 
 
 def load(file):
-    """The document, whose phases have t, q, v, a, tau and forces."""
+    """The document, whose phases have t, q, v, a, forces, and tau unless the file leaves it out."""
     with zipfile.ZipFile(file) as archive:
         plan = json.loads(archive.read("plan.json"))
         phases = [phase for segment in plan["segments"] for phase in segment["phases"]]
         joints, last = len(plan["joints"]), None
+        has_torques = plan.get("torques", True)
+        if not isinstance(has_torques, bool):
+            raise ValueError("torques: expected true or false")
         for index, count in enumerate(plan["blocks"]):
             block, phases = phases[:count], phases[count:]
-            columns = _integers(archive.read(f"motion/{index}"), block, joints)
+            columns = _integers(archive.read(f"motion/{index}"), block, joints, has_torques)
             for phase, numbers in zip(block, columns):
                 last = _unpack(phase, numbers, 2.0 ** -plan["force_bits"], phase.get("start", last))
+                if not has_torques:
+                    del phase["tau"]
         if phases:
             raise ValueError("blocks: fewer phases than the segments have")
     return plan
 
 
-def _integers(data, block, joints):
+def _integers(data, block, joints, has_torques):
     """For each phase the integers of t, a, v, q, tau and forces: components x knots or intervals."""
-    sizes = [[(1, n - 1), (6 + joints, n), (6 + joints, n - 1), (6 + joints, n - 1), (joints, n),
+    sizes = [[(1, n - 1), (6 + joints, n), (6 + joints, n - 1), (6 + joints, n - 1), (joints * has_torques, n),
               (3 * phase["points"], n)] for phase in block for n in [phase["knots"]]]
     columns, place = [[] for _ in block], 0
     for quantity in range(6):

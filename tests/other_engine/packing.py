@@ -1,4 +1,4 @@
-"""Writes plan.zip from a document whose phases have t, q, v, a, tau and forces: a second writer of
+"""Writes plan.zip from a document whose phases have t, q, v, a, forces and perhaps tau: a second writer of
 possibility-plan/2, after docs/file_formats.md. Every phase has a start."""
 
 import json
@@ -41,8 +41,8 @@ def _planes(integers):
 def _integers_of(phase, outline, force_step):
     """The integers of t, a, v, q, tau and forces."""
     a_step, v_step, q_step = (2.0 ** -bits for bits in outline["bits"])
-    t, q, v, a, tau, forces = (np.array(phase[key], float)
-                               for key in ("t", "q", "v", "a", "tau", "forces"))
+    t, q, v, a, forces = (np.array(phase[key], float) for key in ("t", "q", "v", "a", "forces"))
+    tau = np.array(phase.get("tau", np.zeros((len(t), 0))), float)
     steps = np.rint(np.diff(t) * 2.0 ** 40).astype(np.int64)
     h = steps * 2.0 ** -40
     a_integers = np.rint(a.T / a_step).astype(np.int64)

@@ -31,11 +31,11 @@ def make_plan(scenario):
     return folder
 
 
-def make_packed_plan(scenario):
+def make_packed_plan(scenario, *options):
     """The same plan in format 2."""
-    file = os.path.join(make_plan(scenario), "packed.zip")
+    file = os.path.join(make_plan(scenario), "packed" + "".join(options) + ".zip")
     if not os.path.exists(file):
-        run = subprocess.run([PROGRAM, "export", make_plan(scenario), "--plan", file],
+        run = subprocess.run([PROGRAM, "export", make_plan(scenario), "--plan", file, *options],
                              capture_output=True, text=True, check=False)
         if run.returncode != 0:
             sys.exit(f"no plan.zip of {scenario}: exit code {run.returncode}: {run.stderr}")
@@ -159,9 +159,11 @@ class Spoilt(CheckCase):
 class Packed:
     """Mixed into Spoilt, in front of it: the same in format 2."""
 
-    @staticmethod
-    def document(scenario):
-        return packed_plan.load(make_packed_plan(scenario))
+    options = ("--torques",)
+
+    @classmethod
+    def document(cls, scenario):
+        return packed_plan.load(make_packed_plan(scenario, *cls.options))
 
     def write_document(self, plan):
         file = os.path.join(FOLDER, f"{self.id()}.zip")

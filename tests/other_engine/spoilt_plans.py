@@ -220,3 +220,27 @@ class SpoiltPackedJump(Packed, SpoiltJump):
         for forces in self.flight["forces"]:
             forces.extend([0, 0, 1])
         self.refuses_input(self.write(self.plan), "segment 0, phase ", "forces")
+
+
+class SpoiltStrideWithoutTorques(Packed, Spoilt):
+    options = ()
+
+    def setUp(self):
+        self.plan = self.piece("three_routes_b", "walk", 6)
+        phases = self.plan["segments"][0]["phases"]
+        self.phase = next(p for p in phases if len(p["contacts"]) == 1)
+        self.knot = len(self.phase["t"]) // 2
+
+    def test_nothing_changed(self):
+        self.assertNotIn("tau", self.phase)
+        self.accepts(self.write(self.plan), "--rate", "200")
+
+    def test_force(self):
+        self.phase["forces"][self.knot][2] += 10
+        self.refuses(self.write(self.plan), "root force left over at knots",
+                     "root torque left over at knots")
+
+    def test_joint_acceleration(self):
+        self.phase["a"][self.knot][6 + 3] += 0.01
+        self.refuses(self.write(self.plan), "root force left over at knots",
+                     "root torque left over at knots")

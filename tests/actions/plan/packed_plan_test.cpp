@@ -198,6 +198,27 @@ TEST_F(PackedPlan, ManyKnotsTakeSeveralBlocks) {
   EXPECT_TRUE(Written(ReadBack(read)) == Written(read));
 }
 
+TEST_F(PackedPlan, TorquesMayBeLeftOut) {
+  WritePackedPlan(plan_, file(), PackedTorques::kLeftOut);
+  const std::string bytes = models::ReadFileContents(file());
+  EXPECT_LT(bytes.size(), Written(plan_).size());
+  const Plan read = ParsePlan(bytes, file());
+  const std::vector<Phase> expected = PhasesIn(ReadBack(plan_));
+  const std::vector<Phase> phases = PhasesIn(read);
+  ASSERT_EQ(phases.size(), expected.size());
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    ASSERT_EQ(phases[i].knots.size(), expected[i].knots.size());
+    for (std::size_t k = 0; k < phases[i].knots.size(); ++k) {
+      Knot without = expected[i].knots[k];
+      without.tau.resize(0);
+      ExpectSameKnot(phases[i].knots[k], without);
+    }
+  }
+  EXPECT_TRUE(Written(ReadBack(read)) == Written(read));
+  EXPECT_EQ(ReadBack(read).segments[0].phases[0].knots[0].tau.size(), 0) << "stays without";
+  EXPECT_THROW(WritePlan(read, folder_ / "plan.json"), std::invalid_argument);
+}
+
 TEST_F(PackedPlan, AFolderMeansItsPlanWhicheverItIs) {
   WritePackedPlan(plan_, file());
   EXPECT_EQ(PlanFileOf(folder_), file());
@@ -253,6 +274,8 @@ TEST_F(PackedPlan, SpoiltDocumentsAreRefused) {
   ExpectDocumentRefused([](json* plan) { (*plan)["blocks"] = {3, 1}; }, "motion/0");
   ExpectDocumentRefused([](json* plan) { (*plan)["blocks"] = {0, 4}; }, "blocks[0]");
   ExpectDocumentRefused([](json* plan) { (*plan)["force_bits"] = 99; }, "force_bits");
+  ExpectDocumentRefused([](json* plan) { (*plan)["torques"] = 0; }, "torques");
+  ExpectDocumentRefused([](json* plan) { (*plan)["torques"] = false; }, "motion/0");
   ExpectDocumentRefused([&](json* plan) { phase(plan)["knots"] = 1; }, "knots");
   ExpectDocumentRefused([&](json* plan) { phase(plan)["knots"] = 4; }, "motion/0");
   ExpectDocumentRefused([&](json* plan) { phase(plan)["knots"] = 90'000'000; }, "at most 2e+08");
@@ -301,6 +324,7 @@ TEST_F(PackedPlan, WhatCannotBeHeldIsNotWritten) {
   expect_refused([](Phase* phase) { phase->knots.clear(); });
   expect_refused([](Phase* phase) { std::swap(phase->knots[0].t, phase->knots[1].t); });
   expect_refused([](Phase* phase) { phase->knots[1].tau.conservativeResize(2); });
+  expect_refused([](Phase* phase) { phase->knots[1].tau.resize(0); });
   EXPECT_THROW(WritePackedPlan(plan_, folder_ / "missing" / "plan.zip"), InputError);
 }
 

@@ -188,7 +188,7 @@ TEST_P(DynamicPlanMutation, AMutationOfAHopOfVersion2IsFoundInItsFile) {
   GetParam().apply(&subject);
   const bool may_be_refused = GetParam().expected == ViolationKind::kStructure;
   try {
-    subject.plan = testing::Repacked(subject.plan);
+    subject.plan = testing::Repacked(subject.robot, subject.plan);
   } catch (const std::invalid_argument& error) {
     EXPECT_TRUE(may_be_refused) << error.what();
     return;

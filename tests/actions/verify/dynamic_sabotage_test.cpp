@@ -28,7 +28,8 @@ class DynamicSabotage : public ::testing::TestWithParam<int> {
   std::vector<Phase>& phases() { return plan_.segments.front().phases; }
 
   VerificationReport Report() const {
-    return Verify(GetParam() == 2 ? testing::Repacked(plan_) : plan_, DrcHubo1(), scenario_);
+    return Verify(GetParam() == 2 ? testing::Repacked(DrcHubo1(), plan_) : plan_, DrcHubo1(),
+                  scenario_);
   }
 
   /// Expects a rejection for one of these reasons.

@@ -45,7 +45,7 @@ void ExpectFoundInAFile(VerifierSubject subject, const PlanMutation& mutation) {
                               mutation.expected == ViolationKind::kAction ||
                               mutation.name == "ScheduleOfNothing";
   try {
-    subject.plan = testing::Repacked(subject.plan);
+    subject.plan = testing::Repacked(subject.robot, subject.plan);
   } catch (const std::invalid_argument& error) {
     EXPECT_TRUE(may_be_refused) << error.what();
     return;
@@ -111,7 +111,7 @@ TEST(SabotageBaseline, TheUntouchedPlansAreAccepted) {
     subject.plan.schedule = ScheduleOfMotion(subject.robot, subject.plan.segments);
     const VerificationReport report = Verify(subject.plan, subject.robot, subject.scenario);
     EXPECT_TRUE(report.accepted()) << FormatText(report);
-    subject.plan = testing::Repacked(testing::Refined(subject).plan);
+    subject.plan = testing::Repacked(subject.robot, testing::Refined(subject).plan);
     const VerificationReport of_version_2 = Verified(subject);
     EXPECT_TRUE(of_version_2.accepted()) << FormatText(of_version_2);
   }
