@@ -93,14 +93,14 @@ class Rounds {
                   const CancellationToken& cancellation,
                   const std::function<void(const collocation::SolverIteration&)>& log) const {
     const auto& start = settings_.start;
-    if (solution->rounds == 1 && start && HasSameQuantities(problem, *start)) {
+    if (start && HasSameQuantities(problem, *start)) {
       solution->result = SolveOptimalControl(problem, *start, Options(), cancellation, log);
       solution->iterations += solution->result.iterations;
       cancellation.ThrowIfCancelled();
       if (solution->result.succeeded()) return;
     }
-    // Later rounds begin with the straight line, too: from the last motion, which the planes cut, a
-    // walk of 2.8 m did not converge in 100 iterations, from the line it takes 40.
+    // Not with the round before: from its motion, which the planes cut, a walk of 2.8 m did not
+    // converge in 100 iterations, from the line it takes 40.
     solution->result = SolveOptimalControl(problem, Options(), std::nullopt, cancellation, log);
     solution->iterations += solution->result.iterations;
     cancellation.ThrowIfCancelled();

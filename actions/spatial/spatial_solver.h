@@ -24,8 +24,8 @@ struct SpatialSolverSettings {
   double clearance = 0.01;  ///< m, of links from each other
   int max_rounds = 8;       ///< of solving again with planes between links that came too close
   MotionSettings motion = MotionDefaults();  ///< of the whole robot
-  /// Solution of a neighbouring problem. If it has the same quantities, the first round begins with
-  /// its motion. If that leads nowhere, or there is none, it begins with the straight line.
+  /// Solution of a neighbouring problem. If it has the same quantities, every round begins with its
+  /// motion. A round where that leads nowhere, or without any, begins with the straight line.
   std::optional<collocation::StoredSolution> start;
 
   /// The problem keeps a tenth of the robot's limits for what lies between the knots.
