@@ -1,79 +1,25 @@
 #include "actions/checks/forces_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "actions/checks/limits_check.h"
+#include "actions/plan/force_change.h"
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kKnotTolerance = 1e-6;  // of the weight (N), or of weight x 1 m (N m)
 // Likewise, rows that no contact force can change.
 constexpr double kUnsupplied = 1e-3;
 constexpr double kUnsuppliedOfVersion2 = 1e-6;
-constexpr double kConeTolerance = 1e-6;   // of the weight
-constexpr double kLeastLoad = 1e-3;       // of the weight per point, see ChangeWeights
-constexpr double kRankTolerance = 1e-13;  // relative, squared singular values
-
-/// The wrench (torque about the root's origin, force) of forces at points.
-Vector6d BaseWrench(const Matrix3Xd& arms, const Matrix3Xd& forces) {
-  Vector6d wrench = Vector6d::Zero();
-  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
-    const Vector3d arm = arms.col(i);
-    const Vector3d force = forces.col(i);
-    wrench.head<3>() += arm.cross(force);
-    wrench.tail<3>() += force;
-  }
-  return wrench;
-}
-
-/// Weight of a change of a point's force: the square of its load. A foot about to lift off must not
-/// be required to pull.
-VectorXd ChangeWeights(const Matrix3Xd& forces, double weight) {
-  VectorXd weights(forces.cols());
-  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
-    const double load = std::max(forces(2, i) / weight, 0.0) + kLeastLoad / forces.cols();
-    weights[i] = load * load;
-  }
-  return weights;
-}
-
-/// The least change of forces, in the norm sum_i |df_i|^2 / w_i, whose wrench is `wrench` as far as
-/// the points can supply it.
-Matrix3Xd LeastChange(const Matrix3Xd& arms, const VectorXd& weights, const Vector6d& wrench) {
-  Matrix6d gram = Matrix6d::Zero();
-  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
-    Eigen::Matrix<double, 6, 3> G;
-    const Vector3d arm = arms.col(i);
-    G.topRows<3>() << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
-    G.bottomRows<3>().setIdentity();
-    gram += weights[i] * G * G.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(gram);
-  const double cutoff = kRankTolerance * eigen.eigenvalues().maxCoeff();
-  Vector6d coordinates = eigen.eigenvectors().transpose() * wrench;
-  for (int i = 0; i < 6; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    coordinates[i] = value > cutoff ? coordinates[i] / value : 0;
-  }
-  const Vector6d multiplier = eigen.eigenvectors() * coordinates;
-  Matrix3Xd change(3, arms.cols());
-  for (Eigen::Index i = 0; i < arms.cols(); ++i) {
-    const Vector3d arm = arms.col(i);
-    change.col(i) = weights[i] * (multiplier.tail<3>() + Vector3d(multiplier.head<3>()).cross(arm));
-  }
-  return change;
-}
+constexpr double kConeTolerance = 1e-6;  // of the weight
 
 /// Subtracts J' f from the joint rows: each force acts on every joint between its link and the
 /// root.
@@ -116,16 +62,16 @@ RealisedForces RealiseForces(const VerifierState& state, const std::vector<Beari
   for (std::size_t i = 0; i < points.size(); ++i) {
     arms.col(i) = state.Position(points[i]) - state.X_WL[0].translation();
   }
-  const Vector6d missing = generalised.head<6>() - BaseWrench(arms, state.knot.forces);
+  const Vector6d missing = generalised.head<6>() - WrenchOf(arms, state.knot.forces);
   RealisedForces realised;
   realised.declared_residual = missing.cwiseAbs().maxCoeff();
   realised.forces = state.knot.forces;
   if (!points.empty()) {
     const double weight = robot.TotalMass() * dynamics::kGravity;
-    realised.forces += LeastChange(arms, ChangeWeights(state.knot.forces, weight), missing);
+    realised.forces += LeastForceChange(arms, state.knot.forces, weight, missing);
   }
   realised.residual =
-      (generalised.head<6>() - BaseWrench(arms, realised.forces)).cwiseAbs().maxCoeff();
+      (generalised.head<6>() - WrenchOf(arms, realised.forces)).cwiseAbs().maxCoeff();
   realised.torques = generalised.tail(robot.num_joints());
   SubtractJointTorques(state, points, realised.forces, robot, &realised.torques);
   return realised;

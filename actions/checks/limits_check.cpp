@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "actions/evidence/bounded_maximum.h"
+#include "models/robot/mimic_joints.h"
 #include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
@@ -211,11 +212,7 @@ void CheckJointCouplings(const KnotInterpolant& interpolant, const models::Robot
 
 void CheckTorqueLimits(const Eigen::VectorXd& tau, const Eigen::VectorXd& v,
                        const models::RobotModel& robot, const Instant& at, ViolationLog* log) {
-  Eigen::VectorXd borne = tau;
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    const auto& mimic = robot.joints[j].mimic;
-    if (mimic) borne[mimic->joint] += mimic->multiplier * tau[j];
-  }
+  const Eigen::VectorXd borne = models::MotorTorques(robot, tau);
   for (int j = 0; j < robot.num_joints(); ++j) {
     const models::Joint& joint = robot.joints[j];
     if (joint.mimic) continue;

@@ -243,6 +243,7 @@ std::vector<Phase> FootstepMotion::BuildAt(const std::vector<Pace>& paces, const
   settings.torque_margin = style.torque_margin;
   settings.normal_reserve = style.least_load;
   settings.minimum_intervals = kLeastIntervals;
+  settings.tests_between_knots = true;
   std::vector<Phase> motion =
       MotionBuilder(*robot_, settings)
           .Build(PhasesOf(paces, style, kKnotSpacing, kFilterPasses, start, steps, cancellation),

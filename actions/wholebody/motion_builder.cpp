@@ -11,7 +11,9 @@
 
 #include "actions/plan/interpolation.h"
 #include "actions/wholebody/force_fault.h"
+#include "actions/wholebody/forces_between.h"
 #include "actions/wholebody/motion_error.h"
+#include "models/robot/mimic_joints.h"
 
 namespace possibility::actions {
 namespace {
@@ -175,7 +177,15 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
     try {
       knot = MakeKnot(phase, bearing, phase.duration * share, guess);
       knot.t += start;
-      if (i > 0) RequireRangesBetween(*robot_, result.knots.back(), knot, (i - 1) * spacing);
+      if (i > 0) {
+        const double t = (i - 1) * spacing;
+        RequireRangesBetween(*robot_, result.knots.back(), knot, t);
+        if (settings_.tests_between_knots) {
+          const auto fault =
+              ForceFaultBetween(*robot_, bearing.points, result.knots.back(), knot, t, &dynamics_);
+          if (fault) throw *fault;
+        }
+      }
     } catch (const MotionError& error) {
       throw MotionError(error.what(), -1, error.limit(), share);
     }
@@ -220,11 +230,7 @@ Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, d
 
 void MotionBuilder::CheckCoupledTorques(const Eigen::VectorXd& torques, const Eigen::VectorXd& v,
                                         double t) const {
-  Eigen::VectorXd borne = torques;
-  for (int j = 0; j < robot_->num_joints(); ++j) {
-    const auto& mimic = robot_->joints[j].mimic;
-    if (mimic) borne[mimic->joint] += mimic->multiplier * torques[j];
-  }
+  const Eigen::VectorXd borne = models::MotorTorques(*robot_, torques);
   for (int j = 0; j < robot_->num_joints(); ++j) {
     const models::Joint& joint = robot_->joints[j];
     const double limit =

@@ -31,6 +31,9 @@ struct MotionSettings {
   double friction_margin = 0.85;  ///< fraction of the friction coefficient
   double normal_reserve = 0.01;   ///< of the weight, least load of every bearing point
   double torque_margin = 0.95;    ///< fraction of each joint's effort limit
+  /// Whether forces and torques are tested between knots, too, against the whole of the limits
+  /// (ForceFaultBetween).
+  bool tests_between_knots = false;
 };
 
 /// The robot with a motor at every joint. What coupled joints need together is checked apart.

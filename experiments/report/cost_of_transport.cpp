@@ -3,15 +3,15 @@
 #include <cmath>
 
 #include "dynamics/tree/tree_kinematics.h"
-#include "experiments/report/motor_torques.h"
 #include "experiments/report/plan_speeds.h"
+#include "models/robot/mimic_joints.h"
 
 namespace possibility::experiments {
 namespace {
 
 /// Of every motor, W.
 Eigen::ArrayXd Powers(const models::RobotModel& robot, const actions::Knot& knot) {
-  return MotorTorques(robot, knot.tau).array() * knot.v.tail(robot.num_joints()).array();
+  return models::MotorTorques(robot, knot.tau).array() * knot.v.tail(robot.num_joints()).array();
 }
 
 /// Integral of |p| over a unit of time in which p goes from p0 to p1 on a straight line.

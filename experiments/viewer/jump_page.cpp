@@ -14,10 +14,10 @@
 #include "collocation/study/stored_solution.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "dynamics/tree/tree_kinematics.h"
-#include "experiments/report/motor_torques.h"
 #include "experiments/viewer/viewer_momentum.h"
 #include "experiments/viewer/viewer_page.h"
 #include "models/input/input_error.h"
+#include "models/robot/mimic_joints.h"
 #include "models/robot/robot_yaml.h"
 #include "models/world/scenario.h"
 
@@ -155,7 +155,7 @@ void AddExtremes(const LoadedJump& loaded, PageHeading* heading) {
   Extreme torque;
   for (const actions::Phase& phase : loaded.jump->phases) {
     for (const actions::Knot& knot : phase.knots) {
-      const Eigen::VectorXd motors = MotorTorques(loaded.robot, knot.tau);
+      const Eigen::VectorXd motors = models::MotorTorques(loaded.robot, knot.tau);
       for (int i = 0; i < loaded.robot.num_joints(); ++i) {
         const models::Joint& joint = loaded.robot.joints[i];
         speed.Consider(knot.v[6 + i], joint.velocity, joint.name, knot.t);

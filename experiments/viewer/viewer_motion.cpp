@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "experiments/report/motor_torques.h"
 #include "experiments/viewer/viewer_balance.h"
 #include "experiments/viewer/viewer_momentum.h"
 #include "experiments/viewer/viewer_phases.h"
+#include "models/robot/mimic_joints.h"
 
 namespace possibility::experiments {
 namespace {
@@ -84,7 +84,7 @@ std::vector<float> MotionPacker::Drawn(const actions::Knot& knot,
   Append(whole.linear, &drawn);
   Append(whole.angular, &drawn);
   Append(knot.v.tail(robot_.num_joints()), &drawn);
-  Append(MotorTorques(robot_, knot.tau), &drawn);
+  Append(models::MotorTorques(robot_, knot.tau), &drawn);
   const BalanceState balance = BalanceStateAt(bearing_, knot.forces, whole, kinematics_);
   Eigen::Matrix<double, 6, 1> numbers;
   numbers << balance.zmp, balance.margin, balance.capture;

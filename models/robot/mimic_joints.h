@@ -20,4 +20,8 @@ void CoupleMimicJoints(const UrdfTree& tree, const std::set<std::string>& lumped
 /// Sets the mimic joints in `joints` (num_joints) to the values that follow from their masters.
 void FollowMasters(const RobotModel& robot, Eigen::VectorXd* joints);
 
+/// What the motors bear, num_joints: torques `tau` of mimic joints are added to their masters' and
+/// set to 0.
+Eigen::VectorXd MotorTorques(const RobotModel& robot, const Eigen::VectorXd& tau);
+
 }  // namespace possibility::models

@@ -275,5 +275,14 @@ const BadCoupling kBadCouplings[] = {
 INSTANTIATE_TEST_SUITE_P(Couplings, MimicErrors, ::testing::ValuesIn(kBadCouplings),
                          [](const auto& info) { return info.param.what; });
 
+TEST(MotorTorques, OfMimicsActThroughTheirMasters) {
+  RobotModel robot;
+  robot.joints.resize(4);
+  robot.joints[0].mimic = {2, -0.5, 0};
+  robot.joints[3].mimic = {2, 2, 0.1};
+  const Eigen::VectorXd motors = MotorTorques(robot, Eigen::Vector4d(10, 20, 30, 40));
+  EXPECT_EQ(motors, Eigen::VectorXd(Eigen::Vector4d(0, 20, 30 - 5 + 80, 0)));
+}
+
 }  // namespace
 }  // namespace possibility::models
