@@ -85,6 +85,9 @@ std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotMode
   return dynamics::MultibodyModel::Spatial(robot);
 }
 
+/// How often an interval is halved where forces fail between knots.
+constexpr int kMostHalvings = 2;
+
 /// Between two knots the motion is looked at in so many places, as closely as by the verifier.
 constexpr int kPlacesBetween = 4;
 
@@ -177,22 +180,33 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
     try {
       knot = MakeKnot(phase, bearing, phase.duration * share, guess);
       knot.t += start;
-      if (i > 0) {
-        const double t = (i - 1) * spacing;
-        RequireRangesBetween(*robot_, result.knots.back(), knot, t);
-        if (settings_.tests_between_knots) {
-          const auto fault =
-              ForceFaultBetween(*robot_, bearing.points, result.knots.back(), knot, t, &dynamics_);
-          if (fault) throw *fault;
-        }
-      }
+      if (i < intervals) *guess = GuessAfter({knot.q, knot.v, knot.a}, spacing);
+      Append(phase, bearing, start, std::move(knot), kMostHalvings, &result.knots);
     } catch (const MotionError& error) {
       throw MotionError(error.what(), -1, error.limit(), share);
     }
-    if (i < intervals) *guess = GuessAfter({knot.q, knot.v, knot.a}, spacing);
-    result.knots.push_back(std::move(knot));
   }
   return result;
+}
+
+void MotionBuilder::Append(const MotionPhase& phase, const Bearing& bearing, double start,
+                           Knot knot, int halvings, std::vector<Knot>* knots) {
+  if (knots->empty()) return knots->push_back(std::move(knot));
+  const double t = knots->back().t - start;
+  RequireRangesBetween(*robot_, knots->back(), knot, t);
+  if (settings_.tests_between_knots) {
+    const std::optional<MotionError> fault =
+        ForceFaultBetween(*robot_, bearing.points, knots->back(), knot, t, &dynamics_);
+    if (fault && halvings == 0) throw *fault;
+    if (fault) {
+      Eigen::VectorXd guess = (knots->back().q + knot.q) / 2;
+      Knot middle = MakeKnot(phase, bearing, (t + knot.t - start) / 2, &guess);
+      middle.t += start;
+      Append(phase, bearing, start, std::move(middle), halvings - 1, knots);
+      return Append(phase, bearing, start, std::move(knot), halvings - 1, knots);
+    }
+  }
+  knots->push_back(std::move(knot));
 }
 
 Knot MotionBuilder::MakeKnot(const MotionPhase& phase, const Bearing& bearing, double t,

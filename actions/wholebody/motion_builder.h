@@ -32,7 +32,7 @@ struct MotionSettings {
   double normal_reserve = 0.01;   ///< of the weight, least load of every bearing point
   double torque_margin = 0.95;    ///< fraction of each joint's effort limit
   /// Whether forces and torques are tested between knots, too, against the whole of the limits
-  /// (ForceFaultBetween).
+  /// (ForceFaultBetween). Where they fail, knots are added, up to a fourth of their distance.
   bool tests_between_knots = false;
 };
 
@@ -65,6 +65,9 @@ class MotionBuilder {
   Phase BuildPhase(const MotionPhase& phase, const MotionPhase* before, const MotionPhase* after,
                    double start, Eigen::VectorXd* guess);
   Knot MakeKnot(const MotionPhase& phase, const Bearing& bearing, double t, Eigen::VectorXd* guess);
+  /// Appends a knot, and `halvings` times those between it and the last one that are needed.
+  void Append(const MotionPhase& phase, const Bearing& bearing, double start, Knot knot,
+              int halvings, std::vector<Knot>* knots);
   void CheckCoupledTorques(const Eigen::VectorXd& torques, const Eigen::VectorXd& v,
                            double t) const;
 
