@@ -78,8 +78,8 @@ double DoubleSupport(const std::vector<Footstep>& steps, std::size_t step) {
 
 /// A joint beyond its range in a swing is a matter of the posture at the nearer end of the step.
 FootstepError::Part PartOf(const MotionError& error) {
-  const bool swings = error.phase() % 2 == 1;
-  if (error.limit() != MotionError::Limit::kJointRange || !swings) {
+  if (error.limit() != MotionError::Limit::kJointRange ||
+      !FootstepMotion::SwingsIn(error.phase())) {
     return FootstepError::Part::kStep;
   }
   return error.share() < 0.5 ? FootstepError::Part::kFrom : FootstepError::Part::kTo;
@@ -183,12 +183,11 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<Pace>& paces
   return phases;
 }
 
-/// Phases alternate: all limbs bear, one swings, ...
 void FootstepMotion::SetFriction(const Foothold& start, const std::vector<Footstep>& steps,
                                  std::vector<MotionPhase>* phases) const {
   std::vector<double> by_limb(stance_->gait->limbs.size(), start.friction);
   for (std::size_t i = 0; i < phases->size(); ++i) {
-    const bool swings = i % 2 == 1;
+    const bool swings = SwingsIn(static_cast<int>(i));
     const int moving = i > 0 ? steps[(i - 1) / 2].limb : -1;
     if (i > 0 && !swings) by_limb[moving] = steps[(i - 1) / 2].to.friction;
     for (int limb = 0; limb < static_cast<int>(by_limb.size()); ++limb) {
@@ -205,7 +204,7 @@ Eigen::VectorXd FootstepMotion::GuessAt(const Foothold& start) const {
   return guess;
 }
 
-void FootstepMotion::RequireRoughSelfClearance(const Style& style, const Foothold& start,
+std::vector<Phase> FootstepMotion::RoughMotion(const Style& style, const Foothold& start,
                                                const std::vector<Footstep>& steps,
                                                const CancellationToken& cancellation) const {
   std::vector<Phase> motion;
@@ -214,6 +213,7 @@ void FootstepMotion::RequireRoughSelfClearance(const Style& style, const Foothol
                                  kRoughGrid, 1, start, steps, cancellation);
     WholeBodySolver solver(*robot_);
     Eigen::VectorXd guess = GuessAt(start);
+    double begin = 0;
     for (const MotionPhase& phase : phases) {
       cancellation.ThrowIfCancelled();
       motion.emplace_back();
@@ -222,16 +222,17 @@ void FootstepMotion::RequireRoughSelfClearance(const Style& style, const Foothol
         const double t = phase.duration * i / intervals;
         const WholeBodyState state = solver.Solve(phase.task(t), guess);
         Knot knot;
-        knot.t = t;
+        knot.t = begin + t;
         knot.q = state.q;
         motion.back().knots.push_back(std::move(knot));
         guess = i < intervals ? GuessAfter(state, phase.duration / intervals) : state.q;
       }
+      begin += phase.duration;
     }
   } catch (const MotionError&) {
-    return;
+    return {};
   }
-  RequireSelfClearance(motion, style.self_distance - kRoughness, static_cast<int>(steps.size()));
+  return motion;
 }
 
 std::vector<Phase> FootstepMotion::BuildAt(const std::vector<Pace>& paces, const Style& style,
@@ -282,10 +283,13 @@ bool FootstepMotion::Ease(const MotionError& error, const Style& style, int step
 
 std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& start,
                                            const std::vector<Footstep>& steps,
-                                           const CancellationToken& cancellation) const {
+                                           const CancellationToken& cancellation,
+                                           const RoughTest& require_rough) const {
   const int count = static_cast<int>(steps.size());
   std::vector<Pace> paces(steps.size(), Pace{1, style.sway});
-  RequireRoughSelfClearance(style, start, steps, cancellation);
+  const std::vector<Phase> rough = RoughMotion(style, start, steps, cancellation);
+  RequireSelfClearance(rough, style.self_distance - kRoughness, count);
+  if (require_rough) require_rough(rough);
   for (;;) {
     try {
       return BuildAt(paces, style, start, steps, cancellation);
@@ -295,7 +299,8 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
       if (error.phase() < 0) throw FootstepError(error.what(), -1);
       const int step = StepOfPhase(error.phase(), count);
       if (!Ease(error, style, step, &paces)) {
-        throw FootstepError(error.what(), step, false, PartOf(error), error.limit());
+        throw FootstepError(error.what(), step, FootstepError::Hit::kNone, PartOf(error),
+                            error.limit());
       }
     }
   }
@@ -305,8 +310,8 @@ std::vector<Phase> FootstepMotion::BuildIn(const Style& style, const Foothold& s
 /// kinematics.
 std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vector<Footstep>& steps,
                                          const CancellationToken& cancellation, int* style,
-                                         double most_torque) const {
-  int first = style ? *style : 0;
+                                         double most_torque, const RoughTest& require_rough) const {
+  int first = 0;
   const Eigen::Vector3d origin(start.stance.x, start.stance.y, start.z);
   const auto moved = [&origin](Foothold place) {
     place.stance.x -= origin.x();
@@ -320,12 +325,18 @@ std::vector<Phase> FootstepMotion::Build(const Foothold& start, const std::vecto
     step.from = moved(step.from);
     step.to = moved(step.to);
   }
-  std::vector<Phase> motion = BuildAtOrigin(moved(start), near, most_torque, cancellation, &first);
-  if (style) *style = first;
-  for (Phase& phase : motion) {
-    for (Knot& knot : phase.knots) knot.q.segment<3>(4) += origin;
+  const auto carried_back = [&origin](std::vector<Phase> motion) {
+    for (Phase& phase : motion) {
+      for (Knot& knot : phase.knots) knot.q.segment<3>(4) += origin;
+    }
+    return motion;
+  };
+  RoughTest require;
+  if (require_rough) {
+    require = [&](const std::vector<Phase>& rough) { require_rough(carried_back(rough)); };
   }
-  return motion;
+  return carried_back(BuildAtOrigin(moved(start), near, most_torque, cancellation,
+                                    style ? style : &first, require));
 }
 
 std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
@@ -350,8 +361,8 @@ std::vector<FootstepMotion::Style> FootstepMotion::Styles() const {
 std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
                                                  const std::vector<Footstep>& steps,
                                                  double most_torque,
-                                                 const CancellationToken& cancellation,
-                                                 int* first) const {
+                                                 const CancellationToken& cancellation, int* first,
+                                                 const RoughTest& require_rough) const {
   std::vector<Style> styles = Styles();
   for (Style& style : styles) {
     if (style.torque_margin <= most_torque) continue;
@@ -363,10 +374,14 @@ std::vector<Phase> FootstepMotion::BuildAtOrigin(const Foothold& start,
   for (int i = *first; i < static_cast<int>(styles.size()); ++i) {
     if (!MayHelp(styles[i], fault.limit())) continue;
     try {
-      std::vector<Phase> motion = BuildIn(styles[i], start, steps, cancellation);
+      std::vector<Phase> motion = BuildIn(styles[i], start, steps, cancellation, require_rough);
       *first = i;
       return motion;
     } catch (const FootstepError& error) {
+      if (error.is_hit()) {
+        *first = i;
+        throw;
+      }
       // Of a robot whose hips are spared by swaying, other styles fail at the first step.
       const bool came_less_far = sways && error.step() < fault.step();
       if (fault.step() < 0 || (error.step() >= 0 && !came_less_far)) {

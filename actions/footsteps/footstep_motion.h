@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,17 +21,21 @@ class FootstepError : public MotionError {
   /// What of the step is at fault: all of it, or the posture at one of its ends.
   enum class Part { kStep, kFrom, kTo };
 
-  /// `step`: index; -1 if it is not known which one. `is_hit`: the robot hits an obstacle.
-  FootstepError(const std::string& message, int step, bool is_hit = false, Part part = Part::kStep,
+  /// Whether the robot hits an obstacle: while a limb swings, or all of them bear.
+  enum class Hit { kNone, kSwinging, kBearing };
+
+  /// `step`: index; -1 if it is not known which one.
+  FootstepError(const std::string& message, int step, Hit hit = Hit::kNone, Part part = Part::kStep,
                 Limit limit = Limit::kAny)
-      : MotionError(message, -1, limit), step_(step), is_hit_(is_hit), part_(part) {}
+      : MotionError(message, -1, limit), step_(step), hit_(hit), part_(part) {}
   int step() const { return step_; }
-  bool is_hit() const { return is_hit_; }
+  Hit hit() const { return hit_; }
+  bool is_hit() const { return hit_ != Hit::kNone; }
   Part part() const { return part_; }
 
  private:
   int step_;
-  bool is_hit_;
+  Hit hit_;
   Part part_;
 };
 
@@ -39,6 +44,10 @@ class FootstepError : public MotionError {
 /// are slowed down, with their neighbours. Immutable; may be used in several threads.
 class FootstepMotion {
  public:
+  /// Throws FootstepError if a motion like this rough one, in a fifth of the time to build, is of
+  /// no use. Knots have time and configuration alone. A hit ends the building in all styles.
+  using RoughTest = std::function<void(const std::vector<Phase>& rough)>;
+
   /// Both must outlive this.
   FootstepMotion(const models::RobotModel& robot, const NominalStance& stance);
 
@@ -48,9 +57,10 @@ class FootstepMotion {
   /// `style`: number of the first style to try, 0 at first; becomes that of the result. So steps
   /// of which only lifts have changed need not fail in the others again. May be null.
   /// `most_torque`: share of the joints' torques that is never exceeded, whatever the style.
+  /// `require_rough`: may be empty; asked before a motion is built.
   std::vector<Phase> Build(const Foothold& start, const std::vector<Footstep>& steps,
                            const CancellationToken& cancellation = {}, int* style = nullptr,
-                           double most_torque = 1) const;
+                           double most_torque = 1, const RoughTest& require_rough = {}) const;
 
   /// Of the motion, if no step has to be slower, s.
   double ExpectedDuration(const std::vector<Footstep>& steps) const;
@@ -61,6 +71,8 @@ class FootstepMotion {
   /// Index of the step in which phase `phase` of such a motion swings, or that it follows or leads
   /// to.
   static int StepOfPhase(int phase, int steps);
+  /// Whether a limb swings in that phase: phases alternate.
+  static bool SwingsIn(int phase) { return phase % 2 == 1; }
 
  private:
   /// How the whole motion is carried out.
@@ -85,7 +97,7 @@ class FootstepMotion {
 
   std::vector<Phase> BuildAtOrigin(const Foothold& start, const std::vector<Footstep>& steps,
                                    double most_torque, const CancellationToken& cancellation,
-                                   int* first) const;
+                                   int* first, const RoughTest& require_rough) const;
   std::vector<Style> Styles() const;
   /// Whether a slower motion may keep a limit that one in this style exceeds.
   static bool SpeedMatters(const Style& style, MotionError::Limit limit);
@@ -93,7 +105,8 @@ class FootstepMotion {
   static bool MayHelp(const Style& style, MotionError::Limit limit);
   std::vector<Phase> BuildIn(const Style& style, const Foothold& start,
                              const std::vector<Footstep>& steps,
-                             const CancellationToken& cancellation) const;
+                             const CancellationToken& cancellation,
+                             const RoughTest& require_rough) const;
   /// Changes the paces of steps so that a motion may keep a limit that it exceeded at one of them.
   /// False if nothing is left to change.
   static bool Ease(const MotionError& error, const Style& style, int step,
@@ -109,8 +122,8 @@ class FootstepMotion {
   void SetFriction(const Foothold& start, const std::vector<Footstep>& steps,
                    std::vector<MotionPhase>* phases) const;
   Eigen::VectorXd GuessAt(const Foothold& start) const;
-  /// Of a rough motion, which takes a fraction of the time. Says nothing where that fails.
-  void RequireRoughSelfClearance(const Style& style, const Foothold& start,
+  /// Empty where it cannot be built.
+  std::vector<Phase> RoughMotion(const Style& style, const Foothold& start,
                                  const std::vector<Footstep>& steps,
                                  const CancellationToken& cancellation) const;
   models::ContactSchedule ScheduleOf(const std::vector<Pace>& paces, const Foothold& start,

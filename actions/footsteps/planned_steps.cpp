@@ -31,6 +31,9 @@ constexpr int kMostRaises = 2;  // of two limbs; two more for each further one
 constexpr double kAway = 0.02;
 constexpr double kFarthestAway = 0.08;
 
+/// How far links of a rough motion are from where the motion has them, m.
+constexpr double kRoughPlace = 0.02;
+
 /// A low root loads the bearing leg. Where a step fails with one, the root must be higher by this
 /// than it was, m, and that so many times at most.
 constexpr double kTaller = 0.01;
@@ -105,30 +108,50 @@ std::optional<double> PlannedSteps::DurationOfOutcome(const EdgeKey& key) const 
 std::vector<Phase> PlannedSteps::FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
                                             double most_torque,
                                             const CancellationToken& cancellation) const {
-  const models::RobotModel& robot = *model().robot;
   const int most_raises = kMostRaises * (static_cast<int>(stance().gait->limbs.size()) - 1);
   for (int raises = 0, style = 0;;) {
-    std::vector<Phase> motion =
-        motion_.Build({from.pose, from.z}, steps, cancellation, &style, most_torque);
-    const std::string self = FirstSelfHit(robot, *checker(), motion, cancellation);
-    cancellation.ThrowIfCancelled();
-    if (!self.empty()) throw FootstepError(self, -1);
-    bool is_raised = false;
-    for (std::size_t i = 0; i < motion.size() && !is_raised; ++i) {
-      const std::string hit =
-          FirstHit(robot, *world().environment, *checker(), {motion[i]}, cancellation);
+    try {
+      return MotionOffObstacles(from, steps, most_torque, &style, cancellation);
+    } catch (const FootstepError& error) {
+      if (error.hit() != FootstepError::Hit::kSwinging) throw;
+      Footstep& step = steps[error.step()];
+      step.lift += kRaise;
+      if (++raises > most_raises || step.lift > limits_.lift) throw;
+    }
+  }
+}
+
+std::vector<Phase> PlannedSteps::MotionOffObstacles(const GroundedStance& from,
+                                                    const std::vector<Footstep>& steps,
+                                                    double most_torque, int* style,
+                                                    const CancellationToken& cancellation) const {
+  const models::RobotModel& robot = *model().robot;
+  const models::Environment& environment = *world().environment;
+  const auto require = [&](const std::vector<Phase>& motion, const auto& first_hit) {
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      const std::string hit = first_hit(motion[i]);
       cancellation.ThrowIfCancelled();
       if (hit.empty()) continue;
-      const int step =
-          FootstepMotion::StepOfPhase(static_cast<int>(i), static_cast<int>(steps.size()));
-      steps[step].lift += kRaise;
-      if (++raises > most_raises || steps[step].lift > limits_.lift) {
-        throw FootstepError(hit, step, true);
-      }
-      is_raised = true;
+      const int phase = static_cast<int>(i);
+      throw FootstepError(hit, FootstepMotion::StepOfPhase(phase, static_cast<int>(steps.size())),
+                          FootstepMotion::SwingsIn(phase) ? FootstepError::Hit::kSwinging
+                                                          : FootstepError::Hit::kBearing);
     }
-    if (!is_raised) return motion;
-  }
+  };
+  const auto require_rough = [&](const std::vector<Phase>& rough) {
+    require(rough, [&](const Phase& phase) {
+      return FirstRoughHit(robot, environment, *checker(), {phase}, kRoughPlace, cancellation);
+    });
+  };
+  std::vector<Phase> motion =
+      motion_.Build({from.pose, from.z}, steps, cancellation, style, most_torque, require_rough);
+  const std::string self = FirstSelfHit(robot, *checker(), motion, cancellation);
+  cancellation.ThrowIfCancelled();
+  if (!self.empty()) throw FootstepError(self, -1);
+  require(motion, [&](const Phase& phase) {
+    return FirstHit(robot, environment, *checker(), {phase}, cancellation);
+  });
+  return motion;
 }
 
 std::shared_ptr<const StepGround> PlannedSteps::known_ground() const {

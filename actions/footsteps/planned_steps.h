@@ -122,6 +122,10 @@ class PlannedSteps final : public Manoeuvre {
   /// Raises swings that hit something. @throws FootstepError, Cancelled.
   std::vector<Phase> FreeMotion(const GroundedStance& from, std::vector<Footstep> steps,
                                 double most_torque, const CancellationToken& cancellation) const;
+  /// With these swings. `style`: as FootstepMotion::Build has it. @throws FootstepError, Cancelled.
+  std::vector<Phase> MotionOffObstacles(const GroundedStance& from,
+                                        const std::vector<Footstep>& steps, double most_torque,
+                                        int* style, const CancellationToken& cancellation) const;
   const NominalStance& stance() const { return model().gaits[from()]->stance; }
 
   /// Empty if none are found with at most so many states. `effort`: less what it takes.

@@ -55,9 +55,14 @@ void VisitSamples(const models::RobotModel& robot, const std::vector<Phase>& mot
 /// Looks for hits of the whole robot with obstacles, pose by pose.
 class HitSearch {
  public:
+  /// `roughness`: hits that are less deep than this are left out, m.
   HitSearch(const models::RobotModel& robot, const models::Environment& environment,
-            const models::CollisionChecker& checker)
-      : robot_(robot), environment_(environment), checker_(checker), bears_(robot.links.size()) {
+            const models::CollisionChecker& checker, double roughness = 0)
+      : robot_(robot),
+        environment_(environment),
+        checker_(checker),
+        roughness_(roughness),
+        bears_(robot.links.size()) {
     for (const models::ContactPatch& patch : robot.contacts) bears_[patch.link] = true;
   }
 
@@ -68,7 +73,7 @@ class HitSearch {
       const double allowed = !obstacle.is_ground ? kClearance
                              : bears_[pair.link] ? -kGroundTolerance
                                                  : -kTolerance;
-      if (pair.distance >= allowed) continue;
+      if (pair.distance >= allowed - roughness_) continue;
       return fmt::format("hits '{}' with {} at {:.2f} s", obstacle.name,
                          robot_.links[pair.link].name, t);
     }
@@ -79,6 +84,7 @@ class HitSearch {
   const models::RobotModel& robot_;
   const models::Environment& environment_;
   const models::CollisionChecker& checker_;
+  double roughness_;
   std::vector<bool> bears_;  ///< by link
 };
 
@@ -118,6 +124,23 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
     return hit.empty();
   });
   return hit;
+}
+
+std::string FirstRoughHit(const models::RobotModel& robot, const models::Environment& environment,
+                          const models::CollisionChecker& checker, const std::vector<Phase>& rough,
+                          double roughness, const CancellationToken& cancellation) {
+  const HitSearch search(robot, environment, checker, roughness);
+  dynamics::TreeKinematics kinematics(robot);
+  size_t sample = 0;
+  for (const Phase& phase : rough) {
+    for (const Knot& knot : phase.knots) {
+      if (!GoOn(sample++, cancellation)) return {};
+      kinematics.SetPosition(knot.q);
+      std::string hit = search.HitAt(knot.t, kinematics.X_WL());
+      if (!hit.empty()) return hit;
+    }
+  }
+  return {};
 }
 
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,

@@ -40,6 +40,13 @@ std::string FirstHit(const models::RobotModel& robot, const models::Environment&
                      const models::CollisionChecker& checker, const std::vector<Phase>& motion,
                      const CancellationToken& cancellation = {});
 
+/// The first hit of a rough motion, of which only the knots' times and configurations count, in the
+/// world. `roughness`: how far the links may really be from where it has them, m. So a motion may
+/// hit something that its rough one does not, but hardly the other way round.
+std::string FirstRoughHit(const models::RobotModel& robot, const models::Environment& environment,
+                          const models::CollisionChecker& checker, const std::vector<Phase>& rough,
+                          double roughness, const CancellationToken& cancellation = {});
+
 /// The first self-collision: "hits Body_LSP with Body_RSP at 1.30 s"; empty if none.
 std::string FirstSelfHit(const models::RobotModel& robot, const models::CollisionChecker& checker,
                          const std::vector<Phase>& motion,

@@ -75,6 +75,28 @@ TEST(MotionCollisionTest, AMotionHitsWhereItsPosesHitFromTheSamePlace) {
   }
 }
 
+/// A rough motion hits a wall where the robot at a knot hits one that is nearer by the roughness.
+TEST(MotionCollisionTest, ARoughHitIsOneByMoreThanTheRoughness) {
+  const models::RobotModel& robot = DrcHubo1();
+  std::vector<Phase> last = Slide();
+  last.front().knots.front().q = last.front().knots.back().q;
+  for (Knot& knot : last.front().knots) knot.v.setZero();
+  const double roughness = 0.02;
+  int hits = 0, misses = 0;
+  for (double x = 1.1; x < 1.6; x += 0.003) {
+    const models::Environment here = WallAt(x);
+    const models::Environment farther = WallAt(x + roughness);
+    const std::string rough =
+        FirstRoughHit(robot, here, models::CollisionChecker(robot, here), Slide(), roughness);
+    const std::string hit =
+        FirstHit(robot, farther, models::CollisionChecker(robot, farther), last);
+    EXPECT_EQ(rough.empty(), hit.empty()) << x;
+    ++(rough.empty() ? misses : hits);
+  }
+  EXPECT_GT(hits, 10);
+  EXPECT_GT(misses, 10);
+}
+
 TEST(MotionCollisionTest, ASelfHitNamesBothLinks) {
   const models::RobotModel& robot = DrcHubo1();
   const models::CollisionChecker checker(robot, {});
