@@ -54,8 +54,9 @@ class FootstepMotion {
   /// From the nominal stance at `start`, in which the first steps begin, to that in which the last
   /// ones end; times from 0.
   /// @throws FootstepError naming the limit that the robot would exceed; Cancelled.
-  /// `style`: number of the first style to try, 0 at first; becomes that of the result. So steps
-  /// of which only lifts have changed need not fail in the others again. May be null.
+  /// `style`: number of the first style to try, 0 at first; becomes that of the result, or of
+  /// the hit that ends the building. So steps of which only lifts have changed need not fail in the
+  /// others again. May be null.
   /// `most_torque`: share of the joints' torques that is never exceeded, whatever the style.
   /// `require_rough`: may be empty; asked before a motion is built.
   std::vector<Phase> Build(const Foothold& start, const std::vector<Footstep>& steps,
