@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
+#include "actions/gait/pace_fit.h"
+#include "actions/gait/waist_joint.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/wholebody/motion_error.h"
 #include "dynamics/tree/tree_kinematics.h"
@@ -22,55 +25,12 @@ constexpr double kKnotSpacing = 0.02;
 constexpr double kFineKnotSpacing = 0.01;
 constexpr int kLeastIntervals = 4;
 
-/// Fitted paces leave this share of joint speeds and torques, and this much more distance
-/// between links, m, for bends and unequal steps.
-constexpr double kFitMargin = 0.92;
-constexpr double kFitClearance = 0.0005;
-
-/// Family of paces: lengths of steps and durations of swings and double supports, in multiples of
-/// quasi-static strides' bounds and swing time.
-constexpr double kLengths[] = {1.6, 1.5, 1.4, 1.3, 1.2, 1.1, 1.0, 0.8};
-constexpr double kSwings[] = {0.6, 0.7, 0.8, 0.9, 1.0};
-constexpr double kDoubleSupport = 0.12;
-constexpr double kStart = 0.7;  // start and stop, in which the root rises and comes down
-/// Sideways and turning steps, in multiples of strides; one limb closes up to the other.
-constexpr double kAside[] = {3, 2.8, 2.6, 2.4, 2.2, 2, 1.8, 1.6, 1.4, 1.2, 1};
-
-/// Steps of the ways that a pace is tried on.
-constexpr int kFitSteps = 4;
+/// Knots of the centre of mass are at most this share of a double support apart: in it the zero
+/// moment point goes from foot to foot.
+constexpr double kGridOfDoubleSupport = 1.0 / 3;
 
 /// Distance of links on a way that cannot be walked with kSelfClearance, m.
 constexpr double kLeastClearance = 0.005;
-
-/// Rises of the root in motion, as shares of its height: straighter legs bear with less torque.
-constexpr double kRises[] = {0.14, 0.105, 0.07, 0.035, 0};
-
-/// Beside the quickest pace, the quickest below this share of its speed is kept.
-constexpr double kSlowPace = 0.6;
-
-/// Family of paces of a gait, quickest first.
-std::vector<Pace> Candidates(const models::GaitParameters& parameters, double height,
-                             std::size_t groups) {
-  std::vector<Pace> paces;
-  for (const double length : kLengths) {
-    for (const double swing : kSwings) {
-      Pace pace;
-      pace.groups = static_cast<int>(groups);
-      pace.bounds = {length * parameters.forward, parameters.lateral, parameters.turn};
-      pace.timing.swing = swing * parameters.swing_time;
-      pace.timing.swing_length = pace.bounds.forward;
-      pace.timing.double_support = kDoubleSupport * parameters.swing_time;
-      pace.timing.start = kStart * parameters.swing_time;
-      for (const double rise : kRises) {
-        pace.rise = rise * height;
-        paces.push_back(pace);
-      }
-    }
-  }
-  std::stable_sort(paces.begin(), paces.end(),
-                   [](const Pace& a, const Pace& b) { return a.speed() > b.speed(); });
-  return paces;
-}
 
 /// Links that come too close to each other, in some phases of a motion.
 class CloseLinks : public MotionError {
@@ -97,12 +57,6 @@ double Reach(const NominalStance& stance) {
   return reach;
 }
 
-std::vector<PlanarPose> Repeated(const PlanarPose& displacement, int count) {
-  std::vector<PlanarPose> stances = {PlanarPose()};
-  for (int i = 0; i < count; ++i) stances.push_back(stances.back() * displacement);
-  return stances;
-}
-
 }  // namespace
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance,
@@ -112,69 +66,19 @@ DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& s
       quasi_static_(robot, stance),
       groups_(SwingGroups(stance)),
       reach_(Reach(stance)),
+      waist_(WaistJoint(robot, stance)),
       paces_(std::move(paces)) {
   for (Pace& pace : paces_) pace.groups = static_cast<int>(groups_.size());
 }
 
 DynamicGait::DynamicGait(const models::RobotModel& robot, const NominalStance& stance)
-    : DynamicGait(robot, stance, {}) {
-  paces_ = FittedPaces();
-}
+    : DynamicGait(robot, stance, FitPaces(robot, stance)) {}
 
-std::vector<Pace> DynamicGait::FittedPaces() const {
-  std::vector<Pace> paces;
-  for (const Pace& candidate :
-       Candidates(stance_->gait->parameters, stance_->gait->posture.root_height, groups_.size())) {
-    if (!paces.empty() && candidate.speed() > kSlowPace * paces.front().speed()) continue;
-    const std::optional<Pace> pace = Fitted(candidate);
-    if (!pace) continue;
-    paces.push_back(*pace);
-    if (paces.size() == 2) break;
-  }
-  return paces;
-}
-
-double DynamicGait::KnotSpacing() const {
-  return groups_.size() > 2 ? kFineKnotSpacing : kKnotSpacing;
-}
-
-bool DynamicGait::Fits(const Pace& pace, const PlanarPose& step) const {
+MotionSettings DynamicGait::Settings() const {
   MotionSettings settings;
-  settings.speed_margin = kFitMargin;
-  settings.torque_margin = kFitMargin;
-  settings.knot_spacing = KnotSpacing();
+  settings.knot_spacing = groups_.size() > 2 ? kFineKnotSpacing : kKnotSpacing;
   settings.minimum_intervals = kLeastIntervals;
-  try {
-    Demands demands = DemandsOf(settings, {});
-    demands.clearance = kSelfClearance + kFitClearance;
-    MotionAt(pace, Repeated(step, kFitSteps), demands, false, {});
-    return true;
-  } catch (const MotionError&) {
-    return false;
-  }
-}
-
-std::optional<Pace> DynamicGait::Fitted(Pace pace) const {
-  const models::GaitParameters& parameters = stance_->gait->parameters;
-  if (!Fits(pace, {pace.bounds.forward, 0, 0})) return std::nullopt;
-  const auto longest = [&](double unit, double* bound, const auto& step) {
-    for (const double length : kAside) {
-      *bound = length * unit;
-      // To one side only: every motion is checked by itself, and robots are about symmetric.
-      if (Fits(pace, step(*bound))) return true;
-    }
-    return false;
-  };
-  if (!longest(parameters.lateral, &pace.bounds.lateral,
-               [](double y) {
-                 return PlanarPose{0, y, 0};
-               }) ||
-      !longest(parameters.turn, &pace.bounds.turn, [](double yaw) {
-        return PlanarPose{0, 0, yaw};
-      })) {
-    return std::nullopt;
-  }
-  return pace;
+  return settings;
 }
 
 DynamicGait::Demands DynamicGait::DemandsOf(const MotionSettings& settings,
@@ -216,10 +120,19 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const SteppedWay& way
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
   pattern.rise = pace.rise;
   pattern.rise_time = pace.timing.start;
+  pattern.grid = std::min(pattern.grid, kGridOfDoubleSupport * pace.timing.double_support);
+  pattern.evenness = pace.style.evenness;
+  pattern.lean = pace.style.lean;
+  pattern.zmp_ahead = pace.style.zmp_ahead;
+  pattern.keeps_reach = pace.style.keeps_reach;
   pattern.end_joints = demands.end.joints;
   pattern.turning_time = demands.end.turning_time;
   const models::ContactSchedule schedule =
       ScheduleOf(*robot_, *stance_, groups_, way.start(), way.Steps(), pace.timing);
+  pattern.turn = pace.style.turn;
+  pattern.twist = pace.style.twist;
+  pattern.shares = SharesOf(pace, schedule);
+  pattern.waist = waist_;
   Eigen::VectorXd guess = stance_->q;
   guess.segment<2>(4) = way.start().position();
   std::vector<Phase> motion =
@@ -228,6 +141,22 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const SteppedWay& way
                  cancellation);
   RequireSelfClearance(motion, demands);
   return motion;
+}
+
+std::vector<double> DynamicGait::SharesOf(const Pace& pace,
+                                          const models::ContactSchedule& schedule) const {
+  std::vector<double> shares(schedule.intervals.size(), 0);
+  for (int k = 1; k + 1 < static_cast<int>(shares.size()); ++k) {
+    for (int limb = 0; limb < static_cast<int>(schedule.contacts.size()); ++limb) {
+      if (schedule.intervals[k].bearing[limb]) continue;
+      const Eigen::Isometry3d& from = schedule.Before(k, limb);
+      const Eigen::Vector3d way = schedule.After(k, limb).translation() - from.translation();
+      const double heading = std::atan2(from(1, 0), from(0, 0)) - stance_->patch_headings[limb];
+      const double ahead = std::cos(heading) * way.x() + std::sin(heading) * way.y();
+      shares[k] = std::clamp(ahead / (2 * pace.bounds.forward), 0.0, 1.0);
+    }
+  }
+  return shares;
 }
 
 void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion,
@@ -291,22 +220,46 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, con
 std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strides,
                                             const FlowEnd& end, double knot_spacing,
                                             const CancellationToken& cancellation) const {
-  MotionSettings settings;
-  settings.knot_spacing = std::min(knot_spacing, KnotSpacing());
-  settings.minimum_intervals = kLeastIntervals;
+  MotionSettings settings = Settings();
+  settings.knot_spacing = std::min(knot_spacing, settings.knot_spacing);
   Demands demands = DemandsOf(settings, end);
   std::string fault = "no pace fits";
   for (const double clearance : {kSelfClearance, kLeastClearance}) {
     demands.clearance = clearance;
-    for (const Pace& pace : paces_) {
+    std::vector<Phase> shortest;
+    for (const auto& [duration, pace] : ByDuration(strides)) {
+      if (!shortest.empty() && duration >= shortest.back().knots.back().t) break;
       try {
-        return MotionAt(pace, strides, demands, true, cancellation);
+        std::vector<Phase> motion = MotionAt(*pace, strides, demands, true, cancellation);
+        const bool is_shorter =
+            shortest.empty() || motion.back().knots.back().t < shortest.back().knots.back().t;
+        if (is_shorter) shortest = std::move(motion);
       } catch (const MotionError& error) {
         fault = error.what();
       }
     }
+    if (!shortest.empty()) return shortest;
   }
   throw MotionError(fault);
+}
+
+std::vector<std::pair<double, const Pace*>> DynamicGait::ByDuration(
+    const std::vector<PlanarPose>& strides) const {
+  std::vector<std::pair<double, const Pace*>> paces;
+  for (const Pace& pace : paces_) {
+    double duration = std::numeric_limits<double>::infinity();
+    try {
+      const SteppedWay way(*stance_, groups_, strides, pace.bounds);
+      duration =
+          ScheduleOf(*robot_, *stance_, groups_, way.start(), way.Steps(), pace.timing).duration();
+    } catch (const MotionError&) {
+      // Nor will there be a motion at this pace.
+    }
+    paces.emplace_back(duration, &pace);
+  }
+  std::stable_sort(paces.begin(), paces.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return paces;
 }
 
 std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
@@ -321,20 +274,23 @@ std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, d
 std::vector<std::vector<Phase>> DynamicGait::Variants(const std::vector<PlanarPose>& strides,
                                                       double knot_spacing,
                                                       const CancellationToken& cancellation) const {
-  // The volumes of quasi-static motions are unions of their strides'. A slow pace has shorter steps
-  // than the quickest one.
+  // The volumes of quasi-static motions are unions of their strides'.
   std::vector<std::vector<Phase>> variants;
   if (strides.size() == 2) {
     variants.push_back(quasi_static_.Motion(strides, knot_spacing, cancellation));
   }
-  if (paces_.empty()) return variants;
   MotionSettings settings;
   settings.knot_spacing = knot_spacing;
   settings.minimum_intervals = 2;
-  try {
-    variants.push_back(MotionAt(paces_.front(), strides, settings, false, cancellation));
-  } catch (const MotionError&) {
-    // Motion does not return it either.
+  for (const Pace& pace : paces_) {
+    // A slow pace has shorter steps than the one before, if it carries the root as high.
+    const bool is_within = &pace != paces_.data() && pace.rise <= (&pace - 1)->rise;
+    if (is_within) continue;
+    try {
+      variants.push_back(MotionAt(pace, strides, settings, false, cancellation));
+    } catch (const MotionError&) {
+      // Motion does not return it either.
+    }
   }
   return variants;
 }

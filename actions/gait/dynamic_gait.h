@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "actions/gait/foothold_plan.h"
@@ -24,7 +25,7 @@ inline constexpr double kLongestFlow = 40;
 /// that keeps the robot's limits. Where no pace fits, the gait is quasi-static.
 class DynamicGait final : public GaitMotion {
  public:
-  /// Fits the paces. `stance` must outlive this.
+  /// With the paces of FitPaces. `stance` must outlive this.
   DynamicGait(const models::RobotModel& robot, const NominalStance& stance);
   /// With paces that were fitted before.
   DynamicGait(const models::RobotModel& robot, const NominalStance& stance,
@@ -49,6 +50,9 @@ class DynamicGait final : public GaitMotion {
   /// From quick to slow; empty if none fits.
   const std::vector<Pace>& paces() const { return paces_; }
 
+  /// Knots and margins of its motions.
+  MotionSettings Settings() const;
+
   /// The motion at a pace. With `adapts`, steps that fail, and their neighbours, are slowed down up
   /// to half the speed; where that does not help, or links come too close to each other, steps
   /// aside and in turns become shorter, along that straight way only.
@@ -63,6 +67,9 @@ class DynamicGait final : public GaitMotion {
   /// Flow without a rest on the way.
   std::vector<Phase> FlowThrough(const std::vector<PlanarPose>& strides, const FlowEnd& end,
                                  double knot_spacing, const CancellationToken& cancellation) const;
+  /// The paces by the duration of the way, s, as long as no step has to be slowed down.
+  std::vector<std::pair<double, const Pace*>> ByDuration(
+      const std::vector<PlanarPose>& strides) const;
   /// What a motion must keep, besides its pace.
   struct Demands {
     MotionSettings settings;
@@ -76,12 +83,8 @@ class DynamicGait final : public GaitMotion {
                               const CancellationToken& cancellation) const;
   std::vector<Phase> MotionOf(const Pace& pace, const SteppedWay& way, const Demands& demands,
                               const CancellationToken& cancellation) const;
-  double KnotSpacing() const;  ///< s, at most
-  std::vector<Pace> FittedPaces() const;
-  /// Whether the robot can repeat a step at this pace, with margins.
-  bool Fits(const Pace& pace, const PlanarPose& step) const;
-  /// The pace with the longest sideways and turning steps that fit; none if it does not fit.
-  std::optional<Pace> Fitted(Pace pace) const;
+  /// PatternSettings::shares: the more the farther limbs swing ahead.
+  std::vector<double> SharesOf(const Pace& pace, const models::ContactSchedule& schedule) const;
   /// @throws CloseLinks if links come closer to each other than demanded.
   void RequireSelfClearance(const std::vector<Phase>& motion, const Demands& demands) const;
 
@@ -90,6 +93,7 @@ class DynamicGait final : public GaitMotion {
   QuasiStaticGait quasi_static_;
   std::vector<std::vector<int>> groups_;
   double reach_ = 0;  ///< m: of the farthest limb from the stance's origin, seen from above
+  std::optional<Waist> waist_;
   std::vector<Pace> paces_;
 };
 

@@ -14,10 +14,10 @@
 namespace possibility::actions {
 namespace {
 
-constexpr const char* kFormat = "possibility-paces/1";
+constexpr const char* kFormat = "possibility-paces/2";
 
 /// Goes up when the family of paces or their fit changes: earlier paces are stale.
-constexpr const char* kFit = "1";
+constexpr const char* kFit = "2";
 
 nlohmann::json ToJson(const Pace& pace) {
   return {{"forward", pace.bounds.forward},
@@ -27,13 +27,28 @@ nlohmann::json ToJson(const Pace& pace) {
           {"swing_length", pace.timing.swing_length},
           {"double_support", pace.timing.double_support},
           {"start", pace.timing.start},
-          {"rise", pace.rise}};
+          {"rise", pace.rise},
+          {"evenness", pace.style.evenness},
+          {"body_turn", pace.style.turn},
+          {"twist", pace.style.twist},
+          {"lean", pace.style.lean},
+          {"zmp_ahead", pace.style.zmp_ahead},
+          {"keeps_reach", pace.style.keeps_reach}};
 }
 
 /// A kept figure differs from the gait's own by less than this factor. Others are damage: steps of
 /// a nanometre would take for ever.
 constexpr double kPlausible = 20;
-constexpr double kHighest = 10;  // m
+constexpr double kHighest = 10;   // m
+constexpr double kMostAngle = 1;  // rad
+constexpr double kGreatestEvenness = 100;
+
+/// A number of at most this magnitude.
+double Within(const models::JsonCursor& value, double most) {
+  const double number = value.Number();
+  if (!(std::abs(number) <= most)) value.Fail(fmt::format("expected at most {}", most));
+  return number;
+}
 
 double Plausible(const models::JsonCursor& value, double unit) {
   const double number = value.Number();
@@ -43,8 +58,9 @@ double Plausible(const models::JsonCursor& value, double unit) {
 }
 
 Pace ToPace(const models::JsonCursor& value, const models::GaitParameters& gait) {
-  value.ExpectKeys(
-      {"forward", "lateral", "turn", "swing", "swing_length", "double_support", "start", "rise"});
+  value.ExpectKeys({"forward", "lateral", "turn", "swing", "swing_length", "double_support",
+                    "start", "rise", "evenness", "body_turn", "twist", "lean", "zmp_ahead",
+                    "keeps_reach"});
   Pace pace;
   pace.bounds.forward = Plausible(value["forward"], gait.forward);
   pace.bounds.lateral = Plausible(value["lateral"], gait.lateral);
@@ -53,9 +69,14 @@ Pace ToPace(const models::JsonCursor& value, const models::GaitParameters& gait)
   pace.timing.swing_length = Plausible(value["swing_length"], gait.forward);
   pace.timing.double_support = Plausible(value["double_support"], gait.swing_time);
   pace.timing.start = Plausible(value["start"], gait.swing_time);
-  pace.rise = value["rise"].Number();
-  if (!(std::abs(pace.rise) < kHighest))
-    value["rise"].Fail(fmt::format("expected below {} m", kHighest));
+  pace.rise = Within(value["rise"], kHighest);
+  pace.style.evenness = Within(value["evenness"], kGreatestEvenness);
+  if (pace.style.evenness < 1) value["evenness"].Fail("expected at least 1");
+  pace.style.turn = Within(value["body_turn"], kMostAngle);
+  pace.style.twist = Within(value["twist"], kMostAngle);
+  pace.style.lean = Within(value["lean"], kMostAngle);
+  pace.style.zmp_ahead = Within(value["zmp_ahead"], kHighest);
+  pace.style.keeps_reach = value["keeps_reach"].Bool();
   return pace;
 }
 

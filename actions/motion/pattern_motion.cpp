@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "actions/motion/gradual_changes.h"
 #include "actions/motion/pendulum_spline.h"
 #include "actions/motion/smooth_under.h"
 #include "actions/motion/swing_path.h"
@@ -91,20 +92,6 @@ struct Interval {
   Vector3d zmp_to = Vector3d::Zero();
 };
 
-/// The support's change from one swing to the next: the root rises with it.
-struct Climb {
-  double start = 0;  ///< s
-  double duration = 0;
-  double height = 0;  ///< m
-};
-
-/// A change of the root's roll.
-struct Roll {
-  double start = 0;  ///< s
-  double duration = 0;
-  double angle = 0;  ///< rad
-};
-
 /// The pattern of one schedule; shared by the tasks of its phases.
 class Pattern {
  public:
@@ -118,6 +105,7 @@ class Pattern {
     LayOutZmp();
     LayOutClimbs();
     LayOutRolls();
+    LayOutTurns();
     duration_ = schedule_.duration();
     steps_ = std::max(static_cast<int>(std::ceil(duration_ / settings_.grid)), 2);
     h_ = duration_ / steps_;
@@ -173,7 +161,7 @@ class Pattern {
         Blend(stance_.gait->posture.root_pitch, stance_.gait->posture.root_pitch + settings_.lean,
               Raised(interval.start + t));
     if (!rolls_.empty()) {
-      task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, RootRoll(interval.start + t));
+      task.root_turn = TurnedBy(task.root_yaw, task.root_pitch, rolls_.At(interval.start + t));
     }
     task.root_height = RootHeight(interval.start + t);
     task.centre_of_mass = CentreOfMass(interval.start + t);
@@ -287,7 +275,7 @@ class Pattern {
       AddFootprint(static_cast<int>(limb), *bearing, &points);
     }
     const Vector2d ahead =
-        Eigen::Rotation2Dd(intervals_[k].yaw_from) * Vector2d(settings_.zmp_ahead, 0);
+        Eigen::Rotation2Dd(intervals_[k].yaw_from) * Vector2d(Share(k) * settings_.zmp_ahead, 0);
     return OnGround(k, SupportPolygon(points).Nearest(Balanced(k) + ahead, settings_.zmp_margin));
   }
 
@@ -330,7 +318,7 @@ class Pattern {
           last < 0 ? 0 : intervals_[k].zmp_from.z() - intervals_[last].zmp_from.z();
       if (height != 0) {
         const double start = intervals_[last].start;
-        climbs_.push_back({start, intervals_[k].start + intervals_[k].duration - start, height});
+        climbs_.Add(start, intervals_[k].start + intervals_[k].duration - start, height);
       }
       last = k;
     }
@@ -342,7 +330,7 @@ class Pattern {
     double roll = 0;
     double start = 0;
     const auto roll_to = [&](double end, double next) {
-      if (next != roll) rolls_.push_back({start, end - start, next - roll});
+      rolls_.Add(start, end - start, next - roll);
       roll = next;
     };
     for (int k = 0; k < num_intervals(); ++k) {
@@ -352,6 +340,33 @@ class Pattern {
       start = swing.start + (1 - kRolling) * swing.duration;
     }
     roll_to(intervals_.back().start + intervals_.back().duration, 0);
+  }
+
+  double Share(int k) const { return settings_.shares.empty() ? 1 : settings_.shares[k]; }
+
+  /// From one side to the other, each in the time from the middle of the double support before a
+  /// swing to the middle of that after it. A step that turns less takes its neighbours' ends along.
+  void LayOutTurns() {
+    if (settings_.turn == 0 && settings_.twist == 0) return;
+    std::vector<int> swings;
+    for (int k = 0; k < num_intervals(); ++k) {
+      if (!AllBear(k)) swings.push_back(k);
+    }
+    const auto middle_before = [&](std::size_t i) {
+      const double start = intervals_[swings[i]].start;
+      const bool follows_support = i > 0 && AllBear(swings[i] - 1);
+      return follows_support ? start - intervals_[swings[i] - 1].duration / 2 : start;
+    };
+    double before = 0;
+    for (std::size_t i = 0; i < swings.size(); ++i) {
+      const Interval& swing = intervals_[swings[i]];
+      const bool is_last = i + 1 == swings.size();
+      const double share = is_last ? 0 : std::min(Share(swings[i]), Share(swings[i + 1]));
+      const double end = is_last ? swing.start + swing.duration : middle_before(i + 1);
+      const double next = SideOf(swings[i]) * share;
+      turns_.Add(middle_before(i), end - middle_before(i), next - before);
+      before = next;
+    }
   }
 
   /// Of the support beside the middle of all limbs' places: 1 left, -1 right, 0 neither.
@@ -366,18 +381,11 @@ class Pattern {
     return aside > 0 ? 1 : aside < 0 ? -1 : 0;
   }
 
-  ScalarSignal RootRoll(double t) const {
-    ScalarSignal sum = Constant(0);
-    for (const Roll& roll : rolls_) {
-      sum = sum + Blend(0, roll.angle, RestToRest(t - roll.start, roll.duration));
-    }
-    return sum;
-  }
-
   ScalarSignal RootYaw(double t) const {
     const Interval& interval = intervals_[IntervalAt(t)];
-    return Blend(interval.yaw_from, interval.yaw_to,
-                 RestToRest(t - interval.start, interval.duration));
+    const ScalarSignal heading = Blend(interval.yaw_from, interval.yaw_to,
+                                       RestToRest(t - interval.start, interval.duration));
+    return turns_.empty() ? heading : heading + Blend(0, settings_.turn, turns_.At(t));
   }
 
   int IntervalAt(double t) const {
@@ -488,12 +496,8 @@ class Pattern {
   }
 
   ScalarSignal WantedRootHeight(double t) const {
-    ScalarSignal height = HeightAboveGround(t);
-    height.value += intervals_.front().zmp_from.z();
-    for (const Climb& climb : climbs_) {
-      height = height + Blend(0, climb.height, RestToRest(t - climb.start, climb.duration));
-    }
-    return height;
+    const ScalarSignal height = HeightAboveGround(t);
+    return height + climbs_.At(t, intervals_.front().zmp_from.z());
   }
 
   ScalarSignal HeightAboveGround(double t) const {
@@ -515,8 +519,19 @@ class Pattern {
     const VectorXd nominal = stance_.q.tail(robot_.num_joints());
     const double time = std::min(settings_.turning_time, duration_);
     const double turning = std::min(time, t - (duration_ - time));
-    if (turning <= 0) return ConstantVector<VectorXd>(nominal);
-    return BlendVector<VectorXd>(nominal, settings_.end_joints, RestToRest(turning, time));
+    Signal<VectorXd> joints = turning <= 0 ? ConstantVector<VectorXd>(nominal)
+                                           : BlendVector<VectorXd>(nominal, settings_.end_joints,
+                                                                   RestToRest(turning, time));
+    if (settings_.waist && !turns_.empty()) Twist(turns_.At(t), &joints);
+    return joints;
+  }
+
+  void Twist(const ScalarSignal& share, Signal<VectorXd>* joints) const {
+    const auto& [joint, sign] = *settings_.waist;
+    const ScalarSignal angle = Blend(0, -sign * settings_.twist, share);
+    joints->value[joint] += angle.value;
+    joints->rate[joint] += angle.rate;
+    joints->acceleration[joint] += angle.acceleration;
   }
 
   double CentreOfMassHeight() const {
@@ -595,8 +610,13 @@ class Pattern {
     const double duration = intervals_[last].start + intervals_[last].duration - begin;
     const double swung = intervals_[k].start + t - begin;
     const double lift = settings_.lifts.empty() ? 0 : settings_.lifts[first];
-    const SwingPath path{from.translation(), to.translation(),        settings_.clearance, lift,
-                         duration,           BearOnOneSlope(from, to)};
+    const SwingPath path{.from = from.translation(),
+                         .to = to.translation(),
+                         .clearance = settings_.clearance,
+                         .lift = lift,
+                         .duration = duration,
+                         .on_slope = BearOnOneSlope(from, to),
+                         .evenness = 1 + Share(first) * (settings_.evenness - 1)};
     task->position = path.At(swung);
     const ScalarSignal s = path.Progress(swung);
     const double yaw = StanceYaw(limb, from);
@@ -612,8 +632,10 @@ class Pattern {
   models::ContactSchedule schedule_;
   PatternSettings settings_;
   std::vector<Interval> intervals_;
-  std::vector<Climb> climbs_;
-  std::vector<Roll> rolls_;
+  /// Of the support from one swing to the next, m: the root rises with it.
+  GradualChanges climbs_;
+  GradualChanges rolls_;  ///< of the root, rad
+  GradualChanges turns_;  ///< -1 to 1, in units of settings_.turn and twist
   Eigen::Matrix2Xd to_root_;
   VectorXd lowered_;                ///< m, at every knot: see FilterWithinReach
   std::optional<SmoothUnder> low_;  ///< the root's height on uneven ground

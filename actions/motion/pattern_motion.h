@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "actions/wholebody/motion_builder.h"
@@ -9,6 +10,12 @@
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
+
+/// A joint between the root and the trunk above.
+struct Waist {
+  int joint = 0;
+  double sign = 1;  ///< 1: its axis points up; -1: down
+};
 
 struct PatternSettings {
   double clearance = 0.05;  ///< height of a swing in its middle, m
@@ -34,6 +41,15 @@ struct PatternSettings {
   /// bear in a swing. The trunk comes over them, which spares a hip that must hold it up sideways,
   /// and leaves the limb that swings more of its hip's range.
   std::vector<double> sways;
+  double turn = 0;  ///< rad: yaw of the root at the end of a swing, with its side ahead
+  /// rad: the trunk above the waist turns the other way against the root. Swinging legs then ask
+  /// less of the friction.
+  double twist = 0;
+  std::optional<Waist> waist;  ///< for `twist`
+  double evenness = 1;         ///< of the speed of swings that are not high (EvenRestToRest)
+  /// For each interval of the schedule, 0 to 1; empty: 1. How much of `evenness`, `zmp_ahead`,
+  /// `turn` and `twist` a swing has: all for a full step ahead, none for a step aside.
+  std::vector<double> shares;
   double rise_time = 0.35;  ///< s: to get there from the start, and back to the end; at most half
   /// s, between the coefficients of the root's height where the ground is uneven or swings are high
   /// (SmoothUnder). More is gentler, less follows the limbs' reach more closely.

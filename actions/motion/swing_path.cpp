@@ -14,7 +14,7 @@ constexpr double kAcross = 0.25;
 }  // namespace
 
 ScalarSignal SwingPath::Progress(double t) const {
-  if (!IsHigh()) return RestToRest(t, duration);
+  if (!IsHigh()) return EvenRestToRest(t, duration, evenness);
   return RestToRest(t - kAcross * duration, (1 - 2 * kAcross) * duration);
 }
 

@@ -17,6 +17,7 @@ struct SwingPath {
   double duration = 1;  ///< s
   /// The ends bear on one slope: without a lift, the patch stays above the line that joins them.
   bool on_slope = false;
+  double evenness = 1;  ///< of the speed across (EvenRestToRest), unless the swing is high
 
   bool IsHigh() const { return lift > 0 || (from.z() != to.z() && !on_slope); }
   /// `t`: s since the start.

@@ -6,15 +6,10 @@
 #include <iterator>
 #include <utility>
 
-#include "actions/wholebody/motion_builder.h"
-#include "actions/wholebody/motion_error.h"
-
 namespace possibility::actions {
 namespace {
 
-constexpr double kFittedMargin = 0.92;                    // as DynamicGait fits paces
 constexpr double kRootRises[] = {0.035, 0.07, 0.105, 0};  // of its height, in the order tried
-constexpr int kTriedSteps = 4;
 constexpr double kQuicker = 1.1;
 
 }  // namespace
@@ -32,46 +27,18 @@ Pace PaceOf(const models::Gait& gait, double length, double swing, double rise) 
 }
 
 PaceLimits::PaceLimits(const models::RobotModel& robot, const NominalStance& stance)
-    : robot_(&robot), stance_(&stance), gait_(robot, stance, {}), clearance_(robot, {stance.q}) {}
-
-std::string PaceLimits::WhyNot(const Pace& pace, const PlanarPose& step, double clearance) const {
-  std::vector<PlanarPose> way = {PlanarPose()};
-  for (int i = 0; i < kTriedSteps; ++i) way.push_back(way.back() * step);
-  MotionSettings settings;
-  settings.knot_spacing = 0.02;
-  settings.minimum_intervals = 4;
-  settings.speed_margin = settings.torque_margin = kFittedMargin;
-  try {
-    return CloseLinks(gait_.MotionAt(pace, way, settings, false), clearance);
-  } catch (const MotionError& error) {
-    return error.what();
-  }
-}
-
-std::string PaceLimits::CloseLinks(const std::vector<Phase>& motion, double clearance) const {
-  for (const Phase& phase : motion) {
-    for (const Knot& knot : phase.knots) {
-      const auto faults = clearance_.Faults(knot.q, clearance);
-      if (faults.empty()) continue;
-      const models::Proximity& pair = faults.front().pair;
-      return fmt::format("{} is {:.1f} mm from {} at {:.2f} s, expected {:.1f}",
-                         robot_->links[pair.link].name, 1e3 * pair.distance,
-                         robot_->links[pair.other].name, knot.t, 1e3 * faults.front().required);
-    }
-  }
-  return "";
-}
+    : stance_(&stance), trial_(robot, stance) {}
 
 bool PaceLimits::AllowsStep(const PlanarPose& step, double clearance) const {
   return std::any_of(std::begin(kRootRises), std::end(kRootRises), [&](double rise) {
-    return WhyNot(PaceOf(*stance_->gait, 1, 0.9, rise), step, clearance).empty();
+    return trial_.WhyNot(PaceOf(*stance_->gait, 1, 0.9, rise), step, clearance).empty();
   });
 }
 
 bool PaceLimits::AllowsSlowestPace(double clearance) const {
   return std::any_of(std::begin(kRootRises), std::end(kRootRises), [&](double rise) {
     const Pace pace = PaceOf(*stance_->gait, 0.8, 1, rise);
-    return WhyNot(pace, {pace.bounds.forward, 0, 0}, clearance).empty();
+    return trial_.WhyNot(pace, {pace.bounds.forward, 0, 0}, clearance).empty();
   });
 }
 
@@ -88,9 +55,9 @@ std::optional<Pace> PaceLimits::Quickest(double clearance) const {
   std::stable_sort(paces.begin(), paces.end(),
                    [](const Pace& a, const Pace& b) { return a.speed() > b.speed(); });
   const auto fits = [&](const Pace& pace) {
-    return WhyNot(pace, {pace.bounds.forward, 0, 0}, clearance).empty() &&
-           WhyNot(pace, {0, p.lateral, 0}, clearance).empty() &&
-           WhyNot(pace, {0, 0, p.turn}, clearance).empty();
+    return trial_.WhyNot(pace, {pace.bounds.forward, 0, 0}, clearance).empty() &&
+           trial_.WhyNot(pace, {0, p.lateral, 0}, clearance).empty() &&
+           trial_.WhyNot(pace, {0, 0, p.turn}, clearance).empty();
   };
   const auto found = std::find_if(paces.begin(), paces.end(), fits);
   if (found == paces.end()) return std::nullopt;
@@ -109,7 +76,7 @@ std::string PaceLimits::BindingLimit(const std::vector<Pace>& paces) const {
                                                       {"aside", {0, p.lateral, 0}},
                                                       {"in turns", {0, 0, p.turn}}};
   for (const auto& [where, step] : steps) {
-    const std::string why = WhyNot(pace, step, kFittedClearance);
+    const std::string why = trial_.WhyNot(pace, step, kFittedClearance);
     if (!why.empty()) return fmt::format("{}, {}", where, why);
   }
   return "the family of paces ends";

@@ -4,34 +4,23 @@
 #include <string>
 #include <vector>
 
-#include "actions/gait/dynamic_gait.h"
 #include "actions/gait/pace.h"
+#include "actions/gait/pace_trial.h"
 #include "actions/wholebody/nominal_stance.h"
 #include "actions/wholebody/planar_pose.h"
-#include "actions/wholebody/self_clearance.h"
 #include "models/robot/robot_model.h"
 
 namespace possibility::actions {
 
-/// A pace of the family that DynamicGait tries: multiples of the gait's `forward` and `swing_time`,
+/// A pace of the family that FitPaces tries: multiples of the gait's `forward` and `swing_time`,
 /// and a rise of the root as a share of its height.
 Pace PaceOf(const models::Gait& gait, double length, double swing, double rise);
 
-/// Clearance with which DynamicGait fits paces, and the one that its motions fall back to with a
-/// little to spare, m.
-inline constexpr double kFittedClearance = kSelfClearance + 0.0005;
-inline constexpr double kTightClearance = 0.0055;
-
-/// Says what forbids steps of a gait at a pace, as DynamicGait fits paces.
+/// Says which of some paces of the family a robot's limits allow, and what forbids others.
 class PaceLimits {
  public:
   /// Both must outlive this.
   PaceLimits(const models::RobotModel& robot, const NominalStance& stance);
-
-  /// What forbids four such steps with the margins of fitted paces: a joint, a torque, contact
-  /// forces or two links; empty if nothing does.
-  /// `clearance`: between links, m, at least 0.005.
-  std::string WhyNot(const Pace& pace, const PlanarPose& step, double clearance) const;
 
   /// Whether such steps are possible at a pace of middling speed and some height of the root.
   bool AllowsStep(const PlanarPose& step, double clearance) const;
@@ -48,12 +37,8 @@ class PaceLimits {
   std::string BindingLimit(const std::vector<Pace>& paces) const;
 
  private:
-  std::string CloseLinks(const std::vector<Phase>& motion, double clearance) const;
-
-  const models::RobotModel* robot_;
   const NominalStance* stance_;
-  DynamicGait gait_;  ///< without paces of its own
-  SelfClearance clearance_;
+  PaceTrial trial_;
 };
 
 }  // namespace possibility::actions

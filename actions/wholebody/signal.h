@@ -24,6 +24,12 @@ Signal<Vector> ConstantVector(const Vector& value) {
 /// The rest-to-rest quintic 10 s^3 - 15 s^4 + 6 s^5 of s = t / duration, from 0 to 1.
 ScalarSignal RestToRest(double t, double duration);
 
+/// From rest to rest, 0 to 1, by the acceleration u - u |u|^(2m) times a constant, with u from 1 to
+/// -1 and m the `evenness`. 1: the quintic. The greater it is, the more evenly the speed is spread:
+/// its peak falls from 1.875 to 1.5 times the mean, that of the acceleration rises from 5.77 to 6.
+/// `evenness`: at least 1.
+ScalarSignal EvenRestToRest(double t, double duration, double evenness);
+
 /// Shortest time in which the quintic covers `distance` with peak acceleration `acceleration`.
 double RestToRestDuration(double distance, double acceleration);
 

@@ -10,8 +10,8 @@
 
 #include "actions/conditions/locomotion_model.h"
 #include "actions/crossing/step_over_motion.h"
-#include "actions/gait/dynamic_gait.h"
 #include "actions/gait/pace_library.h"
+#include "actions/gait/pace_search.h"
 #include "actions/jump/jump_sweep.h"
 #include "actions/transition/transition_motion.h"
 #include "actions/wholebody/motion_builder.h"
@@ -34,6 +34,7 @@ struct LibraryOptions {
   std::string out;
   std::string threads;
   std::string heights = "-0.2,-0.1,0,0.1,0.2";
+  bool paces = false;
   bool json = false;
 };
 
@@ -110,7 +111,16 @@ void SavePaces(const models::RobotModel& robot, const std::string& folder) {
   const actions::PaceLibrary library(robot, folder);
   for (const models::Gait& gait : robot.gaits) {
     const actions::NominalStance stance = actions::SolveNominalStance(robot, gait);
-    library.Save(gait, actions::DynamicGait(robot, stance).paces());
+    const CountLine progress("paces of " + gait.name);
+    actions::PaceSearchSettings settings;
+    settings.progress = [&](double, int done, int all) { progress.Show(done + 1, all); };
+    const std::vector<actions::Pace> paces = actions::OptimisedPaces(robot, stance, settings);
+    library.Save(gait, paces);
+    if (paces.empty()) {
+      PrintError("{}: no pace fits, the gait is quasi-static\n", gait.name);
+    } else {
+      PrintError("{}: {:.2f} m/s\n", gait.name, paces.front().speed());
+    }
   }
 }
 
@@ -156,11 +166,10 @@ Swept SolveJumps(const models::RobotModel& robot, const models::Jump& jump,
 
 ExitCode RunLibrary(const LibraryOptions& options) {
   const models::RobotModel robot = models::LoadRobotModel(options.robot);
-  if (robot.jumps.empty()) {
-    throw InputError(fmt::format("{}: jumps: the robot has none", robot.file.string()));
-  }
-  RequireJumps(robot);
+  if (!options.paces) RequireJumps(robot);
   PrepareOutputFolder("--out", options.out);
+  SavePaces(robot, options.out);
+  if (options.paces) return kDone;
   actions::JumpSweep sweep;
   sweep.heights = ParseHeights(options.heights);
   sweep.threads =
@@ -172,7 +181,6 @@ ExitCode RunLibrary(const LibraryOptions& options) {
     jumps.push_back(SolveJumps(robot, jump, options.out, sweep));
   }
   SaveTransitions(robot, options.out);
-  SavePaces(robot, options.out);
   SaveStepOver(robot, options.out);
   if (options.json) {
     PrintJson(jumps);
@@ -185,14 +193,15 @@ ExitCode RunLibrary(const LibraryOptions& options) {
 }  // namespace
 
 Command AddLibraryCommand(CLI::App& program) {
-  CommandOptions command(
-      program, "library",
-      "Solves a robot's jumps, transitions and step over, and fits its gaits, for later plans.");
+  CommandOptions command(program, "library",
+                         "Solves a robot's jumps, transitions and step over, and optimises its "
+                         "gaits, for later plans.");
   auto options = std::make_shared<LibraryOptions>();
   command.AddRequired("ROBOT", &options->robot, "Robot YAML");
   command.AddRequired("--out", &options->out, "Folder of the library");
   command.AddOptional("--heights", &options->heights, "Heights of landing grounds, m");
   command.AddOptional("--threads", &options->threads, "Solves at a time; default: all cores");
+  command.AddFlag("--paces", &options->paces, "Only the paces of its gaits");
   command.AddFlag("--json", &options->json, "Print one JSON object");
   return {command, [options] { return RunLibrary(*options); }};
 }

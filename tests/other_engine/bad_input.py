@@ -32,7 +32,7 @@ class BadInput(Spoilt):
         with open(make_packed_plan("three_routes_b"), "rb") as stream:
             whole = stream.read()
         spoilt = os.path.join(plan_cases.FOLDER, "spoilt.zip")
-        for change in (whole[:100], whole[:-100], whole[:200] + b"x" + whole[201:],
+        for change in (whole[:100], whole[:-100], whole[:200] + bytes([whole[200] ^ 0xFF]) + whole[201:],
                        whole.replace(b"motion/0", b"motion/9"), whole.replace(b"plan.json", b"plan.text")):
             with open(spoilt, "wb") as stream:
                 stream.write(change)

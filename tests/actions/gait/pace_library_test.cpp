@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <fstream>
+#include <string>
 
 #include "models/input/file_contents.h"
 #include "tests/actions/drchubo1.h"
@@ -23,6 +25,12 @@ void ExpectSame(const Pace& a, const Pace& b) {
   EXPECT_EQ(a.timing.double_support, b.timing.double_support);
   EXPECT_EQ(a.timing.start, b.timing.start);
   EXPECT_EQ(a.rise, b.rise);
+  EXPECT_EQ(a.style.evenness, b.style.evenness);
+  EXPECT_EQ(a.style.turn, b.style.turn);
+  EXPECT_EQ(a.style.twist, b.style.twist);
+  EXPECT_EQ(a.style.lean, b.style.lean);
+  EXPECT_EQ(a.style.zmp_ahead, b.style.zmp_ahead);
+  EXPECT_EQ(a.style.keeps_reach, b.style.keeps_reach);
 }
 
 TEST(PaceLibrary, ReadsBackTheSamePaces) {
@@ -86,9 +94,27 @@ TEST(PaceLibrary, FindsNoImplausiblePaces) {
   }
 }
 
+TEST(PaceLibrary, FindsNoImplausibleStyle) {
+  const models::TemporaryFolder folder;
+  const PaceLibrary library(DrcHubo1(), folder.path());
+  std::vector<Pace> paces = DrcHubo1Flowing("walk").motion().paces();
+  PaceStyle& style = paces[0].style;
+  for (double* field :
+       {&style.evenness, &style.turn, &style.twist, &style.lean, &style.zmp_ahead}) {
+    for (const double wrong : {-1e300, -20.0, 1e300}) {
+      const double right = *field;
+      *field = wrong;
+      library.Save(Walk(), paces);
+      EXPECT_FALSE(library.Find(Walk())) << wrong;
+      *field = right;
+    }
+  }
+  library.Save(Walk(), paces);
+  EXPECT_TRUE(library.Find(Walk()));
+}
+
 class ShippedPaces : public ::testing::TestWithParam<const char*> {};
 
-/// `possibility library` writes them anew.
 TEST_P(ShippedPaces, AreThoseThatTheFitFinds) {
   const models::Gait& gait = DrcHubo1().GaitNamed(GetParam());
   const NominalStance stance = SolveNominalStance(DrcHubo1(), gait);

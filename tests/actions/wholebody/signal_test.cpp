@@ -40,6 +40,45 @@ TEST(SignalTest, QuinticLeadsFromOneStateToAnother) {
   }
 }
 
+constexpr double kEvennesses[] = {1, 1.5, 3, 8};
+
+TEST(SignalTest, AnEvenWayGoesFromZeroToOneAtRest) {
+  for (const double evenness : kEvennesses) {
+    for (const double t : {0.0, 0.7}) {
+      const ScalarSignal s = EvenRestToRest(t, 0.7, evenness);
+      EXPECT_NEAR(s.value, t > 0 ? 1 : 0, 1e-14);
+      EXPECT_NEAR(s.rate, 0, 1e-14);
+      EXPECT_NEAR(s.acceleration, 0, 1e-13);
+    }
+    EXPECT_NEAR(EvenRestToRest(0.35, 0.7, evenness).value, 0.5, 1e-15);
+  }
+}
+
+TEST(SignalTest, DerivativesOfAnEvenWayAreThoseOfItsValue) {
+  for (const double evenness : kEvennesses) {
+    const auto at = [&](double t) { return EvenRestToRest(t, 0.7, evenness); };
+    for (double t = 2 * kStep; t < 0.7 - 2 * kStep; t += 0.7 / 37) {
+      EXPECT_NEAR(at(t).rate, (at(t + kStep).value - at(t - kStep).value) / (2 * kStep), 1e-6);
+      EXPECT_NEAR(at(t).acceleration, (at(t + kStep).rate - at(t - kStep).rate) / (2 * kStep),
+                  1e-5);
+    }
+  }
+}
+
+TEST(SignalTest, TheSpeedOfAWayIsSpreadTheMoreEvenlyTheGreaterItsEvenness) {
+  for (double t = 0; t <= 1; t += 0.01) {
+    EXPECT_EQ(EvenRestToRest(t, 1, 1).value, RestToRest(t, 1).value);
+    EXPECT_NEAR(EvenRestToRest(t, 1, 1 + 1e-12).value, RestToRest(t, 1).value, 1e-9);
+  }
+  double before = 1.875;  // of the quintic
+  for (const double evenness : {1.5, 3.0, 8.0, 1000.0}) {
+    const double peak = EvenRestToRest(0.5, 1, evenness).rate;
+    EXPECT_LT(peak, before);
+    before = peak;
+  }
+  EXPECT_NEAR(before, 1.5, 0.01);  // of the cubic 3 s^2 - 2 s^3
+}
+
 TEST(SignalTest, RestToRestGoesFromZeroToOneAtRest) {
   for (const double t : {0.0, 2.5}) {
     const ScalarSignal s = RestToRest(t, 2.5);

@@ -1,0 +1,49 @@
+#include "actions/gait/pace_search.h"
+
+#include <gtest/gtest.h>
+
+#include "actions/gait/pace_trial.h"
+#include "common/cancellation_token.h"
+#include "tests/actions/dynamic_gaits.h"
+
+namespace possibility::actions {
+namespace {
+
+class PaceSearchTest : public ::testing::Test {
+ protected:
+  std::optional<Pace> Search(const CancellationToken& cancellation = {}) const {
+    PaceSearchSettings settings;
+    settings.trials = 150;
+    settings.seeds = {1};
+    return SearchPace(DrcHubo1(), walk_.stance(), start_, settings, cancellation);
+  }
+
+  const FlowingGait& walk_ = DrcHubo1Flowing("walk");
+  /// The quickest of the family.
+  const Pace start_ = walk_.motion().paces()[walk_.motion().paces().size() - 2];
+};
+
+TEST_F(PaceSearchTest, FindsAQuickerPaceThatKeepsTheLimits) {
+  const std::optional<Pace> found = Search();
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->speed(), start_.speed());
+  EXPECT_GE(found->bounds.lateral, start_.bounds.lateral);
+  EXPECT_GE(found->bounds.turn, start_.bounds.turn);
+  const PaceTrial trial(DrcHubo1(), walk_.stance());
+  for (const PlanarPose& step :
+       {PlanarPose{found->bounds.forward, 0, 0}, PlanarPose{0, found->bounds.lateral, 0},
+        PlanarPose{0, 0, found->bounds.turn}}) {
+    EXPECT_EQ(trial.WhyNot(*found, step, kFittedClearance), "");
+  }
+  const std::optional<Pace> again = Search();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->speed(), found->speed());
+  EXPECT_EQ(again->style.turn, found->style.turn);
+}
+
+TEST_F(PaceSearchTest, CanBeCancelled) {
+  EXPECT_THROW(Search(CancellationToken([] { return false; })), Cancelled);
+}
+
+}  // namespace
+}  // namespace possibility::actions
