@@ -1,5 +1,8 @@
 #include <malloc.h>
 
+#include <cstdio>
+
+#include "common/blas_threads.h"
 #include "experiments/program/program.h"
 #include "experiments/support/standard_streams.h"
 
@@ -10,5 +13,12 @@ int main(int argc, char** argv) {
   // 1.76 times the throughput of one; 1.70 to 1.74 with both thresholds out of reach).
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  possibility::UseOneThreadInBlas();
+  if (possibility::BlasIsForOneThread()) {
+    std::fputs(
+        "possibility: the BLAS of this machine gives wrong results in several threads; unless "
+        "--threads says otherwise one is used; install libopenblas0-pthread\n",
+        stderr);
+  }
   return possibility::experiments::RunProgram(argc, argv);
 }
