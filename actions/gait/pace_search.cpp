@@ -18,6 +18,13 @@ constexpr double kQuicker = 1.02;
 /// The way whose mean speed counts, in multiples of the root's height. It begins and ends at rest.
 constexpr double kWay = 5;
 
+/// The acceleration of a swing then rises within a sixth of its time. Drives and recordings every
+/// few milliseconds do not follow quicker ones.
+constexpr double kMostEven = 2;
+/// Shortest double support, as a share of the gait's swing time, as in the family of FitPaces. In
+/// shorter ones the forces change too quickly to be linear between knots.
+constexpr double kShortestDoubleSupport = 0.12;
+
 /// Standard deviation of a change, as a share of its range: at first, at most and at least.
 constexpr double kSpread = 0.15;
 constexpr double kWidest = 0.3;
@@ -54,10 +61,11 @@ class Searched {
     PaceStyle& style = pace_.style;
     unknowns_ = {
         {&timing.swing, 0.5 * swing, 1.2 * swing},
-        {&timing.double_support, 0.08 * swing, 0.24 * swing},
+        {&timing.double_support, kShortestDoubleSupport * swing,
+         2 * kShortestDoubleSupport * swing},
         {&timing.start, 0.6 * swing, 1.4 * swing},
         {&pace_.rise, 0, 0.17 * height},
-        {&style.evenness, 1, 8},
+        {&style.evenness, 1, kMostEven},
         {&style.zmp_ahead, -0.5 * gait.parameters.com_margin, 0.5 * gait.parameters.com_margin},
         {&style.lean, -0.15, 0.15},
         {&style.turn, -0.3, 0.3}};

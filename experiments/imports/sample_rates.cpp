@@ -14,7 +14,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kStencil = 7;      // samples: sixth order where they are evenly spaced
+constexpr int kStencil = 7;  // samples: sixth order where they are evenly spaced
+/// Samples near the ends of a run. There a polynomial extrapolates, and the more so the higher its
+/// degree: where feet lift after 40 ms on both, seven samples every 4 ms gave a walk accelerations
+/// that were wrong by up to 2 rad/s^2, five by half of that.
+constexpr int kStencilAtEnds = 5;
 constexpr int kShortestRun = 4;  // a shorter run borrows samples of its neighbours
 
 Eigen::Quaterniond Orientation(const VectorXd& q) { return {q[0], q[1], q[2], q[3]}; }
@@ -34,7 +38,8 @@ std::vector<int> Stencil(const ImportedTrajectory& trajectory, int i, int first,
   int before = i - 1;
   int after = i + 1;
   const auto time = [&](int k) { return trajectory.samples[k].t; };
-  while (static_cast<int>(stencil.size()) < kStencil) {
+  const bool is_inside = std::min(i - first, last - i) >= kStencil / 2;
+  while (static_cast<int>(stencil.size()) < (is_inside ? kStencil : kStencilAtEnds)) {
     while (before >= first && time(stencil.front()) - time(before) < kSameTime) --before;
     while (after <= last && time(after) - time(stencil.back()) < kSameTime) ++after;
     const bool has_before = before >= first;

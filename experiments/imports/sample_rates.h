@@ -14,8 +14,8 @@ struct SampleRates {
 };
 
 /// Those of the file, or the derivatives of the polynomial through the seven nearest samples of
-/// the same run (SteadyRuns), because accelerations may jump where contacts change. A file without
-/// velocities is taken to begin and end at rest.
+/// the same run (SteadyRuns), five near its ends, because accelerations may jump where contacts
+/// change. A file without velocities is taken to begin and end at rest.
 SampleRates RatesOf(const ImportedTrajectory& trajectory);
 
 }  // namespace possibility::experiments
