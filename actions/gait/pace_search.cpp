@@ -18,12 +18,9 @@ constexpr double kQuicker = 1.02;
 /// The way whose mean speed counts, in multiples of the root's height. It begins and ends at rest.
 constexpr double kWay = 5;
 
-/// The acceleration of a swing then rises within a sixth of its time. Drives and recordings every
-/// few milliseconds do not follow quicker ones.
+/// The more even a swing, the more suddenly its acceleration rises; here within a sixth of its
+/// time.
 constexpr double kMostEven = 2;
-/// Shortest double support, as a share of the gait's swing time, as in the family of FitPaces. In
-/// shorter ones the forces change too quickly to be linear between knots.
-constexpr double kShortestDoubleSupport = 0.12;
 
 /// Standard deviation of a change, as a share of its range: at first, at most and at least.
 constexpr double kSpread = 0.15;
@@ -59,10 +56,12 @@ class Searched {
     pace_.style.keeps_reach = true;
     StepTiming& timing = pace_.timing;
     PaceStyle& style = pace_.style;
+    // In double supports shorter than the family's, forces change too quickly to be linear between
+    // knots: points that bear little need more friction there than they have.
+    const double double_support = start.timing.double_support;
     unknowns_ = {
         {&timing.swing, 0.5 * swing, 1.2 * swing},
-        {&timing.double_support, kShortestDoubleSupport * swing,
-         2 * kShortestDoubleSupport * swing},
+        {&timing.double_support, double_support, 2 * double_support},
         {&timing.start, 0.6 * swing, 1.4 * swing},
         {&pace_.rise, 0, 0.17 * height},
         {&style.evenness, 1, kMostEven},

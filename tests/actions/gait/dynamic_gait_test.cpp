@@ -173,7 +173,7 @@ TEST_P(DynamicGaitTest, ExpectedDurationOfFurtherStridesAheadIsThatOfTheMotion) 
     return Duration(
         gait_.motion().Motion(StridesThrough(gait_.parameters(), {{}, goal}), kKnotSpacing, {}));
   };
-  const double further = duration(48) - duration(12);  // whole steps
+  const double further = duration(48) - duration(12);  // a way takes whole steps
   EXPECT_NEAR(gait_.motion().ExpectedDuration(48) - gait_.motion().ExpectedDuration(12), further,
               0.05 * further);
   EXPECT_EQ(gait_.motion().ExpectedDuration(0), 0);

@@ -13,7 +13,7 @@ class PaceSearchTest : public ::testing::Test {
  protected:
   std::optional<Pace> Search(const CancellationToken& cancellation = {}) const {
     PaceSearchSettings settings;
-    settings.trials = 400;
+    settings.trials = 250;
     settings.seeds = {1};
     return SearchPace(DrcHubo1(), walk_.stance(), start_, settings, cancellation);
   }

@@ -57,7 +57,7 @@ TEST_P(EveryRobot, ExpectedDurationOfFurtherStridesAheadIsThatOfTheMotion) {
         .knots.back()
         .t;
   };
-  const double further = duration(50) - duration(10);  // whole steps
+  const double further = duration(50) - duration(10);  // a way takes whole steps
   EXPECT_NEAR(gait.motion->ExpectedDuration(50) - gait.motion->ExpectedDuration(10), further,
               0.1 * further);
 }
