@@ -493,6 +493,10 @@ double QuasiStaticAction::ExpectedDuration(const PlanarPose& from, const PlanarP
   return gait.motion->WayDuration(gait.stance.gait->parameters, from, to);
 }
 
+double QuasiStaticAction::DurationAlone(const PlanarPose& from, const PlanarPose& to) const {
+  return ExpectedDuration(from, to) + 2 * model_->gaits[gait_]->motion->RestTime();
+}
+
 double QuasiStaticAction::ExpectedDuration(const graph::Edge& edge) const {
   const std::array<Isometry3d, 2> ends = {ToPose(edge.from), ToPose(edge.to)};
   GroundedStance start;

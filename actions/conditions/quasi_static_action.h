@@ -71,6 +71,8 @@ class QuasiStaticAction : public graph::HolonomicAction {
 
   /// Expected time of the straight way between two stances, s.
   double ExpectedDuration(const PlanarPose& from, const PlanarPose& to) const;
+  /// The same from rest to rest, s.
+  double DurationAlone(const PlanarPose& from, const PlanarPose& to) const;
 
   /// Makes C_S false for an edge that met C_S but failed as motion.
   void Forbid(const graph::Edge& edge);

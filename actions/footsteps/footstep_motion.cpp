@@ -155,8 +155,8 @@ void FootstepMotion::RequireSelfClearance(const std::vector<Phase>& motion, doub
 }
 
 std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<Pace>& paces,
-                                                  const Style& style, double grid,
-                                                  int filter_passes, const Foothold& start,
+                                                  const Style& style, const Accuracy& accuracy,
+                                                  const Foothold& start,
                                                   const std::vector<Footstep>& steps,
                                                   const CancellationToken& cancellation) const {
   PatternSettings pattern;
@@ -168,8 +168,9 @@ std::vector<MotionPhase> FootstepMotion::PhasesOf(const std::vector<Pace>& paces
   pattern.zmp_ahead = style.zmp_ahead;
   pattern.rise_time = kStart;
   pattern.height_spacing = style.spacing;
-  pattern.grid = grid;
-  pattern.filter_passes = filter_passes;
+  pattern.grid = accuracy.grid;
+  pattern.least_steps = accuracy.least_steps;
+  pattern.filter_passes = accuracy.filter_passes;
   pattern.coarse_stride = kCoarseStride;
   pattern.lifts.push_back(0);
   pattern.sways.push_back(0);
@@ -210,14 +211,14 @@ std::vector<Phase> FootstepMotion::RoughMotion(const Style& style, const Foothol
   std::vector<Phase> motion;
   try {
     const auto phases = PhasesOf(std::vector<Pace>(steps.size(), Pace{1, style.sway}), style,
-                                 kRoughGrid, 1, start, steps, cancellation);
+                                 {.grid = kRoughGrid}, start, steps, cancellation);
     WholeBodySolver solver(*robot_);
     Eigen::VectorXd guess = GuessAt(start);
     double begin = 0;
     for (const MotionPhase& phase : phases) {
       cancellation.ThrowIfCancelled();
       motion.emplace_back();
-      const int intervals = std::max(1, static_cast<int>(std::ceil(phase.duration / kRoughGrid)));
+      const int intervals = NumIntervals(phase.duration, kRoughGrid, 1);
       for (int i = 0; i <= intervals; ++i) {
         const double t = phase.duration * i / intervals;
         const WholeBodyState state = solver.Solve(phase.task(t), guess);
@@ -247,7 +248,8 @@ std::vector<Phase> FootstepMotion::BuildAt(const std::vector<Pace>& paces, const
   settings.tests_between_knots = true;
   std::vector<Phase> motion =
       MotionBuilder(*robot_, settings)
-          .Build(PhasesOf(paces, style, kKnotSpacing, kFilterPasses, start, steps, cancellation),
+          .Build(PhasesOf(paces, style, {kKnotSpacing, kLeastIntervals, kFilterPasses}, start,
+                          steps, cancellation),
                  GuessAt(start), cancellation);
   RequireSelfClearance(motion, style.self_distance, static_cast<int>(steps.size()));
   return motion;

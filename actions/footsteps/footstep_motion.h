@@ -115,8 +115,14 @@ class FootstepMotion {
   std::vector<Phase> BuildAt(const std::vector<Pace>& paces, const Style& style,
                              const Foothold& start, const std::vector<Footstep>& steps,
                              const CancellationToken& cancellation) const;
-  std::vector<MotionPhase> PhasesOf(const std::vector<Pace>& paces, const Style& style, double grid,
-                                    int filter_passes, const Foothold& start,
+  /// How closely a pattern's centre of mass is computed: see PatternSettings.
+  struct Accuracy {
+    double grid = 0;  ///< s
+    int least_steps = 1;
+    int filter_passes = 1;
+  };
+  std::vector<MotionPhase> PhasesOf(const std::vector<Pace>& paces, const Style& style,
+                                    const Accuracy& accuracy, const Foothold& start,
                                     const std::vector<Footstep>& steps,
                                     const CancellationToken& cancellation) const;
   /// Of the footholds, in the phases of the motion.

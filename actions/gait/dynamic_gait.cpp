@@ -25,10 +25,6 @@ constexpr double kKnotSpacing = 0.02;
 constexpr double kFineKnotSpacing = 0.01;
 constexpr int kLeastIntervals = 4;
 
-/// Knots of the centre of mass are at most this share of a double support apart: in it the zero
-/// moment point goes from foot to foot.
-constexpr double kGridOfDoubleSupport = 1.0 / 3;
-
 /// Distance of links on a way that cannot be walked with kSelfClearance, m.
 constexpr double kLeastClearance = 0.005;
 
@@ -42,6 +38,12 @@ class CloseLinks : public MotionError {
  private:
   std::vector<int> phases_;
 };
+
+/// Where ways meet, most bends are rounded: they cost this share of a Stop. The rest of one is part
+/// of the RestTime at both ends. Most of a turn is then made on the way: it costs this share of a
+/// turn on the spot.
+constexpr double kBendOfStop = 0.5;
+constexpr double kTurnOnTheWay = 0.7;
 
 /// Closing up at the end of a straight way, s, and a share of a step because ways are no whole
 /// number of steps. On average it is less than half: some ways fit.
@@ -94,13 +96,13 @@ DynamicGait::Demands DynamicGait::DemandsOf(const MotionSettings& settings,
 std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                                          const MotionSettings& settings, bool adapts,
                                          const CancellationToken& cancellation) const {
-  return MotionAt(pace, strides, DemandsOf(settings, {}), adapts, cancellation);
+  return MotionAt(pace, StraightLines(strides), DemandsOf(settings, {}), adapts, cancellation);
 }
 
-std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
+std::vector<Phase> DynamicGait::MotionAt(const Pace& pace, const std::vector<StanceLine>& lines,
                                          const Demands& demands, bool adapts,
                                          const CancellationToken& cancellation) const {
-  SteppedWay way(*stance_, groups_, strides, pace.bounds);
+  SteppedWay way(*stance_, groups_, lines, pace.bounds);
   while (true) {
     try {
       return MotionOf(pace, way, demands, cancellation);
@@ -120,7 +122,8 @@ std::vector<Phase> DynamicGait::MotionOf(const Pace& pace, const SteppedWay& way
   pattern.zmp_margin = stance_->gait->parameters.com_margin;
   pattern.rise = pace.rise;
   pattern.rise_time = pace.timing.start;
-  pattern.grid = std::min(pattern.grid, kGridOfDoubleSupport * pace.timing.double_support);
+  pattern.grid = Settings().knot_spacing;
+  pattern.least_steps = kLeastIntervals;
   pattern.evenness = pace.style.evenness;
   pattern.lean = pace.style.lean;
   pattern.zmp_ahead = pace.style.zmp_ahead;
@@ -182,30 +185,39 @@ void DynamicGait::RequireSelfClearance(const std::vector<Phase>& motion,
   if (!phases.empty()) throw CloseLinks(first, phases);
 }
 
-std::vector<std::vector<PlanarPose>> DynamicGait::Divided(
-    const std::vector<PlanarPose>& strides) const {
-  std::vector<double> times = {0};
-  for (std::size_t i = 1; i < strides.size(); ++i) {
-    const PlanarPose displacement = strides[i - 1].Inverse() * strides[i];
-    const bool bends = i > 1 && Bends(strides[i - 2], strides[i - 1], strides[i]);
-    times.push_back(times.back() + (bends ? Stop(paces_.front()) : 0) +
-                    DisplacementDuration(stance_->gait->parameters, displacement));
+std::vector<std::vector<StanceLine>> DynamicGait::Divided(
+    const std::vector<StanceLine>& lines) const {
+  std::vector<double> times = {0};  // at the end of each stride
+  for (const StanceLine& line : lines) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const PlanarPose displacement = line[i - 1].Inverse() * line[i];
+      const bool comes_from_another = i == 1 && times.size() > 1;
+      times.push_back(times.back() + (comes_from_another ? Stop(paces_.front()) : 0) +
+                      DurationOf(displacement, 1));
+    }
   }
   const double parts = std::max(1.0, std::ceil(times.back() / kLongestFlow));
-  std::vector<std::vector<PlanarPose>> ways = {{strides.front()}};
-  for (std::size_t i = 1; i < strides.size(); ++i) {
-    ways.back().push_back(strides[i]);
-    const bool is_last = i + 1 == strides.size();
-    const double share = static_cast<double>(ways.size()) / parts;
-    if (!is_last && times[i] >= share * times.back()) ways.push_back({strides[i]});
+  std::vector<std::vector<StanceLine>> ways = {{}};
+  std::size_t stride = 0;
+  for (const StanceLine& line : lines) {
+    ways.back().push_back({line.front()});
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      ways.back().back().push_back(line[i]);
+      const bool is_last = ++stride + 1 == times.size();
+      const double share = static_cast<double>(ways.size()) / parts;
+      if (is_last || times[stride] < share * times.back()) continue;
+      ways.emplace_back();
+      if (i + 1 < line.size()) ways.back().push_back({line[i]});
+    }
   }
   return ways;
 }
 
-std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, const FlowEnd& end,
+std::vector<Phase> DynamicGait::Flow(const std::vector<StanceLine>& lines, const FlowEnd& end,
                                      double knot_spacing,
                                      const CancellationToken& cancellation) const {
-  const std::vector<std::vector<PlanarPose>> ways = Divided(strides);
+  if (paces_.empty()) throw MotionError("no pace fits the gait");
+  const std::vector<std::vector<StanceLine>> ways = Divided(lines);
   std::vector<Phase> motion;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const bool is_last = i + 1 == ways.size();
@@ -217,7 +229,7 @@ std::vector<Phase> DynamicGait::Flow(const std::vector<PlanarPose>& strides, con
   return motion;
 }
 
-std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strides,
+std::vector<Phase> DynamicGait::FlowThrough(const std::vector<StanceLine>& lines,
                                             const FlowEnd& end, double knot_spacing,
                                             const CancellationToken& cancellation) const {
   MotionSettings settings = Settings();
@@ -227,10 +239,10 @@ std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strid
   for (const double clearance : {kSelfClearance, kLeastClearance}) {
     demands.clearance = clearance;
     std::vector<Phase> shortest;
-    for (const auto& [duration, pace] : ByDuration(strides)) {
+    for (const auto& [duration, pace] : ByDuration(lines)) {
       if (!shortest.empty() && duration >= shortest.back().knots.back().t) break;
       try {
-        std::vector<Phase> motion = MotionAt(*pace, strides, demands, true, cancellation);
+        std::vector<Phase> motion = MotionAt(*pace, lines, demands, true, cancellation);
         const bool is_shorter =
             shortest.empty() || motion.back().knots.back().t < shortest.back().knots.back().t;
         if (is_shorter) shortest = std::move(motion);
@@ -244,12 +256,12 @@ std::vector<Phase> DynamicGait::FlowThrough(const std::vector<PlanarPose>& strid
 }
 
 std::vector<std::pair<double, const Pace*>> DynamicGait::ByDuration(
-    const std::vector<PlanarPose>& strides) const {
+    const std::vector<StanceLine>& lines) const {
   std::vector<std::pair<double, const Pace*>> paces;
   for (const Pace& pace : paces_) {
     double duration = std::numeric_limits<double>::infinity();
     try {
-      const SteppedWay way(*stance_, groups_, strides, pace.bounds);
+      const SteppedWay way(*stance_, groups_, lines, pace.bounds);
       duration =
           ScheduleOf(*robot_, *stance_, groups_, way.start(), way.Steps(), pace.timing).duration();
     } catch (const MotionError&) {
@@ -265,7 +277,7 @@ std::vector<std::pair<double, const Pace*>> DynamicGait::ByDuration(
 std::vector<Phase> DynamicGait::Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                                        const CancellationToken& cancellation) const {
   try {
-    return Flow(strides, {}, knot_spacing, cancellation);
+    return Flow(StraightLines(strides), {}, knot_spacing, cancellation);
   } catch (const MotionError&) {
     return quasi_static_.Motion(strides, knot_spacing, cancellation);
   }
@@ -306,7 +318,7 @@ double DynamicGait::WayDuration(const models::GaitParameters& parameters, const 
                                 const PlanarPose& to) const {
   if (paces_.empty()) return quasi_static_.WayDuration(parameters, from, to);
   if (StrideCount(parameters, from, to) == 0) return 0;
-  double duration = Stop(paces_.front());
+  double duration = kBendOfStop * Stop(paces_.front());
   if (ClassOfStrides(from, to) != StrideClass::kAny) {
     // All strides have one direction in the stance's frame, and duration is linear in them.
     PlanarPose way = from.Inverse() * to;
@@ -320,9 +332,18 @@ double DynamicGait::WayDuration(const models::GaitParameters& parameters, const 
   return duration;
 }
 
+double DynamicGait::RestTime() const {
+  if (paces_.empty()) return 0;
+  return paces_.front().timing.start + (1 - kBendOfStop) * Stop(paces_.front()) / 2;
+}
+
 double DynamicGait::DisplacementDuration(const models::GaitParameters& parameters,
                                          const PlanarPose& displacement) const {
   if (paces_.empty()) return quasi_static_.DisplacementDuration(parameters, displacement);
+  return DurationOf(displacement, kTurnOnTheWay);
+}
+
+double DynamicGait::DurationOf(const PlanarPose& displacement, double share_of_turn) const {
   // Ahead, groups pass each other. Aside and in turns, one makes a step and the other closes up.
   const StepBounds& bounds = paces_.front().bounds;
   const StepTiming& timing = paces_.front().timing;
@@ -332,7 +353,7 @@ double DynamicGait::DisplacementDuration(const models::GaitParameters& parameter
   };
   return std::abs(displacement.x) / bounds.forward * step(bounds.forward) +
          2 * std::abs(displacement.y) / bounds.lateral * step(bounds.lateral) +
-         2 * std::abs(displacement.yaw) / bounds.turn * step(reach_ * bounds.turn);
+         share_of_turn * 2 * std::abs(displacement.yaw) / bounds.turn * step(reach_ * bounds.turn);
 }
 
 }  // namespace possibility::actions

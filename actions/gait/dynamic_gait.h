@@ -34,7 +34,7 @@ class DynamicGait final : public GaitMotion {
   std::vector<Phase> Motion(const std::vector<PlanarPose>& strides, double knot_spacing,
                             const CancellationToken& cancellation) const override;
   bool Flows() const override { return !paces_.empty(); }
-  std::vector<Phase> Flow(const std::vector<PlanarPose>& strides, const FlowEnd& end,
+  std::vector<Phase> Flow(const std::vector<StanceLine>& lines, const FlowEnd& end,
                           double knot_spacing,
                           const CancellationToken& cancellation) const override;
   std::vector<std::vector<Phase>> Variants(const std::vector<PlanarPose>& strides,
@@ -45,7 +45,7 @@ class DynamicGait final : public GaitMotion {
                      const PlanarPose& to) const override;
   double DisplacementDuration(const models::GaitParameters& parameters,
                               const PlanarPose& displacement) const override;
-  double RestTime() const override { return paces_.empty() ? 0 : paces_.front().timing.start; }
+  double RestTime() const override;
 
   /// From quick to slow; empty if none fits.
   const std::vector<Pace>& paces() const { return paces_; }
@@ -55,21 +55,24 @@ class DynamicGait final : public GaitMotion {
 
   /// The motion at a pace. With `adapts`, steps that fail, and their neighbours, are slowed down up
   /// to half the speed; where that does not help, or links come too close to each other, steps
-  /// aside and in turns become shorter, along that straight way only.
+  /// aside and in turns become shorter, along that line only.
   /// @throws MotionError naming the limit it would exceed; Cancelled.
   std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
                               const MotionSettings& settings, bool adapts,
                               const CancellationToken& cancellation = {}) const;
 
  private:
+  /// Of a displacement at the quickest pace, of which there must be one, s, if a turn costs this
+  /// share of one on the spot.
+  double DurationOf(const PlanarPose& displacement, double share_of_turn) const;
   /// Ways of about equal durations, of kLongestFlow at most, end to end.
-  std::vector<std::vector<PlanarPose>> Divided(const std::vector<PlanarPose>& strides) const;
+  std::vector<std::vector<StanceLine>> Divided(const std::vector<StanceLine>& lines) const;
   /// Flow without a rest on the way.
-  std::vector<Phase> FlowThrough(const std::vector<PlanarPose>& strides, const FlowEnd& end,
+  std::vector<Phase> FlowThrough(const std::vector<StanceLine>& lines, const FlowEnd& end,
                                  double knot_spacing, const CancellationToken& cancellation) const;
   /// The paces by the duration of the way, s, as long as no step has to be slowed down.
   std::vector<std::pair<double, const Pace*>> ByDuration(
-      const std::vector<PlanarPose>& strides) const;
+      const std::vector<StanceLine>& lines) const;
   /// What a motion must keep, besides its pace.
   struct Demands {
     MotionSettings settings;
@@ -78,7 +81,7 @@ class DynamicGait final : public GaitMotion {
     double clearance = 0;  ///< m, between links
   };
   Demands DemandsOf(const MotionSettings& settings, const FlowEnd& end) const;
-  std::vector<Phase> MotionAt(const Pace& pace, const std::vector<PlanarPose>& strides,
+  std::vector<Phase> MotionAt(const Pace& pace, const std::vector<StanceLine>& lines,
                               const Demands& demands, bool adapts,
                               const CancellationToken& cancellation) const;
   std::vector<Phase> MotionOf(const Pace& pace, const SteppedWay& way, const Demands& demands,

@@ -17,6 +17,13 @@ using Groups = std::vector<std::vector<int>>;
 constexpr double kGapShare = 0.6;
 constexpr double kGap = 0.02;
 
+/// A group beside another one may turn in by this share of what it may turn out: thighs come close.
+constexpr double kTurnIn = 0.65;
+constexpr double kBeside = 0.01;  // m
+
+/// Exponent of CombinedEffort.
+constexpr double kCombination = 1.5;
+
 /// Ways are cut into pieces of this share of a bound, to find the longest step.
 constexpr double kPiece = 1.0 / 16;
 
@@ -71,18 +78,25 @@ class Way {
   const std::vector<PlanarPose>& stances_;
 };
 
-double Effort(const StepBounds& bounds, const PlanarPose& from, const PlanarPose& to) {
+/// Bounds of a step beside another group.
+struct Bounds : StepBounds {
+  double side = 0;  ///< m: by how much the group is farther to the left than the other one
+};
+
+double Effort(const Bounds& bounds, const PlanarPose& from, const PlanarPose& to) {
   const PlanarPose d = from.Inverse() * to;
-  return std::abs(d.x) / bounds.forward + std::abs(d.y) / bounds.lateral +
-         std::abs(WrapAngle(d.yaw)) / bounds.turn;
+  const double yaw = WrapAngle(d.yaw);
+  const bool turns_in = yaw * bounds.side < -kBeside * std::abs(yaw);
+  return CombinedEffort(d.x / bounds.forward, d.y / bounds.lateral,
+                        yaw / (turns_in ? kTurnIn * bounds.turn : bounds.turn));
 }
 
 /// Lays out the steps along one way.
 class StepPlanner {
  public:
   StepPlanner(const NominalStance& stance, const Groups& groups, const Way& way,
-              const StepBounds& bounds)
-      : stance_(stance), groups_(groups), way_(way), bounds_(bounds) {}
+              const StepBounds& bounds, const std::vector<double>& shares)
+      : stance_(stance), groups_(groups), way_(way), bounds_(bounds), shares_(shares) {}
 
   /// Steps that use `share` of the bounds; none if the limbs cannot get on.
   std::vector<Step> Plan(double share) const {
@@ -132,11 +146,31 @@ class StepPlanner {
     return farthest;
   }
 
+  /// The straight line of the way that begins at u or holds it.
+  double LineAt(double u) const { return std::min(std::floor(u + 1e-9), way_.end() - 1); }
+
+  /// Of a step of a group to u.
+  Bounds BoundsOf(int group, int other, double u) const {
+    Bounds bounds{bounds_, Side(group) - Side(other)};
+    if (shares_.empty()) return bounds;
+    const double share = shares_[static_cast<std::size_t>(LineAt(u))];
+    bounds.lateral *= share;
+    bounds.turn *= share;
+    return bounds;
+  }
+
   /// Length of a piece of the way at u, in its parameter.
   double Piece(double u) const {
-    const double line = std::min(std::floor(u + 1e-9), way_.end() - 1);
-    const double effort = Effort(bounds_, way_.At(line), way_.At(line + 1));
+    const double line = LineAt(u);
+    const double effort = Effort({bounds_}, way_.At(line), way_.At(line + 1));
     return effort > 0 ? std::min(1.0, kPiece / effort) : 1;
+  }
+
+  /// How far left the limbs of a group stand on average, m.
+  double Side(int group) const {
+    double side = 0;
+    for (const int limb : groups_[group]) side += stance_.patch_centres[limb].y();
+    return side / static_cast<double>(groups_[group].size());
   }
 
   double FarthestOther(int group, const std::vector<double>& at) const {
@@ -152,7 +186,7 @@ class StepPlanner {
     for (int other = 0; other < static_cast<int>(groups_.size()); ++other) {
       if (other == group) continue;
       const PlanarPose standing = way_.At(at[other]);
-      if (Effort(bounds_, standing, target) > share + 1e-9) return false;
+      if (Effort(BoundsOf(group, other, u), standing, target) > share + 1e-9) return false;
       if (!ClearOf(groups_[group], target, groups_[other], standing)) return false;
     }
     return true;
@@ -173,9 +207,15 @@ class StepPlanner {
   const Groups& groups_;
   const Way& way_;
   const StepBounds& bounds_;
+  const std::vector<double>& shares_;
 };
 
 }  // namespace
+
+double CombinedEffort(double ahead, double aside, double turn) {
+  const auto power = [](double part) { return std::pow(std::abs(part), kCombination); };
+  return std::pow(power(ahead) + power(aside) + power(turn), 1 / kCombination);
+}
 
 double SwingTime(const StepTiming& timing, double length) {
   return timing.swing * std::clamp(length / timing.swing_length, kShortestSwing, 1.0);
@@ -208,9 +248,10 @@ std::vector<std::vector<int>> SwingGroups(const NominalStance& stance) {
 }
 
 std::vector<Step> PlanSteps(const NominalStance& stance, const Groups& groups,
-                            const std::vector<PlanarPose>& way, const StepBounds& bounds) {
+                            const std::vector<PlanarPose>& way, const StepBounds& bounds,
+                            const std::vector<double>& shares) {
   const Way line(way);
-  const StepPlanner planner(stance, groups, line, bounds);
+  const StepPlanner planner(stance, groups, line, bounds, shares);
   std::vector<Step> steps = planner.Plan(1);
   double enough = 1;
   double little = 0;

@@ -8,13 +8,18 @@
 
 namespace possibility::actions {
 
-/// Greatest displacement between the stances of two groups of limbs: the octahedron with these
-/// semi-axes.
+/// Greatest displacement between the stances of two groups of limbs, in each direction alone. Of
+/// one in several directions the CombinedEffort of the three shares is at most 1.
 struct StepBounds {
   double forward = 0;  ///< m
   double lateral = 0;  ///< m
   double turn = 0;     ///< rad
 };
+
+/// What a displacement asks for whose three parts alone ask for so much: the norm with
+/// exponent 1.5. The sum would forbid most of what limbs can do; with the root of squares many
+/// steps have to be slowed down (docs/gaits.md, "Bends").
+double CombinedEffort(double ahead, double aside, double turn);
 
 /// Durations of a dynamic gait's intervals, s.
 struct StepTiming {
@@ -42,10 +47,12 @@ struct Step {
 /// Steps along a way from all limbs in its first stance to all limbs in its last one. The ways of
 /// the groups alternate wherever they can; where feet would come too close to each other, one group
 /// closes up to the other. As few steps as the bounds allow, and as equal as that number allows.
-/// `way`: at least one stance; straight lines in between. Empty if it leads nowhere.
+/// `way`: at least one stance; straight lines in between. `shares`: of the bounds aside and in
+/// turns on each of these lines; none: 1. Empty if it leads nowhere.
 std::vector<Step> PlanSteps(const NominalStance& stance,
                             const std::vector<std::vector<int>>& groups,
-                            const std::vector<PlanarPose>& way, const StepBounds& bounds);
+                            const std::vector<PlanarPose>& way, const StepBounds& bounds,
+                            const std::vector<double>& shares = {});
 
 /// The schedule of the steps on ground of height 0, from rest in `start`.
 models::ContactSchedule ScheduleOf(const models::RobotModel& robot, const NominalStance& stance,

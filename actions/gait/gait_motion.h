@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "actions/gait/rounded_way.h"
 #include "actions/gait/stride.h"
 #include "actions/plan/plan.h"
 #include "actions/wholebody/motion_builder.h"
@@ -42,10 +43,10 @@ class GaitMotion {
   /// Whether Flow may succeed.
   virtual bool Flows() const { return false; }
 
-  /// Motion along several straight ways, end to end, without a rest where they meet. `strides`: of
-  /// PlanStrides for each way, their common stances once. `end`: how it ends. Otherwise as Motion.
-  virtual std::vector<Phase> Flow(const std::vector<PlanarPose>& /*strides*/,
-                                  const FlowEnd& /*end*/, double /*knot_spacing*/,
+  /// Motion along several lines (rounded_way.h), end to end, without a rest where they meet. All
+  /// limbs meet there. `end`: how it ends. Otherwise as Motion.
+  virtual std::vector<Phase> Flow(const std::vector<StanceLine>& /*lines*/, const FlowEnd& /*end*/,
+                                  double /*knot_spacing*/,
                                   const CancellationToken& /*cancellation*/) const {
     throw MotionError("the gait rests where straight ways meet");
   }

@@ -107,9 +107,7 @@ class Pattern {
     LayOutRolls();
     LayOutTurns();
     duration_ = schedule_.duration();
-    steps_ = std::max(static_cast<int>(std::ceil(duration_ / settings_.grid)), 2);
-    h_ = duration_ / steps_;
-    error_.setZero(2, steps_ + 1);
+    LayOutKnots();
   }
 
   /// Solves the centre of mass, then corrects the zero moment point by the whole robot's.
@@ -117,7 +115,7 @@ class Pattern {
     stiffness_ = dynamics::kGravity / CentreOfMassHeight();
     SolveCentreOfMass();
     GuessRoots();
-    lowered_.setZero(steps_ + 1);
+    lowered_.setZero(times_.size());
     for (int pass = 0; pass < settings_.filter_passes; ++pass) {
       const int stride = pass + 1 < settings_.filter_passes ? settings_.coarse_stride : 1;
       FilterWithinReach(pass == 0 ? kGuessedStretch : kStretch, stride, cancellation);
@@ -224,6 +222,20 @@ class Pattern {
       intervals_.push_back(interval);
       start += interval.duration;
     }
+  }
+
+  /// Every change of contacts is at a knot: accelerations change their slope there.
+  void LayOutKnots() {
+    std::vector<double> times;
+    for (const Interval& interval : intervals_) {
+      const int steps = NumIntervals(interval.duration, settings_.grid, settings_.least_steps);
+      for (int i = 0; i < steps; ++i) {
+        times.push_back(interval.start + interval.duration * i / steps);
+      }
+    }
+    times.push_back(duration_);
+    times_ = Eigen::Map<const VectorXd>(times.data(), static_cast<Eigen::Index>(times.size()));
+    error_.setZero(2, times_.size());
   }
 
   /// The centre of mass, in the stance frame, when the robot rests at the end.
@@ -402,20 +414,20 @@ class Pattern {
   }
 
   void SolveCentreOfMass() {
-    Eigen::Matrix2Xd zmp(2, steps_ + 1);
-    VectorXd first(steps_ + 1), last(steps_ + 1);
+    Eigen::Matrix2Xd zmp(2, times_.size());
+    VectorXd first(times_.size()), last(times_.size());
     const Interval& start = intervals_.front();
     const Interval& stop = intervals_.back();
-    for (int i = 0; i <= steps_; ++i) {
-      const double t = i * h_;
+    for (Eigen::Index i = 0; i < times_.size(); ++i) {
+      const double t = times_[i];
       zmp.col(i) = ReferenceZmp(t).head<2>() - error_.col(i);
       first[i] = t < start.duration ? Bump(t, start.duration).value : 0;
       last[i] = t > stop.start ? Bump(t - stop.start, stop.duration).value : 0;
     }
     const Vector2d from = start.zmp_from.head<2>();
     const Vector2d to = stop.zmp_to.head<2>();
-    x_.emplace(zmp.row(0), from.x(), to.x(), h_, stiffness_, first, last);
-    y_.emplace(zmp.row(1), from.y(), to.y(), h_, stiffness_, first, last);
+    x_.emplace(times_, zmp.row(0), from.x(), to.x(), stiffness_, first, last);
+    y_.emplace(times_, zmp.row(1), from.y(), to.y(), stiffness_, first, last);
   }
 
   Signal<Vector2d> CentreOfMass(double t) const {
@@ -447,9 +459,8 @@ class Pattern {
   }
 
   void LowerAbout(int knot) {
-    const int within = static_cast<int>(std::ceil(kLowerWithin / h_));
-    for (int i = std::max(0, knot - within); i <= std::min(knot + within, steps_); ++i) {
-      lowered_[i] += kLower;
+    for (Eigen::Index i = 0; i < times_.size(); ++i) {
+      if (std::abs(times_[i] - times_[knot]) <= kLowerWithin) lowered_[i] += kLower;
     }
   }
 
@@ -461,13 +472,13 @@ class Pattern {
     for (std::optional<LimbReach>& reach : reaches) {
       if (reach) reach->hip = lean * reach->hip;
     }
-    VectorXd bound(steps_ + 1);
-    for (int i = 0; i <= steps_; ++i) bound[i] = HighestRoot(reaches, i) - lowered_[i];
-    low_.emplace(bound, h_, settings_.height_spacing);
+    VectorXd bound(times_.size());
+    for (int i = 0; i < times_.size(); ++i) bound[i] = HighestRoot(reaches, i) - lowered_[i];
+    low_.emplace(times_, bound, settings_.height_spacing);
   }
 
   double HighestRoot(const std::vector<std::optional<LimbReach>>& reaches, int knot) const {
-    const double t = std::min(knot * h_, duration_);
+    const double t = times_[knot];
     const int k = IntervalAt(t);
     const Vector2d p = CentreOfMass(t).value + to_root_.col(knot);
     const PlanarPose root{p.x(), p.y(), RootYaw(t).value};
@@ -489,9 +500,9 @@ class Pattern {
   void GuessRoots() {
     const Vector2d in_stance =
         Vector2d(stance_.X_SR.translation().head<2>()) - stance_.centre_of_mass;
-    to_root_.resize(2, steps_ + 1);
-    for (int i = 0; i <= steps_; ++i) {
-      to_root_.col(i) = Eigen::Rotation2Dd(RootYaw(i * h_).value) * in_stance;
+    to_root_.resize(2, times_.size());
+    for (Eigen::Index i = 0; i < times_.size(); ++i) {
+      to_root_.col(i) = Eigen::Rotation2Dd(RootYaw(times_[i]).value) * in_stance;
     }
   }
 
@@ -547,13 +558,14 @@ class Pattern {
     dynamics::MultibodyDynamics dynamics(UncoupledModel(robot_));
     VectorXd q = stance_.q;
     q.segment<2>(4) = intervals_.front().zmp_from.head<2>();
-    for (int i = 0, last = -1; last < steps_; last = i, i = std::min(i + stride, steps_)) {
+    const int end = static_cast<int>(times_.size()) - 1;
+    for (int i = 0, last = -1; last < end; last = i, i = std::min(i + stride, end)) {
       cancellation.ThrowIfCancelled();
-      const double t = std::min(i * h_, duration_);
+      const double t = times_[i];
       const int k = IntervalAt(t);
       const WholeBodyState state = SolveAt(i, k, t, q, &solver);
       to_root_.col(i) = state.q.segment<2>(4) - CentreOfMass(t).value;
-      q = GuessAfter(state, std::min(stride, steps_ - i) * h_);
+      q = GuessAfter(state, times_[std::min(i + stride, end)] - t);
       dynamics.SetState(state.q, state.v, state.a);
       error_.col(i) = RequiredZeroMomentPoint(&dynamics, ReferenceZmp(t).z()) -
                       Vector2d(x_->Zmp(i), y_->Zmp(i));
@@ -564,9 +576,9 @@ class Pattern {
     }
   }
 
-  static void FillBetween(int from, int to, Eigen::Matrix2Xd* columns) {
+  void FillBetween(int from, int to, Eigen::Matrix2Xd* columns) const {
     for (int i = from + 1; i < to; ++i) {
-      const double s = static_cast<double>(i - from) / (to - from);
+      const double s = (times_[i] - times_[from]) / (times_[to] - times_[from]);
       columns->col(i) = (1 - s) * columns->col(from) + s * columns->col(to);
     }
   }
@@ -640,9 +652,8 @@ class Pattern {
   VectorXd lowered_;                ///< m, at every knot: see FilterWithinReach
   std::optional<SmoothUnder> low_;  ///< the root's height on uneven ground
   double duration_ = 0;             ///< s
-  int steps_ = 0;
-  double h_ = 0;          ///< s
-  double stiffness_ = 0;  ///< 1/s^2
+  VectorXd times_;                  ///< of the knots of the centre of mass, s
+  double stiffness_ = 0;            ///< 1/s^2
   Eigen::Matrix2Xd error_;
   std::optional<PendulumSpline> x_, y_;
 };

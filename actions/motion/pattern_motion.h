@@ -27,7 +27,11 @@ struct PatternSettings {
   /// m: the zero moment point of swings is so far ahead of the balanced place, within the margin.
   /// Bent knees, which are ahead of the ankles, then need less torque.
   double zmp_ahead = 0;
-  double grid = 0.02;     ///< s, at most, between knots of the centre of mass
+  /// Knots of the centre of mass: s apart, at most, and at least so many steps between them in
+  /// every interval. Where a plan has knots at the same instants, forces are almost linear between
+  /// them.
+  double grid = 0.02;
+  int least_steps = 1;
   int filter_passes = 2;  ///< corrections of the pendulum by the whole robot's dynamics
   /// Corrections before the last one look at one knot of so many: they are only roughly right
   /// anyway.

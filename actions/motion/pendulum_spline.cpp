@@ -11,8 +11,9 @@ using Eigen::VectorXd;
 /// The spline of one zero moment point: c at the knots, with given ends.
 class Spline {
  public:
-  Spline(const VectorXd& zmp, double from, double to, double step, double stiffness)
-      : step_(step), value_(zmp.size()), curvature_(zmp.size()) {
+  /// `steps`: from knot to knot, s.
+  Spline(const VectorXd& steps, const VectorXd& zmp, double from, double to, double stiffness)
+      : steps_(steps), value_(zmp.size()), curvature_(zmp.size()) {
     const Eigen::Index last = zmp.size() - 1;
     value_[0] = from;
     value_[last] = to;
@@ -25,43 +26,51 @@ class Spline {
 
   /// c' at both ends.
   Eigen::Vector2d EndRates() const {
-    const Eigen::Index n = value_.size() - 1;
+    const Eigen::Index n = steps_.size();
+    const double first = steps_[0];
+    const double last = steps_[n - 1];
     return {
-        (value_[1] - value_[0]) / step_ - step_ / 6 * (2 * curvature_[0] + curvature_[1]),
-        (value_[n] - value_[n - 1]) / step_ + step_ / 6 * (curvature_[n - 1] + 2 * curvature_[n])};
+        (value_[1] - value_[0]) / first - first / 6 * (2 * curvature_[0] + curvature_[1]),
+        (value_[n] - value_[n - 1]) / last + last / 6 * (curvature_[n - 1] + 2 * curvature_[n])};
   }
 
  private:
   /// c' is continuous at every inner knot: a tridiagonal system, solved by Thomas's algorithm (the
   /// matrix is diagonally dominant).
   void SolveInterior(const VectorXd& p, double stiffness) {
-    const Eigen::Index n = value_.size() - 1;
-    const double k = step_ * step_ * stiffness / 6;
-    const double side = 1 - k;
-    const double middle = -(2 + 4 * k);
+    const Eigen::Index n = steps_.size();
+    const double sixth = stiffness / 6;
     VectorXd upper(n), right(n);
     upper[0] = 0;
     right[0] = value_[0];
     for (Eigen::Index i = 1; i < n; ++i) {
-      const double pivot = middle - side * upper[i - 1];
-      upper[i] = side / pivot;
-      right[i] = (-k * (p[i - 1] + 4 * p[i] + p[i + 1]) - side * right[i - 1]) / pivot;
+      const double h = steps_[i - 1];
+      const double g = steps_[i];
+      const double before = 1 / h - sixth * h;
+      const double after = 1 / g - sixth * g;
+      const double middle = -(1 / h + 1 / g + 2 * sixth * (h + g));
+      const double load = -sixth * (h * p[i - 1] + 2 * (h + g) * p[i] + g * p[i + 1]);
+      const double pivot = middle - before * upper[i - 1];
+      upper[i] = after / pivot;
+      right[i] = (load - before * right[i - 1]) / pivot;
     }
     for (Eigen::Index i = n - 1; i >= 1; --i) value_[i] = right[i] - upper[i] * value_[i + 1];
   }
 
-  double step_;
+  const VectorXd& steps_;
   VectorXd value_, curvature_;
 };
 
 }  // namespace
 
-PendulumSpline::PendulumSpline(const VectorXd& zmp, double from, double to, double step,
+PendulumSpline::PendulumSpline(const VectorXd& times, const VectorXd& zmp, double from, double to,
                                double stiffness, const VectorXd& first, const VectorXd& last)
-    : step_(step), stiffness_(stiffness) {
-  const Spline spline(zmp, from, to, step, stiffness);
-  const Spline by_first(first, 0, 0, step, stiffness);
-  const Spline by_last(last, 0, 0, step, stiffness);
+    : times_(times), stiffness_(stiffness) {
+  const Eigen::Index n = times.size() - 1;
+  const VectorXd steps = times.tail(n) - times.head(n);
+  const Spline spline(steps, zmp, from, to, stiffness);
+  const Spline by_first(steps, first, 0, 0, stiffness);
+  const Spline by_last(steps, last, 0, 0, stiffness);
   Eigen::Matrix2d rates;
   rates << by_first.EndRates(), by_last.EndRates();
   const Eigen::Vector2d share = -rates.inverse() * spline.EndRates();
@@ -71,16 +80,16 @@ PendulumSpline::PendulumSpline(const VectorXd& zmp, double from, double to, doub
 }
 
 ScalarSignal PendulumSpline::At(double t) const {
-  const Eigen::Index intervals = value_.size() - 1;
-  const auto i =
-      std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(t / step_)), 0, intervals - 1);
-  const double b = t / step_ - static_cast<double>(i);
+  const double* inner = times_.data() + 1;
+  const Eigen::Index i = std::upper_bound(inner, inner + times_.size() - 2, t) - inner;
+  const double step = times_[i + 1] - times_[i];
+  const double b = (t - times_[i]) / step;
   const double a = 1 - b;
-  const double h2 = step_ * step_ / 6;
+  const double h2 = step * step / 6;
   return {a * value_[i] + b * value_[i + 1] +
               h2 * ((a * a * a - a) * curvature_[i] + (b * b * b - b) * curvature_[i + 1]),
-          (value_[i + 1] - value_[i]) / step_ +
-              step_ / 6 * ((1 - 3 * a * a) * curvature_[i] + (3 * b * b - 1) * curvature_[i + 1]),
+          (value_[i + 1] - value_[i]) / step +
+              step / 6 * ((1 - 3 * a * a) * curvature_[i] + (3 * b * b - 1) * curvature_[i + 1]),
           a * curvature_[i] + b * curvature_[i + 1]};
 }
 

@@ -6,26 +6,25 @@
 namespace possibility::actions {
 namespace {
 
-/// Times an end of a support may miss a sample by rounding, in steps.
-constexpr double kRounding = 1e-6;
+/// By so much an end of a support may miss a sample, as a share of the support's spacing: rounding.
+constexpr double kRounding = 1e-9;
 
 }  // namespace
 
-SmoothUnder::SmoothUnder(const Eigen::VectorXd& bound, double step, double spacing) {
-  const auto last = bound.size() - 1;
-  const double duration = static_cast<double>(last) * step;
+SmoothUnder::SmoothUnder(const Eigen::VectorXd& times, const Eigen::VectorXd& bound,
+                         double spacing) {
+  const double duration = times[times.size() - 1];
   const int pieces = std::max(1, static_cast<int>(std::lround(duration / spacing)));
   spacing_ = duration / pieces;
   coefficients_.resize(pieces + 3);
   for (int j = 0; j < pieces + 3; ++j) {
-    const double centre = (j - 1) * spacing_ / step;
-    const double reach = 2 * spacing_ / step + kRounding;
-    const auto clamped = [last](double sample) {
-      return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(sample), 0, last);
-    };
-    const Eigen::Index from = clamped(std::ceil(centre - reach));
-    const Eigen::Index to = clamped(std::floor(centre + reach));
-    coefficients_[j] = bound.segment(from, to - from + 1).minCoeff();
+    const double centre = (j - 1) * spacing_;
+    const double reach = (2 + kRounding) * spacing_;
+    const double* begin = times.data();
+    const double* end = begin + times.size();
+    const Eigen::Index from = std::lower_bound(begin, end, centre - reach) - begin;
+    const Eigen::Index to = std::upper_bound(begin, end, centre + reach) - begin;
+    coefficients_[j] = bound.segment(from, to - from).minCoeff();
   }
 }
 

@@ -13,9 +13,9 @@ namespace possibility::actions {
 class SmoothUnder {
  public:
   SmoothUnder() = default;
-  /// `bound`: at times 0, step, 2 step, ...; at least two. `spacing`: s, of the coefficients,
-  /// about.
-  SmoothUnder(const Eigen::VectorXd& bound, double step, double spacing);
+  /// `bound`: at `times`, which increase from 0 on by less than `spacing`, s; at least two.
+  /// `spacing`: s, of the coefficients, about.
+  SmoothUnder(const Eigen::VectorXd& times, const Eigen::VectorXd& bound, double spacing);
 
   ScalarSignal At(double t) const;
 

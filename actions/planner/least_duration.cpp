@@ -15,14 +15,14 @@ Eigen::Vector2d PelvisOf(const LocomotionModel& model, int gait) {
   return model.gaits[gait]->stance.RootPose({}, 0).translation().head<2>();
 }
 
-/// Duration is linear in displacement, so the quickest ways are ahead, aside or turning.
+/// At most as if the gait went ahead, aside and turned at once, each as quickly as alone.
 double SpeedOfGait(const LocomotionModel& model, int gait) {
   const LocomotionModel::GaitEntry& entry = *model.gaits[gait];
   const auto speed = [&](const PlanarPose& displacement, double way) {
     return way / entry.motion->DisplacementDuration(entry.stance.gait->parameters, displacement);
   };
   const double off_axis = PelvisOf(model, gait).norm();
-  return std::max({speed({1, 0, 0}, 1), speed({0, 1, 0}, 1), speed({0, 0, 1}, off_axis)});
+  return std::hypot(speed({1, 0, 0}, 1), speed({0, 1, 0}, 1)) + speed({0, 0, 1}, off_axis);
 }
 
 double SpeedOfTransition(const LocomotionModel& model,

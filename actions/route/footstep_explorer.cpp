@@ -109,7 +109,7 @@ std::vector<graph::PathEdge> FootstepExplorer::Route() const {
       const GroundedStance& from = halts[i].stance;
       const GroundedStance& to = halts[j].stance;
       const double steps = time[i] + kStop + halts[j].time - halts[i].time;
-      const double walk = from.z == to.z ? time[i] + gait().ExpectedDuration(from.pose, to.pose)
+      const double walk = from.z == to.z ? time[i] + gait().DurationAlone(from.pose, to.pose)
                                          : std::numeric_limits<double>::infinity();
       const bool walks = walk < steps && walk < time[j] && gait().CS(from, to);
       const double best = walks ? walk : steps;

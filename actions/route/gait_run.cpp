@@ -30,24 +30,6 @@ bool IsStraightWay(const LocomotionModel& model, const RouteLeg& leg) {
   return StrideCount(model.gaits[leg.gait]->gait.parameters, leg.from, leg.to) > 0;
 }
 
-PlanarPose Seen(const PlanarPose& pose, const PlanarPose& origin) {
-  return {pose.x - origin.x, pose.y - origin.y, pose.yaw};
-}
-
-/// Strides of all legs, as if the run began at the origin: tolerances must not depend on the place.
-std::vector<PlanarPose> StridesOf(const LocomotionModel& model, const Route& route, int first,
-                                  int count) {
-  const PlanarPose& origin = route[first].from;
-  std::vector<PlanarPose> strides = {Seen(origin, origin)};
-  for (int i = first; i < first + count; ++i) {
-    const std::vector<PlanarPose> more =
-        PlanStrides(model.gaits[route[i].gait]->gait.parameters, Seen(route[i].from, origin),
-                    Seen(route[i].to, origin));
-    strides.insert(strides.end(), more.begin() + 1, more.end());
-  }
-  return strides;
-}
-
 /// How far the root is from its pose in a stance, m.
 double Offset(const NominalStance& stance, const PlanarPose& pose, const Knot& knot) {
   const Eigen::Isometry3d X_WR = stance.RootPose(pose, 0);
@@ -65,7 +47,7 @@ std::vector<int> Cuts(const LocomotionModel& model, const Route& route, int firs
   if (phases < count) throw MotionError("the motion has fewer phases than straight ways");
   std::vector<int> cuts;
   for (int leg = 0; leg + 1 < count; ++leg) {
-    const PlanarPose end = Seen(route[first + leg].to, route[first].from);
+    const PlanarPose end = SeenFrom(route[first].from, route[first + leg].to);
     const int least = (cuts.empty() ? 0 : cuts.back()) + 1;
     int best = least;
     double closest = std::numeric_limits<double>::infinity();
@@ -98,11 +80,29 @@ int RunLength(const LocomotionModel& model, const Route& route, int first) {
   return count;
 }
 
+PlanarPose SeenFrom(const PlanarPose& begin, const PlanarPose& pose) {
+  return {pose.x - begin.x, pose.y - begin.y, pose.yaw};
+}
+
+std::vector<StanceLine> StraightLinesOf(const LocomotionModel& model, const Route& route, int first,
+                                        int count) {
+  const PlanarPose& origin = route[first].from;
+  std::vector<PlanarPose> strides = {SeenFrom(origin, origin)};
+  for (int i = first; i < first + count; ++i) {
+    const std::vector<PlanarPose> more =
+        PlanStrides(model.gaits[route[i].gait]->gait.parameters, SeenFrom(origin, route[i].from),
+                    SeenFrom(origin, route[i].to));
+    strides.insert(strides.end(), more.begin() + 1, more.end());
+  }
+  return StraightLines(strides);
+}
+
 std::vector<std::vector<Phase>> FlowAlong(const LocomotionModel& model, const Route& route,
-                                          int first, int count, const FlowEnd& end,
+                                          int first, int count,
+                                          const std::vector<StanceLine>& lines, const FlowEnd& end,
                                           const CancellationToken& cancellation) {
   std::vector<Phase> motion = model.gaits[route[first].gait]->motion->Flow(
-      StridesOf(model, route, first, count), end, MotionSettings().knot_spacing, cancellation);
+      lines, end, MotionSettings().knot_spacing, cancellation);
   const Vector3d place(route[first].from.x, route[first].from.y, route[first].z);
   std::vector<std::vector<Phase>> legs(count);
   int phase = 0;

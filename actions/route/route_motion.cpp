@@ -12,9 +12,11 @@
 #include "actions/gait/quasi_static_gait.h"
 #include "actions/motion/phase_sequence.h"
 #include "actions/route/gait_run.h"
+#include "actions/route/rounded_run.h"
 #include "actions/wholebody/motion_collision.h"
 #include "common/cancellation_token.h"
 #include "models/world/collision.h"
+#include "models/world/ground_map.h"
 
 namespace possibility::actions {
 namespace {
@@ -122,25 +124,44 @@ struct RunContext {
   const LocomotionModel& model;
   const models::Environment& environment;
   const Route& route;
+  models::CollisionChecker checker = {*model.robot, environment};
+  models::GroundMap ground = models::GroundMap(environment, model.robot->friction);
 };
 
-/// @throws MotionError unless the robot begins and ends in the route's stances and hits nothing.
-void RequireFreeRun(const RunContext& context, int first, const FlowEnd& end,
-                    const std::vector<std::vector<Phase>>& legs,
-                    const CancellationToken& cancellation) {
+/// @throws MotionError unless the robot begins and ends in the route's stances.
+void RequireStances(const RunContext& context, int first, const FlowEnd& end,
+                    const std::vector<std::vector<Phase>>& legs) {
   const RouteLeg& from = context.route[first];
   const RouteLeg& to = context.route[first + legs.size() - 1];
   RequireStance(context.model, from.gait, from.from, from.z, legs.front().front().knots.front(),
                 "begins");
   RequireStance(context.model, to.gait, to.to, to.z_to, legs.back().back().knots.back(), "ends",
                 end.joints);
-  const models::RobotModel& robot = *context.model.robot;
-  const models::CollisionChecker checker(robot, context.environment);
+}
+
+/// @throws MotionError if the robot hits something.
+void RequireFree(const RunContext& context, const std::vector<std::vector<Phase>>& legs,
+                 const CancellationToken& cancellation) {
   for (const std::vector<Phase>& leg : legs) {
-    const std::string hit = FirstHit(robot, context.environment, checker, leg, cancellation);
+    const std::string hit =
+        FirstHit(*context.model.robot, context.environment, context.checker, leg, cancellation);
     if (!cancellation.Proceed()) throw Cancelled();
     if (!hit.empty()) throw MotionError(hit);
   }
+}
+
+/// One flow through the legs of a run, with rounded bends if there is such a motion.
+std::vector<std::vector<Phase>> FreeFlow(const RunContext& context, int first, int count,
+                                         const FlowEnd& end,
+                                         const CancellationToken& cancellation) {
+  const RunWorld world{context.environment, context.checker, context.ground};
+  auto rounded = RoundedFlow(context.model, world, context.route, first, count, end, cancellation);
+  if (rounded) return *std::move(rounded);
+  std::vector<std::vector<Phase>> legs =
+      FlowAlong(context.model, context.route, first, count,
+                StraightLinesOf(context.model, context.route, first, count), end, cancellation);
+  RequireFree(context, legs, cancellation);
+  return legs;
 }
 
 std::vector<Phase> MotionOfLeg(const RunContext& context, int leg,
@@ -158,9 +179,8 @@ bool GenerateRun(const RunContext& context, int first, int count, const FlowEnd&
                  const CancellationToken& cancellation, std::vector<std::vector<Phase>>* motions) {
   if (count > 1 || end.joints.size() > 0) {
     try {
-      std::vector<std::vector<Phase>> legs =
-          FlowAlong(context.model, context.route, first, count, end, cancellation);
-      RequireFreeRun(context, first, end, legs, cancellation);
+      std::vector<std::vector<Phase>> legs = FreeFlow(context, first, count, end, cancellation);
+      RequireStances(context, first, end, legs);
       std::move(legs.begin(), legs.end(), motions->begin() + first);
       return true;
     } catch (const Cancelled&) {
@@ -266,7 +286,7 @@ class RunQueue {
     return !cancelled_ && cancellation_.Proceed();
   }
 
-  const RunContext context_;
+  const RunContext& context_;
   const CancellationToken& cancellation_;
   const std::function<void(double)>& progress_;
   std::vector<std::vector<Phase>> motions_;
@@ -297,7 +317,8 @@ std::vector<Segment> GenerateMotion(const LocomotionModel& model,
                                     const models::Environment& environment, const Route& route,
                                     int threads, const CancellationToken& cancellation,
                                     const std::function<void(double)>& progress) {
-  RunQueue queue({model, environment, route}, cancellation, progress);
+  const RunContext context{model, environment, route};
+  RunQueue queue(context, cancellation, progress);
   {
     std::vector<std::jthread> workers;
     for (int i = 1; i < std::min<int>(threads, static_cast<int>(route.size())); ++i) {

@@ -80,6 +80,11 @@ struct MotionBuilder::Bearing {
   }
 };
 
+int NumIntervals(double duration, double spacing, int least) {
+  constexpr double kRounding = 1e-9;
+  return std::max(least, static_cast<int>(std::ceil(duration / spacing - kRounding)));
+}
+
 std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotModel robot) {
   for (models::Joint& joint : robot.joints) joint.mimic.reset();
   return dynamics::MultibodyModel::Spatial(robot);
@@ -171,8 +176,7 @@ Phase MotionBuilder::BuildPhase(const MotionPhase& phase, const MotionPhase* bef
     }
   }
   const int intervals =
-      std::max(settings_.minimum_intervals,
-               static_cast<int>(std::ceil(phase.duration / settings_.knot_spacing - 1e-9)));
+      NumIntervals(phase.duration, settings_.knot_spacing, settings_.minimum_intervals);
   const double spacing = phase.duration / intervals;
   for (int i = 0; i <= intervals; ++i) {
     const double share = static_cast<double>(i) / intervals;

@@ -36,6 +36,10 @@ struct MotionSettings {
   bool tests_between_knots = false;
 };
 
+/// The number of equal intervals between knots of a phase: the least of which none lasts longer
+/// than `spacing`, s, but at least `least`.
+int NumIntervals(double duration, double spacing, int least);
+
 /// The robot with a motor at every joint. What coupled joints need together is checked apart.
 std::shared_ptr<const dynamics::MultibodyModel> UncoupledModel(models::RobotModel robot);
 

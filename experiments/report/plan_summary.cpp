@@ -60,13 +60,13 @@ std::string SearchText(const actions::Plan& plan) {
   if (!plan.search || plan.search->explorers.empty()) return {};
   const actions::SearchReport& search = *plan.search;
   std::string text = Row("found by", fmt::format("{}", fmt::join(search.explorers, ", ")));
-  text +=
-      Row("expected",
-          fmt::format(
-              "{:.2f} s, the first route {:.2f} s{}", search.duration, search.first_duration,
-              search.lower_bound > 0
-                  ? fmt::format(", nothing searched takes less than {:.2f} s", search.lower_bound)
-                  : std::string()));
+  text += Row(
+      "expected",
+      fmt::format("{:.2f} s, the first route {:.2f} s{}", search.duration, search.first_duration,
+                  search.lower_bound > 0
+                      ? fmt::format(", no route searched is expected in less than {:.2f} s",
+                                    search.lower_bound)
+                      : std::string()));
   return text;
 }
 

@@ -224,7 +224,8 @@ TEST(DynamicGait, ALongFlowRestsInTimeInAStanceOnItsWay) {
       }
     }
     for (const std::vector<PlanarPose>& strides : {straight, bent}) {
-      const std::vector<Phase> motion = gait.motion->Flow(strides, {}, kKnotSpacing, {});
+      const std::vector<Phase> motion =
+          gait.motion->Flow(StraightLines(strides), {}, kKnotSpacing, {});
       const std::vector<double> rests = Rests(motion);
       EXPECT_NEAR(rests.back(), Duration(motion), 1e-9);
       EXPECT_GT(rests.size(), 2u);

@@ -27,8 +27,7 @@ StepBounds LongSteps(const models::GaitParameters& parameters) {
 }
 
 double Effort(const StepBounds& bounds, const PlanarPose& d) {
-  return std::abs(d.x) / bounds.forward + std::abs(d.y) / bounds.lateral +
-         std::abs(WrapAngle(d.yaw)) / bounds.turn;
+  return CombinedEffort(d.x / bounds.forward, d.y / bounds.lateral, WrapAngle(d.yaw) / bounds.turn);
 }
 
 /// Distance of two convex patches across the line that separates them best, among the normals of
@@ -270,6 +269,28 @@ TEST_P(FootholdPlanTest, ShorterSwingsTakeLessTimeButNotLessThanTheirShare) {
 INSTANTIATE_TEST_SUITE_P(Gaits, FootholdPlanTest, ::testing::Values("walk", "crawl"),
                          [](const auto& info) { return info.param; });
 INSTANTIATE_TEST_SUITE_P(Gaits, FootholdPlanOfTwoFeet, ::testing::Values("walk"));
+
+TEST(CombinedEffort, OfOneDirectionIsThatOfTheDirection) {
+  EXPECT_DOUBLE_EQ(CombinedEffort(-0.7, 0, 0), 0.7);
+  EXPECT_DOUBLE_EQ(CombinedEffort(0, 0.7, 0), 0.7);
+  EXPECT_DOUBLE_EQ(CombinedEffort(0, 0, -0.7), 0.7);
+}
+
+TEST(CombinedEffort, IsANormBetweenTheRootOfSquaresAndTheSum) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Eigen::Vector3d a(unit(generator), unit(generator), unit(generator));
+    const Eigen::Vector3d b(unit(generator), unit(generator), unit(generator));
+    const auto effort = [](const Eigen::Vector3d& d) {
+      return CombinedEffort(d.x(), d.y(), d.z());
+    };
+    EXPECT_GE(effort(a), a.norm() - 1e-12);
+    EXPECT_LE(effort(a), a.lpNorm<1>() + 1e-12);
+    EXPECT_NEAR(effort(-3 * a), 3 * effort(a), 1e-12);
+    EXPECT_LE(effort(a + b), effort(a) + effort(b) + 1e-12);
+  }
+}
 
 }  // namespace
 }  // namespace possibility::actions

@@ -28,7 +28,7 @@ class SteppedWayTest : public ::testing::Test {
   }
 
   SteppedWay WayThrough(const std::vector<PlanarPose>& corners) const {
-    return {walk_.stance, groups_, Strides(corners), bounds_};
+    return {walk_.stance, groups_, StraightLines(Strides(corners)), bounds_};
   }
 
   const LocomotionModel::GaitEntry& walk_ = *DrcHubo1Locomotion().gaits[0];
@@ -115,6 +115,42 @@ TEST_F(SteppedWayTest, AStepItsLikesAndTheirNeighboursAreSlowedDownToHalfTheSpee
   }
   EXPECT_GT(way.Steps()[ahead + 2].slowness, 1.5);
   for (const Step& step : way.Steps()) EXPECT_LE(step.slowness, 2);
+}
+
+TEST_F(SteppedWayTest, AStepInABendIsUnlikeTheSameStepElsewhere) {
+  const PlanarPose corner{3, 0, 0};
+  SteppedWay way = WayThrough({{}, corner, corner * PlanarPose{0, 0, 2}});
+  const int ahead = StepsUntilAllAreIn(corner, way.Steps());
+  ASSERT_GT(ahead, 8);
+  // The last full step ahead: what follows it differs from what follows the others.
+  int last_full = ahead - 1;
+  const auto length = [&](int i) {
+    return (way.Steps()[i].stance.position() - way.Steps()[i - 2].stance.position()).norm();
+  };
+  while (length(last_full) < 0.5) --last_full;
+  ASSERT_TRUE(way.SlowDown(1 + 2 * last_full));
+  EXPECT_GT(way.Steps()[last_full].slowness, 1);
+  for (int i = 0; i < last_full - 1; ++i) EXPECT_EQ(way.Steps()[i].slowness, 1) << i;
+  // One in the middle of the way is like all others there.
+  ASSERT_TRUE(way.SlowDown(1 + 2 * 4));
+  for (int i = 3; i < last_full - 1; ++i) EXPECT_GT(way.Steps()[i].slowness, 1) << i;
+}
+
+TEST_F(SteppedWayTest, StepsBecomeShorterNearTheIntervalOfALineThatBends) {
+  const auto lines = RoundedLines({{}, {4, 0, 0}, {4, 0, 1.5}, {4, 4, 1.5}}, {1, 1});
+  SteppedWay way(walk_.stance, groups_, lines, bounds_);
+  const std::vector<Step> before = way.Steps();
+  int bend = 0;
+  while (before[bend].stance.yaw < 0.7) ++bend;
+  ASSERT_TRUE(way.Shorten({1 + 2 * bend}));
+  const std::vector<Step> after = way.Steps();
+  EXPECT_GT(after.size(), before.size());
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(after[i].group, before[i].group) << i;
+  // Far from it steps are about as long as before.
+  const auto length = [](const std::vector<Step>& steps, std::size_t i) {
+    return (steps[i].stance.position() - steps[i - 1].stance.position()).norm();
+  };
+  EXPECT_NEAR(length(after, 4), length(before, 4), 0.05);
 }
 
 TEST_F(SteppedWayTest, AWayToNowhereHasNoFootholds) { EXPECT_THROW(WayThrough({{}}), MotionError); }

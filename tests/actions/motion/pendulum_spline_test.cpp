@@ -16,22 +16,24 @@ constexpr double kStiffness = 12;  // 1/s^2
 
 /// What a spline is made of. The zero moment point may change in the first and the last quarter.
 struct Problem {
-  Problem(int steps, double duration)
-      : step(duration / steps), zmp(steps + 1), first(steps + 1), last(steps + 1) {
-    const double quarter = duration / 4;
-    for (int i = 0; i <= steps; ++i) {
-      const double t = i * step;
+  Problem(int steps, double duration) : Problem(VectorXd::LinSpaced(steps + 1, 0, duration)) {}
+
+  explicit Problem(const VectorXd& knots)
+      : times(knots), zmp(knots.size()), first(knots.size()), last(knots.size()) {
+    const double quarter = duration() / 4;
+    for (int i = 0; i <= steps(); ++i) {
+      const double t = times[i];
       zmp[i] = 0;
       first[i] = t < quarter ? Bump(t, quarter).value : 0;
-      last[i] = t > duration - quarter ? Bump(t - duration + quarter, quarter).value : 0;
+      last[i] = t > duration() - quarter ? Bump(t - duration() + quarter, quarter).value : 0;
     }
   }
 
   int steps() const { return static_cast<int>(zmp.size()) - 1; }
-  double duration() const { return steps() * step; }
-  PendulumSpline Spline() const { return {zmp, from, to, step, kStiffness, first, last}; }
+  double duration() const { return times[steps()]; }
+  PendulumSpline Spline() const { return {times, zmp, from, to, kStiffness, first, last}; }
 
-  double step;
+  VectorXd times;  // s
   double from = 0;
   double to = 0;
   VectorXd zmp, first, last;
@@ -41,8 +43,13 @@ class PendulumSplineTest : public ::testing::Test {
  protected:
   double Random() { return std::uniform_real_distribution<double>(-1, 1)(generator_); }
 
+  /// Its steps differ by up to a factor of five.
   Problem RandomProblem() {
-    Problem problem(16 + static_cast<int>(generator_() % 100), 1.5 + Random());
+    VectorXd times(17 + generator_() % 100);
+    times[0] = 0;
+    for (Eigen::Index i = 1; i < times.size(); ++i) times[i] = times[i - 1] + 3 + 2 * Random();
+    times *= (1.5 + Random()) / times[times.size() - 1];
+    Problem problem(times);
     problem.from = Random();
     problem.to = Random();
     for (double& p : problem.zmp) p = Random();
@@ -71,7 +78,7 @@ TEST_F(PendulumSplineTest, CurvatureAtKnotsIsThatOfThePendulum) {
     const PendulumSpline spline = problem.Spline();
     for (int i = 1; i < problem.steps(); ++i) {
       if (problem.first[i] != 0 || problem.last[i] != 0) continue;
-      const double t = i * problem.step;
+      const double t = problem.times[i];
       const double curvature =
           (spline.At(t + kShort).rate - spline.At(t - kShort).rate) / (2 * kShort);
       EXPECT_NEAR(curvature, kStiffness * (spline.At(t).value - problem.zmp[i]), 1e-3);
@@ -105,7 +112,8 @@ TEST_F(PendulumSplineTest, RateAndAccelerationAreTheDerivativesOfTheValue) {
     const Problem problem = RandomProblem();
     const PendulumSpline spline = problem.Spline();
     for (int i = 0; i < problem.steps(); ++i) {
-      const double t = (i + 0.5 + 0.4 * Random()) * problem.step;
+      const double share = 0.5 + 0.4 * Random();
+      const double t = (1 - share) * problem.times[i] + share * problem.times[i + 1];
       const ScalarSignal before = spline.At(t - kShort);
       const ScalarSignal after = spline.At(t + kShort);
       const ScalarSignal now = spline.At(t);
@@ -121,8 +129,8 @@ TEST_F(PendulumSplineTest, ValueRateAndAccelerationAreContinuousAcrossKnots) {
     const Problem problem = RandomProblem();
     const PendulumSpline spline = problem.Spline();
     for (int i = 1; i < problem.steps(); ++i) {
-      const ScalarSignal before = spline.At(i * problem.step - kShort);
-      const ScalarSignal after = spline.At(i * problem.step + kShort);
+      const ScalarSignal before = spline.At(problem.times[i] - kShort);
+      const ScalarSignal after = spline.At(problem.times[i] + kShort);
       EXPECT_NEAR(before.value, after.value, 1e-8);
       EXPECT_NEAR(before.rate, after.rate, 1e-7);
       EXPECT_NEAR(before.acceleration, after.acceleration, 1e-5);
@@ -163,6 +171,7 @@ TEST_F(PendulumSplineTest, IsTheSameBackwardsInTime) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const Problem problem = RandomProblem();
     Problem mirrored = problem;
+    mirrored.times = problem.duration() - problem.times.reverse().array();
     mirrored.zmp = problem.zmp.reverse();
     mirrored.first = problem.last.reverse();
     mirrored.last = problem.first.reverse();
@@ -183,7 +192,7 @@ double ErrorOfKnownMotion(int steps) {
   problem.from = 0.2;
   problem.to = 0.9;
   for (int i = 0; i <= steps; ++i) {
-    const ScalarSignal c = known(i * problem.step);
+    const ScalarSignal c = known(problem.times[i]);
     problem.zmp[i] = c.value - c.acceleration / kStiffness;
   }
   const PendulumSpline spline = problem.Spline();
@@ -209,9 +218,9 @@ double ErrorOfFall(int steps) {
   problem.from = 0;
   problem.to = 0.8;
   for (int i = 0; i <= steps; ++i) {
-    problem.zmp[i] = i * problem.step < 1
-                         ? Blend(0, kPoint, RestToRest(i * problem.step, 0.5)).value
-                         : Blend(kPoint, 0.8, RestToRest(i * problem.step - 1.5, 0.5)).value;
+    const double t = problem.times[i];
+    problem.zmp[i] = t < 1 ? Blend(0, kPoint, RestToRest(t, 0.5)).value
+                           : Blend(kPoint, 0.8, RestToRest(t - 1.5, 0.5)).value;
   }
   const PendulumSpline spline = problem.Spline();
   const double root = std::sqrt(kStiffness);

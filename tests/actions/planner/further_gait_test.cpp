@@ -134,7 +134,7 @@ TEST(FurtherGaitTest, AGaitThatThrowsLeavesThePlanToOthers) {
     return std::make_unique<ThrowingGait>(robot, stance);
   };
   models::Scenario near = Hall();
-  near.goals.front().x = near.start.x + 1;
+  near.goals.front().x = near.start.x + 2;
   const PlanResult result = PlanWith(near, gait);
   ASSERT_EQ(result.status, PlanStatus::kFound) << result.explanation;
   EXPECT_TRUE(Uses(result, "walk"));

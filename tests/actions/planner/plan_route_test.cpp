@@ -27,8 +27,9 @@ PlanResult PlanFor(const models::Scenario& scenario) {
 
 bool IsTransition(const Segment& segment) { return segment.action.find("->") != std::string::npos; }
 
-/// A motion that flows passes a vertex within this, m.
-constexpr double kPasses = 0.15;
+/// A motion that flows passes a stance within 0.15 m. A rounded bend is the mean of the way up to 1
+/// m before and after: where the way turns back, that is 0.5 m from the vertex.
+constexpr double kPasses = 0.15 + 0.5;
 
 /// Consecutive segments meet at a vertex. Each segment is an edge of the graph with its action.
 void ExpectAPathOfTheGraph(const Plan& plan) {
@@ -78,8 +79,10 @@ void ExpectGoodRoute(const PlanResult& result) {
   EXPECT_LE(plan.search->duration, plan.search->first_duration + 1e-9);
   EXPECT_LE(plan.search->lower_bound, plan.search->duration + 1e-9);
   EXPECT_FALSE(plan.search->explorers.empty());
-  // The duration that routes are chosen by is near the duration of the motion.
-  EXPECT_NEAR(plan.search->duration, plan.duration(), 0.1 * plan.duration());
+  // The duration that routes are chosen by is near the duration of the motion, or longer: it does
+  // not know how far bends will be rounded.
+  EXPECT_GT(plan.search->duration, 0.9 * plan.duration());
+  EXPECT_LT(plan.search->duration, 1.2 * plan.duration());
 }
 
 class PlanRoute : public ::testing::TestWithParam<const char*> {};

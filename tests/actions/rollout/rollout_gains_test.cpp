@@ -63,7 +63,7 @@ double DriftOnAWindingWay(const ShippedRobot& robot, const RolloutGains& gains) 
   for (int i = 0; i < 40; ++i) way.push_back(way.back() * strides[i / 3 % 4]);
   Segment segment;
   segment.action = "walk";
-  segment.phases = robot.model().gaits[0]->motion->Flow(way, {}, 0.1, {});
+  segment.phases = robot.model().gaits[0]->motion->Flow(StraightLines(way), {}, 0.1, {});
   models::Environment environment;
   models::Obstacle floor;
   floor.name = "floor";
