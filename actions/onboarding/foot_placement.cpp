@@ -37,8 +37,7 @@ FootPlacement::FootPlacement(const RobotDraft& draft, int side)
       patch_(&draft.robot.contacts[side]) {
   const int num_joints = draft.robot.num_joints();
   R_RL_ = models::PosesInRoot(draft.robot, VectorXd::Zero(num_joints))[patch_->link].linear();
-  R_RL_ = Eigen::Quaterniond::FromTwoVectors(R_RL_ * patch_->normal_L, -Eigen::Vector3d::UnitZ()) *
-          R_RL_;
+  R_RL_ = models::SmallestRotation(R_RL_ * patch_->normal_L, -Eigen::Vector3d::UnitZ()) * R_RL_;
   const auto bend = BendOf(draft.robot, {side, true, *leg_});
   if (bend) knee_ = static_cast<int>(bend->joint);
 }

@@ -11,6 +11,7 @@
 
 #include "models/facts/zero_poses.h"
 #include "models/input/input_error.h"
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
 namespace {
@@ -46,7 +47,7 @@ void MeasureLegs(RobotDraft* draft) {
   }
   const Eigen::Matrix3d R_RL = X_RL[left.link].linear();
   const Eigen::Matrix3d level =
-      Eigen::Quaterniond::FromTwoVectors(R_RL * left.normal_L, -Vector3d::UnitZ()) * R_RL;
+      models::SmallestRotation(R_RL * left.normal_L, -Vector3d::UnitZ()) * R_RL;
   draft->sole_breadth = ExtentAlong(left.points, level, std::numbers::pi / 2);
   draft->sole_width = draft->sole_breadth;
   for (int i = 0; i < 36; ++i) {

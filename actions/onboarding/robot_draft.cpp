@@ -22,6 +22,7 @@
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 #include "models/robot/mesh_shapes.h"
+#include "models/robot/rotation_vector.h"
 #include "models/robot/shape_reach.h"
 #include "models/robot/urdf_robot.h"
 #include "models/shapes/convex_hull.h"
@@ -220,7 +221,7 @@ class Drafter {
       best = normal;
     }
     *tilt = std::acos(std::clamp(-(R_RL * best).z(), -1.0, 1.0));
-    return Eigen::Quaterniond::FromTwoVectors(R_RL * best, -Vector3d::UnitZ()) * R_RL;
+    return models::SmallestRotation(R_RL * best, -Vector3d::UnitZ()) * R_RL;
   }
 
   /// C_N tests the shapes of one link that the root carries.

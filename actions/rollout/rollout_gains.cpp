@@ -8,6 +8,7 @@
 namespace possibility::actions {
 
 Eigen::VectorXd JointStiffness(const models::RobotModel& robot, const RolloutGains& gains) {
+  if (gains.stiffness.size() > 0) return gains.stiffness;
   Eigen::VectorXd stiffness(robot.num_joints());
   // Joints without a limit would get an infinite gain.
   for (int j = 0; j < robot.num_joints(); ++j) {

@@ -13,6 +13,8 @@ struct RolloutGains {
   double damping_time = 0.03;  ///< s, damping over stiffness
   /// Least stiffness of the legs' joints, in multiples of weight times height of the root.
   double standing_stiffness = 8;
+  /// num_joints, N m/rad or N/m, instead of what follows from the above; empty: not used.
+  Eigen::VectorXd stiffness;
 };
 
 /// num_joints, N m/rad or N/m; 0 for joints without a limit of effort. A robot of mass m that

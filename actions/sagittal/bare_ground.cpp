@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "actions/rollout/dynamic_stretch.h"
 #include "actions/rollout/perturbed_rollout.h"
 #include "actions/rollout/rollout_check.h"
+#include "actions/sagittal/folded_motion.h"
 #include "actions/sagittal/sagittal_problem.h"
 #include "actions/verify/verifier.h"
 #include "actions/verify/verifier_rollouts.h"
@@ -84,11 +86,22 @@ std::string FaultInSimulation(const DynamicStretch& stretch, const models::Robot
   return faults.empty() ? std::string() : TextOf(faults.front());
 }
 
+/// The folded robot drifts as the whole one does, within some percent, in a third of the time.
+bool Survives(const DynamicStretch& stretch, const models::RobotModel& robot,
+              const SagittalModel& model, const models::GroundMap& ground,
+              const Perturbation& perturbation) {
+  const std::optional<FoldedMotion> folded = FoldMotion(model.reduction(), stretch.motion);
+  if (!folded) return RollOutPerturbed(stretch.motion, robot, ground, perturbation).survives();
+  PerturbedRolloutSettings settings;
+  settings.gains = folded->gains;
+  return RollOutPerturbed(folded->motion, folded->robot, ground, perturbation, settings).survives();
+}
+
 std::string FallWith(double mass, const DynamicStretch& stretch, const models::RobotModel& robot,
-                     const models::GroundMap& ground) {
+                     const SagittalModel& model, const models::GroundMap& ground) {
   Perturbation perturbation;
   perturbation.mass = mass;
-  if (RollOutPerturbed(stretch.motion, robot, ground, perturbation).survives()) return {};
+  if (Survives(stretch, robot, model, ground, perturbation)) return {};
   return fmt::format("falls over with {:.0f} % of its mass", 100 * mass);
 }
 
@@ -132,10 +145,11 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
   const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
   for (const DynamicStretch& stretch : stretches) {
     if (!simulates) break;
-    for (const double mass : {1 - kHeavier, 1 + kHeavier}) {
-      trials.push_back([&, mass] { return FallWith(mass, stretch, robot, ground); });
-    }
+    // It takes longest, so it begins first.
     trials.push_back([&] { return FaultInSimulation(stretch, robot, ground); });
+    for (const double mass : {1 - kHeavier, 1 + kHeavier}) {
+      trials.push_back([&, mass] { return FallWith(mass, stretch, robot, model, ground); });
+    }
   }
   return FirstFault(trials);
 }

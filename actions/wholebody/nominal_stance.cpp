@@ -7,6 +7,7 @@
 #include "actions/wholebody/motion_error.h"
 #include "actions/wholebody/whole_body_task.h"
 #include "models/input/input_error.h"
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::actions {
 namespace {
@@ -16,8 +17,7 @@ using Eigen::Vector3d;
 
 /// `R` turned by the smallest rotation that makes the patch's normal point straight down.
 Matrix3d Flattened(const Matrix3d& R, const Vector3d& normal_L) {
-  return Eigen::Quaterniond::FromTwoVectors(R * normal_L, -Vector3d::UnitZ()).toRotationMatrix() *
-         R;
+  return models::SmallestRotation(R * normal_L, -Vector3d::UnitZ()).toRotationMatrix() * R;
 }
 
 void CheckJointLimits(const models::RobotModel& robot, const models::Gait& gait,

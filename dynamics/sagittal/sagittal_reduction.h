@@ -48,6 +48,8 @@ class SagittalReduction {
   const std::vector<SagittalJoint>& joints() const { return lumping_.joints; }
   /// By link of the full robot: the link of the lumped tree that contains it.
   const std::vector<int>& lumped_link() const { return lumping_.lumped_link; }
+  /// By link of the full robot: its pose in that link.
+  const std::vector<Eigen::Isometry3d>& X_GL() const { return lumping_.X_GL; }
 
   /// Full q of a planar q. @throws std::invalid_argument for a wrong size or a value that is not
   /// finite, like all maps here.

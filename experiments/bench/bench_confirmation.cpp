@@ -100,7 +100,7 @@ BenchmarkReport BenchConfirmation(const models::RobotModel& robot,
   const TemporaryFolder folder;
   actions::JumpLibrary library(solver, folder.path());
   actions::JumpSweep sweep;
-  sweep.heights = {-0.1, 0, 0.1};
+  sweep.heights = {-0.2, -0.1, 0, 0.1, 0.2};
   sweep.progress = progress;
   const std::vector<JumpSweepEntry> entries = actions::SweepJumps(sweep, &library);
   const actions::JumpReach reach = actions::ReachOf(entries);

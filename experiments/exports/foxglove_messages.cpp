@@ -6,6 +6,7 @@
 
 #include "experiments/exports/hull_triangles.h"
 #include "models/input/json_text.h"
+#include "models/robot/rotation_vector.h"
 
 namespace possibility::experiments {
 namespace {
@@ -191,7 +192,7 @@ std::string ForceArrows(const std::vector<PointForce>& forces, std::uint64_t tim
     if (!point.bears || length == 0) continue;
     Isometry3d X = Isometry3d::Identity();
     X.translation() = point.position;
-    X.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), point.force).matrix();
+    X.linear() = models::SmallestRotation(Vector3d::UnitX(), point.force).matrix();
     entity["arrows"].push_back({{"pose", PoseJson(X)},
                                 {"color", kForcePaint},
                                 {"shaft_length", Short(length, 4)},

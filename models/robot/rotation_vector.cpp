@@ -65,6 +65,22 @@ Eigen::AngleAxisd Exponential(const Vector3d& phi) {
   return {angle, phi / angle};
 }
 
+Eigen::Quaterniond SmallestRotation(const Vector3d& from, const Vector3d& to) {
+  constexpr double kOpposite = 1e-12;
+  const Vector3d a = from.normalized();
+  const Vector3d b = to.normalized();
+  const double twice_cosine_of_half = (a + b).norm();
+  Eigen::Quaterniond rotation;
+  if (twice_cosine_of_half < kOpposite) {
+    rotation.w() = 0;
+    rotation.vec() = a.unitOrthogonal();
+    return rotation;
+  }
+  rotation.w() = twice_cosine_of_half / 2;
+  rotation.vec() = a.cross(b) / twice_cosine_of_half;
+  return rotation.normalized();
+}
+
 Matrix3d LeftJacobian(const Vector3d& phi) {
   const JacobianScalars s = ScalarsOf(phi.squaredNorm());
   const Matrix3d X = CrossMatrix(phi);

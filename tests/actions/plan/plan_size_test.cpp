@@ -91,7 +91,7 @@ Plan RepeatedSteps(int num_knots) {
   return plan;
 }
 
-class LongPlan : public ::testing::Test {
+class LongPlanFile : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
@@ -117,7 +117,7 @@ class LongPlan : public ::testing::Test {
   json whole_;  ///< the long plan's document
 };
 
-TEST_F(LongPlan, WritesRepeatedSeriesOnce) {
+TEST_F(LongPlanFile, WritesRepeatedSeriesOnce) {
   const std::string rows = Written(short_);
   const std::string courses = Written(long_);
   EXPECT_FALSE(json::parse(rows).contains("series"));
@@ -125,7 +125,7 @@ TEST_F(LongPlan, WritesRepeatedSeriesOnce) {
   EXPECT_LT(courses.size(), rows.size() / 5);
 }
 
-TEST_F(LongPlan, ReadsBackTheSameAsAPlanInRows) {
+TEST_F(LongPlanFile, ReadsBackTheSameAsAPlanInRows) {
   const std::string text = Written(long_);
   const Plan read = ParsePlan(text, folder_ / "plan.json");
   EXPECT_EQ(Written(read), text);
@@ -150,7 +150,7 @@ TEST_F(LongPlan, ReadsBackTheSameAsAPlanInRows) {
   }
 }
 
-TEST_F(LongPlan, RefusesMalformedSeries) {
+TEST_F(LongPlanFile, RefusesMalformedSeries) {
   whole_ = json::parse(Written(long_));
   ExpectRefused([](json* d) { (*d)["series"] = 1; }, "series: expected an array");
   ExpectRefused([](json* d) { (*d)["series"][3] = "x"; }, "series[3]");

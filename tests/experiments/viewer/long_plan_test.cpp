@@ -32,7 +32,7 @@ actions::Plan Steps(const models::RobotModel& robot, int count) {
   return plan;
 }
 
-class LongPlan : public testing::BrowserTest {
+class PageOfALongPlan : public testing::BrowserTest {
  protected:
   /// What an expression says once the page of a plan has run.
   std::string Asked(int steps, const std::string& address, const std::string& expression) {
@@ -47,7 +47,7 @@ class LongPlan : public testing::BrowserTest {
   std::string document_;
 };
 
-TEST_F(LongPlan, ATimeInTheMiddleShowsTheRobotThere) {
+TEST_F(PageOfALongPlan, ATimeInTheMiddleShowsTheRobotThere) {
   const std::string answer =
       Asked(3600, "#t=1800.421052631&plots=1",
             "[page.time.toFixed(3), page.views[0].motion.linkPoses[0].elements[12].toFixed(4), "
@@ -57,7 +57,7 @@ TEST_F(LongPlan, ATimeInTheMiddleShowsTheRobotThere) {
 }
 
 /// The card draws what lies on the ground at once, however many steps there are.
-TEST_F(LongPlan, MoreStepsAreNoMoreThingsToDraw) {
+TEST_F(PageOfALongPlan, MoreStepsAreNoMoreThingsToDraw) {
   const std::string count =
       "[page.views[0].drawing.renderer.info.render.calls, "
       "page.views[0].drawing.renderer.info.render.triangles].join(' ')";
@@ -74,7 +74,7 @@ TEST_F(LongPlan, MoreStepsAreNoMoreThingsToDraw) {
 }
 
 /// A segment of 40 minutes has 50 knots for every pixel of a plot.
-TEST_F(LongPlan, APlotOfManyKnotsHasFewPointsAndAllPeaks) {
+TEST_F(PageOfALongPlan, APlotOfManyKnotsHasFewPointsAndAllPeaks) {
   models::RobotModel robot = testing::SampleRobot();
   actions::Plan plan = testing::SamplePlan(robot, 2400, 24001);
   plan.segments[1].phases[0].knots[7777].tau[0] = 190;

@@ -38,6 +38,29 @@ TEST_F(RotationVectorTest, OfAQuaternionDoesNotDependOnItsSign) {
   EXPECT_LE((RotationVector(rotation) - RotationVector(negative)).norm(), 1e-15);
 }
 
+TEST_F(RotationVectorTest, SmallestRotationTurnsOneDirectionIntoAnotherAboutAnAxisAcrossThem) {
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector3d from = Direction(), to = Direction();
+    const Eigen::Quaterniond rotation = SmallestRotation(3 * from, 0.2 * to);
+    EXPECT_LE((rotation * from - to).norm(), 1e-14);
+    const Vector3d phi = RotationVector(rotation);
+    EXPECT_NEAR(phi.norm(), std::acos(from.dot(to)), 1e-7);
+    EXPECT_NEAR(phi.dot(from), 0, 1e-14);
+  }
+}
+
+TEST_F(RotationVectorTest, SmallestRotationOfOppositeDirectionsIsHalfATurn) {
+  for (const double departure : {0.0, 1e-13, 1e-8, 1e-5, 1e-3}) {
+    const Vector3d from = Direction();
+    const Vector3d to = Exponential(departure * from.unitOrthogonal()) * Vector3d(-from);
+    const Eigen::Quaterniond rotation = SmallestRotation(from, to);
+    EXPECT_NEAR(rotation.norm(), 1, 1e-15) << departure;
+    EXPECT_LE((rotation * from - to).norm(), 1e-7) << departure;
+    EXPECT_NEAR(RotationVector(rotation).norm(), std::numbers::pi - departure, 1e-7) << departure;
+  }
+  EXPECT_EQ(RotationVector(SmallestRotation(Vector3d::UnitX(), 2 * Vector3d::UnitX())).norm(), 0);
+}
+
 TEST_F(RotationVectorTest, LeftJacobianGivesTheAngularVelocityOfDifferences) {
   for (const double angle : {1e-6, 0.5, 0.999, 1.001, 3.0}) {
     const Vector3d phi = angle * Direction();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "models/input/input_error.h"
+#include "models/robot/rotation_vector.h"
 #include "tests/models/random_geometry.h"
 
 namespace possibility::models {
@@ -245,7 +246,7 @@ TEST(GroundMap, RefusesGroundWithoutASideThatFacesUp) {
   Obstacle on_a_corner = Ground(0, 0, 0, 1, 1);
   on_a_corner.name = "die";
   on_a_corner.X_WO.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), Vector3d::UnitZ()).toRotationMatrix();
+      SmallestRotation(Vector3d(1, 1, 1), Vector3d::UnitZ()).toRotationMatrix();
   try {
     Map({on_a_corner});
     FAIL();
@@ -294,8 +295,7 @@ struct Board {
     axis = static_cast<int>(random->Uniform(0, 2.999));
     side = random->Uniform(-1, 1) < 0 ? -1 : 1;
     const Eigen::Matrix3d rolled =
-        Eigen::Quaterniond::FromTwoVectors(side * Vector3d::Unit(axis), Vector3d::UnitZ())
-            .toRotationMatrix();
+        SmallestRotation(side * Vector3d::Unit(axis), Vector3d::UnitZ()).toRotationMatrix();
     box.X_WO.linear() = tilt * turn * rolled;
     box.X_WO.translation() = Vector3d(random->Uniform(-1, 1), random->Uniform(-1, 1), 0.3);
   }
