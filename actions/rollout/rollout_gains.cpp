@@ -1,14 +1,24 @@
 #include "actions/rollout/rollout_gains.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "dynamics/tree/tree_kinematics.h"
 
 namespace possibility::actions {
 
 Eigen::VectorXd JointStiffness(const models::RobotModel& robot, const RolloutGains& gains) {
-  if (gains.stiffness.size() > 0) return gains.stiffness;
+  if (gains.stiffness.size() > 0) {
+    if (gains.stiffness.size() != robot.num_joints()) {
+      throw std::invalid_argument(
+          fmt::format("RolloutGains: stiffness has {} elements, expected {}",
+                      gains.stiffness.size(), robot.num_joints()));
+    }
+    return gains.stiffness;
+  }
   Eigen::VectorXd stiffness(robot.num_joints());
   // Joints without a limit would get an infinite gain.
   for (int j = 0; j < robot.num_joints(); ++j) {

@@ -21,6 +21,7 @@ struct RolloutGains {
 /// stands h high on one joint of stiffness k is a pendulum of rate^2 (k / (m g h) - 1) g/h. If k
 /// follows from the effort alone, weak ankles let it sway as slowly as it steps, and every step
 /// adds to the sway. The legs are the limbs of the robot's first gait.
+/// @throws std::invalid_argument if gains.stiffness has a wrong size.
 Eigen::VectorXd JointStiffness(const models::RobotModel& robot, const RolloutGains& gains);
 
 }  // namespace possibility::actions

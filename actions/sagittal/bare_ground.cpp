@@ -145,7 +145,7 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
   const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
   for (const DynamicStretch& stretch : stretches) {
     if (!simulates) break;
-    // It takes longest, so it begins first.
+    // It takes longer than the others, so it begins before them.
     trials.push_back([&] { return FaultInSimulation(stretch, robot, ground); });
     for (const double mass : {1 - kHeavier, 1 + kHeavier}) {
       trials.push_back([&, mass] { return FallWith(mass, stretch, robot, model, ground); });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "actions/rollout/rollout_check.h"
 #include "dynamics/tree/tree_kinematics.h"
@@ -33,6 +34,14 @@ TEST(RolloutGainsTest, StrongJointsAreAsStiffAsTheirEffortSays) {
     EXPECT_DOUBLE_EQ(stiffness[j], robot.joints[j].effort / gains.full_effort_error)
         << robot.joints[j].name;
   }
+}
+
+TEST(RolloutGainsTest, StiffnessThatIsGivenIsUsedIfItFitsTheRobot) {
+  RolloutGains gains;
+  gains.stiffness = Eigen::VectorXd::LinSpaced(DrcHubo1().num_joints(), 1, 2);
+  EXPECT_EQ(JointStiffness(DrcHubo1(), gains), gains.stiffness);
+  gains.stiffness.conservativeResize(3);
+  EXPECT_THROW(JointStiffness(DrcHubo1(), gains), std::invalid_argument);
 }
 
 TEST(RolloutGainsTest, WeakJointsOfLegsHoldUpTheRobot) {
