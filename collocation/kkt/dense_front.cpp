@@ -12,7 +12,10 @@ namespace {
 
 using Column = Eigen::Map<Eigen::VectorXd>;
 
-constexpr int kWindow = 32;              // columns that one block of pivots updates at once
+// Pivots are chosen among the next few columns, which each pivot updates at once. The other columns
+// of a block get the updates of a whole window, those behind it the updates of the whole block.
+constexpr int kWindow = 8;
+constexpr int kBlock = 64;
 constexpr double kSafeThreshold = 0.01;  // tried before the caller's threshold, which is laxer
 constexpr double kZeroPivot = 1e-13;     // entries are of order one
 
@@ -20,13 +23,14 @@ constexpr double kZeroPivot = 1e-13;     // entries are of order one
 
 void DenseFront::Reset(int size) {
   size_ = size;
-  num_pivots_ = num_negative_ = pending_ = 0;
+  stride_ = size + kPaddingRows;
+  num_pivots_ = num_negative_ = first_scaled_ = 0;
   has_zero_candidate_ = false;
   index_.clear();
   pivots_.clear();
   inverse_diagonal_.clear();
   inverse_subdiagonal_.clear();
-  const size_t entries = static_cast<size_t>(size) * size;
+  const size_t entries = static_cast<size_t>(size) * stride_;
   if (values_.size() < entries) values_.resize(entries);
   for (int j = 0; j < size; ++j) std::fill(column(j) + j, column(j) + size, 0.0);
 }
@@ -107,21 +111,16 @@ void DenseFront::EliminateSingle(int window) {
   const int k = num_pivots_;
   double* multipliers = column(k);
   const double pivot = multipliers[k];
-  double* scaled = scaled_.data() + static_cast<size_t>(pending_) * size_;
-  std::copy(multipliers + k, multipliers + size_, scaled + k);
+  std::copy(multipliers + k, multipliers + size_, scaled(k) + k);
   const double inverse = 1 / pivot;
   Column(multipliers + k + 1, size_ - k - 1) *= inverse;
-  for (int j = k + 1; j < window; ++j) {
-    if (scaled[j] == 0) continue;
-    Column(column(j) + j, size_ - j) -= scaled[j] * Column(multipliers + j, size_ - j);
-  }
+  Update(k, 1, k + 1, window);
   multipliers[k] = 1;
   pivots_.push_back(kSingle);
   inverse_diagonal_.push_back(inverse);
   inverse_subdiagonal_.push_back(0);
   num_negative_ += pivot < 0;
   num_pivots_ += 1;
-  pending_ += 1;
 }
 
 void DenseFront::EliminatePair(int window) {
@@ -131,18 +130,15 @@ void DenseFront::EliminatePair(int window) {
   const double a = first[k], b = first[k + 1], c = second[k + 1];
   const double determinant = a * c - b * b;
   const double ia = c / determinant, ib = -b / determinant, ic = a / determinant;
-  double* scaled_first = scaled_.data() + static_cast<size_t>(pending_) * size_;
-  double* scaled_second = scaled_first + size_;
+  double* scaled_first = scaled(k);
+  double* scaled_second = scaled(k + 1);
   for (int i = k + 2; i < size_; ++i) {
     scaled_first[i] = first[i];
     scaled_second[i] = second[i];
     first[i] = ia * scaled_first[i] + ib * scaled_second[i];
     second[i] = ib * scaled_first[i] + ic * scaled_second[i];
   }
-  for (int j = k + 2; j < window; ++j) {
-    Column(column(j) + j, size_ - j) -= scaled_first[j] * Column(first + j, size_ - j) +
-                                        scaled_second[j] * Column(second + j, size_ - j);
-  }
+  Update(k, 2, k + 2, window);
   first[k] = second[k + 1] = 1;
   first[k + 1] = 0;
   pivots_.push_back(kPairFirst);
@@ -151,26 +147,23 @@ void DenseFront::EliminatePair(int window) {
   inverse_subdiagonal_.insert(inverse_subdiagonal_.end(), {ib, 0.0});
   num_negative_ += determinant < 0 ? 1 : (a < 0 ? 2 : 0);
   num_pivots_ += 2;
-  pending_ += 2;
 }
 
-void DenseFront::UpdateTrailing(int first_pivot, int from) {
-  const int rows = size_ - from;
-  const int count = pending_;
-  pending_ = 0;
-  if (rows == 0 || count == 0) return;
-  LowerProducts().front()(rows, count, size_, column(first_pivot) + from, scaled_.data() + from,
-                          column(from) + from);
+void DenseFront::Update(int first_pivot, int count, int from, int to) {
+  if (from >= to || count == 0) return;
+  LowerProducts().front()({size_ - from, to - from, count, stride_}, column(first_pivot) + from,
+                          scaled(first_pivot) + from, column(from) + from);
 }
 
 void DenseFront::Eliminate(int candidates, double threshold, bool last,
                            const CancellationToken& cancellation) {
   candidates_ = candidates;
-  const size_t buffer = static_cast<size_t>(size_) * std::max(candidates, 1);
+  const size_t buffer = static_cast<size_t>(stride_) * std::max(candidates, 1);
   if (scaled_.size() < buffer) scaled_.resize(buffer);
   const double safe = std::max(threshold, kSafeThreshold);
-  int window = std::min(candidates, kWindow);
-  int first_pivot = 0;
+  int block = std::min(candidates, kBlock);
+  int window = std::min(block, kWindow);
+  int first_in_window = 0;
   while (num_pivots_ < candidates) {
     int found = FindPivot(window, safe);
     if (found == 0) found = FindPivot(window, threshold);
@@ -179,11 +172,16 @@ void DenseFront::Eliminate(int candidates, double threshold, bool last,
     if (found == 2) EliminatePair(window);
     if (found > 0 && num_pivots_ < window) continue;
     // The window is used up, or needs more columns to choose from.
-    UpdateTrailing(first_pivot, window);
-    if (size_ > 10 * kWindow) cancellation.ThrowIfCancelled();
-    first_pivot = num_pivots_;
-    if (found == 0 && window == candidates) break;
-    window = std::min(candidates, window + kWindow);
+    Update(first_in_window, num_pivots_ - first_in_window, window, block);
+    if (window == block) {
+      Update(first_scaled_, num_pivots_ - first_scaled_, block, size_);
+      if (size_ > 10 * kBlock) cancellation.ThrowIfCancelled();
+      if (found == 0 && block == candidates) break;
+      first_scaled_ = num_pivots_;
+      block = std::min(candidates, block + kBlock);
+    }
+    first_in_window = num_pivots_;
+    window = std::min(block, window + kWindow);
   }
   for (int k = num_pivots_; k < candidates && !has_zero_candidate_; ++k) {
     has_zero_candidate_ = IsZero(k);

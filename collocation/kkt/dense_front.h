@@ -19,8 +19,8 @@ class DenseFront {
   int size() const { return size_; }
   std::vector<int>& index() { return index_; }
   const std::vector<int>& index() const { return index_; }
-  double* column(int j) { return values_.data() + static_cast<size_t>(j) * size_; }
-  const double* column(int j) const { return values_.data() + static_cast<size_t>(j) * size_; }
+  double* column(int j) { return values_.data() + static_cast<size_t>(j) * stride_; }
+  const double* column(int j) const { return values_.data() + static_cast<size_t>(j) * stride_; }
 
   /// Eliminates as many of the first `candidates` columns as have a stable pivot, 1x1 or 2x2, among
   /// them. They become the first num_pivots columns; the others follow in some order. A pivot is
@@ -53,17 +53,23 @@ class DenseFront {
   void Swap(int p, int q);
   void EliminateSingle(int window);
   void EliminatePair(int window);
-  void UpdateTrailing(int first_pivot, int from);
+  /// What `count` pivots from `first_pivot` on do to the columns from `from` to `to`.
+  void Update(int first_pivot, int count, int from, int to);
+  /// Of pivot k, the column of L D.
+  double* scaled(int k) {
+    return scaled_.data() + static_cast<size_t>(k - first_scaled_) * stride_;
+  }
 
   int size_ = 0;
+  int stride_ = 0;  ///< from column to column, padding included
   int candidates_ = 0;
   int num_pivots_ = 0;
   int num_negative_ = 0;
   bool has_zero_candidate_ = false;
   std::vector<int> index_;
   std::vector<double> values_;
-  std::vector<double> scaled_;  ///< columns of L D whose updates are pending, size_ rows each
-  int pending_ = 0;
+  std::vector<double> scaled_;  ///< columns of L D whose updates are pending
+  int first_scaled_ = 0;        ///< the pivot of the first of them
   std::vector<Pivot> pivots_;
   std::vector<double> inverse_diagonal_, inverse_subdiagonal_;
 };

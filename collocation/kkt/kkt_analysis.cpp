@@ -9,6 +9,9 @@
 namespace possibility::collocation {
 namespace {
 
+/// Multiplications per row with which no other order is tried: fronts of a dozen rows.
+constexpr double kFewFlops = 300;
+
 /// Neighbours of every row, compressed.
 struct Graph {
   std::vector<int> begin;
@@ -81,41 +84,39 @@ struct Group {
   std::vector<int> columns;
   std::vector<int> rows;
   int parent = -1;
-  double zeros = 0;  // stored entries that the pattern does not have
   bool merged = false;
 };
 
 /// Groups of consecutive columns with the same rows below them (positions in postorder).
 std::vector<Group> FundamentalGroups(const Graph& graph, const std::vector<int>& parent) {
   const int size = static_cast<int>(parent.size());
-  std::vector<std::vector<int>> below(size), children(size);
-  std::vector<int> mark(size, -1);
-  std::vector<bool> continues(size, false);  // column j belongs to the group of j + 1
+  // The rows below all columns, one column after the other; children as linked lists.
+  std::vector<int> below, begin(size + 1, 0), first_child(size, -1), sibling(size, -1);
+  std::vector<int> mark(size, -1), group_of(size);
+  std::vector<Group> groups;
+  const auto count = [&](int j) { return begin[j + 1] - begin[j]; };
   for (int j = 0; j < size; ++j) {
     mark[j] = j;
-    auto add = [&](int i) {
+    const auto add = [&](int i) {
       if (i > j && mark[i] != j) {
         mark[i] = j;
-        below[j].push_back(i);
+        below.push_back(i);
       }
     };
     for (int e = graph.begin[j]; e < graph.begin[j + 1]; ++e) add(graph.neighbour[e]);
-    for (const int child : children[j]) {
-      for (const int i : below[child]) add(i);
+    for (int child = first_child[j]; child >= 0; child = sibling[child]) {
+      for (int k = begin[child]; k < begin[child + 1]; ++k) add(below[k]);
     }
-    if (j > 0 && parent[j - 1] == j && below[j - 1].size() == below[j].size() + 1) {
-      continues[j - 1] = true;
-      below[j - 1] = {};
-    }
-    if (parent[j] >= 0) children[parent[j]].push_back(j);
-  }
-  std::vector<Group> groups;
-  std::vector<int> group_of(size);
-  for (int j = 0; j < size; ++j) {
-    if (j == 0 || !continues[j - 1]) groups.emplace_back();
+    begin[j + 1] = static_cast<int>(below.size());
+    const bool continues = j > 0 && parent[j - 1] == j && count(j - 1) == count(j) + 1;
+    if (!continues) groups.emplace_back();
     group_of[j] = static_cast<int>(groups.size()) - 1;
     groups.back().columns.push_back(j);
-    if (!continues[j]) groups.back().rows = std::move(below[j]);
+    groups.back().rows.assign(below.begin() + begin[j], below.end());
+    if (parent[j] >= 0) {
+      sibling[j] = first_child[parent[j]];
+      first_child[parent[j]] = j;
+    }
   }
   for (Group& group : groups) {
     const int up = parent[group.columns.back()];
@@ -124,16 +125,22 @@ std::vector<Group> FundamentalGroups(const Graph& graph, const std::vector<int>&
   return groups;
 }
 
-/// Whether a front with this many columns may store this large a share of zeros. Small fronts cost
-/// more in bookkeeping than in arithmetic.
-bool WorthMerging(double columns, double rows, double zeros) {
-  const double entries = columns * (columns + 1) / 2 + columns * rows;
-  const double share = zeros / entries;
-  return columns <= 4 || (columns <= 16 && share < 0.4) || (columns <= 48 && share < 0.1) ||
-         share < 0.05;
+/// What it saves to eliminate a child's columns in its parent's front, in multiplications: the
+/// child passes on nothing, but its columns become as long as the parent's.
+double SavedByMerging(const Group& child, const Group& parent) {
+  constexpr double kPerMovedEntry = 50;   // written, read and added
+  constexpr double kPerStoredEntry = 50;  // copied, and read by several solves
+  constexpr double kPerFront = 1000;
+  const auto columns = static_cast<double>(child.columns.size());
+  const auto rows = static_cast<double>(child.rows.size());
+  const auto rows_there = static_cast<double>(parent.columns.size() + parent.rows.size());
+  const double longer = rows_there - rows;
+  const double multiplications = columns * longer * (columns + rows + rows_there) / 2;
+  return kPerFront + kPerMovedEntry * rows * rows / 2 - kPerStoredEntry * columns * longer -
+         multiplications;
 }
 
-/// Merges groups into their parents where that stores few zeros.
+/// Merges groups into their parents where that saves time.
 void MergeSmallGroups(std::vector<Group>* groups) {
   std::vector<std::vector<int>> children(groups->size());
   for (int g = 0; g < static_cast<int>(groups->size()); ++g) {
@@ -141,17 +148,11 @@ void MergeSmallGroups(std::vector<Group>* groups) {
     std::vector<int> kept;
     for (size_t next = 0; next < children[g].size(); ++next) {
       Group& child = (*groups)[children[g][next]];
-      const double all = static_cast<double>(group.columns.size() + group.rows.size());
-      const double zeros = group.zeros + child.zeros +
-                           static_cast<double>(child.columns.size()) *
-                               (all - static_cast<double>(child.rows.size()));
-      const auto columns = static_cast<double>(child.columns.size() + group.columns.size());
-      if (!WorthMerging(columns, static_cast<double>(group.rows.size()), zeros)) {
+      if (SavedByMerging(child, group) <= 0) {
         kept.push_back(children[g][next]);
         continue;
       }
       group.columns.insert(group.columns.end(), child.columns.begin(), child.columns.end());
-      group.zeros = zeros;
       child.merged = true;
       const std::vector<int>& orphans = children[children[g][next]];
       for (const int orphan : orphans) (*groups)[orphan].parent = g;
@@ -260,6 +261,7 @@ KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges
   const KktPairs pairs(size, num_dual, edges, times);
   cancellation.ThrowIfCancelled();
   KktAnalysis analysis = FrontsOf(pairs.OrderByDegree(), edges, cancellation);
+  if (analysis.Flops() < kFewFlops * size) return analysis;
   if (const auto order = pairs.OrderAlongTime()) {
     KktAnalysis along_time = FrontsOf(*order, edges, cancellation);
     if (along_time.Flops() < analysis.Flops()) return along_time;

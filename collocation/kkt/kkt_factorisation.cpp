@@ -15,6 +15,27 @@ constexpr int kMaxRefinements = 3;
 constexpr double kWantedResidual = 1e-10;  // relative to |A| |x| + |b|
 constexpr int kFrontsPerQuestion = 16;
 
+using Numbers = Eigen::Map<const Eigen::VectorXd>;
+
+/// Below this many numbers a plain loop is quicker than vectors.
+constexpr int kShort = 12;
+
+/// y -= factor x.
+void SubtractMultiple(double factor, const double* x, int size, double* y) {
+  if (size < kShort) {
+    for (int i = 0; i < size; ++i) y[i] -= factor * x[i];
+  } else {
+    Eigen::Map<Eigen::VectorXd>(y, size) -= factor * Numbers(x, size);
+  }
+}
+
+double DotProduct(const double* x, const double* y, int size) {
+  if (size >= kShort) return Numbers(x, size).dot(Numbers(y, size));
+  double sum = 0;
+  for (int i = 0; i < size; ++i) sum += x[i] * y[i];
+  return sum;
+}
+
 }  // namespace
 
 KktFactorisation::KktFactorisation(int size, int num_dual, std::vector<int> rows,
@@ -117,9 +138,7 @@ void KktFactorisation::Equilibrate() {
       }
       largest[j] = largest_here;
     }
-    for (int i = 0; i < size_; ++i) {
-      if (largest[i] > 0) scale_[i] /= std::sqrt(largest[i]);
-    }
+    scale_.array() /= (largest.array() > 0).select(largest.array().sqrt(), 1);
   }
   for (int j = 0; j < size_; ++j) {
     for (int p = first_in_column_[j]; p < first_in_column_[j + 1]; ++p) {
@@ -260,16 +279,15 @@ KktStatus KktFactorisation::Factorise(const double* values, double pivot_thresho
 }
 
 void KktFactorisation::SolveOnce(Eigen::VectorXd* x) {
-  using Column = Eigen::Map<const Eigen::VectorXd>;
   for (const FactorPart& part : parts_) {
     if (gathered_.size() < part.size) gathered_.resize(part.size);
     const int* index = index_.data() + part.first_index;
-    auto y = gathered_.head(part.size);
+    double* y = gathered_.data();
     for (int i = 0; i < part.size; ++i) y[i] = (*x)[index[i]];
     const double* factor = factor_.data() + part.first_value;
     for (int k = 0; k < part.num_pivots; ++k) {
       const int below = part.size - k - 1;
-      y.tail(below) -= y[k] * Column(factor, below);
+      SubtractMultiple(y[k], factor, below, y + k + 1);
       factor += below;
     }
     for (int k = 0; k < part.num_pivots; ++k) {
@@ -288,12 +306,12 @@ void KktFactorisation::SolveOnce(Eigen::VectorXd* x) {
   const double* factor = factor_.data() + factor_.size();
   for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) {
     const int* index = index_.data() + part->first_index;
-    auto y = gathered_.head(part->size);
+    double* y = gathered_.data();
     for (int i = 0; i < part->size; ++i) y[i] = (*x)[index[i]];
     for (int k = part->num_pivots - 1; k >= 0; --k) {
       const int below = part->size - k - 1;
       factor -= below;
-      y[k] -= Column(factor, below).dot(y.tail(below));
+      y[k] -= DotProduct(factor, y + k + 1, below);
     }
     for (int i = 0; i < part->num_pivots; ++i) (*x)[index[i]] = y[i];
   }

@@ -58,50 +58,50 @@ template <int Width, int Vectors, int Columns>
   }
 }
 
-template <int Columns>
-[[gnu::always_inline]] inline void Row(const Product& p, std::ptrdiff_t row,
-                                       std::ptrdiff_t column) {
-  for (int j = 0; j < Columns; ++j) {
-    double sum = 0;
-    for (int k = 0; k < p.depth; ++k) {
-      sum += p.a[k * p.stride + row] * p.b[k * p.stride + column + j];
-    }
-    p.c[(column + j) * p.stride + row] -= sum;
-  }
-}
-
+/// The last rows share a vector with padding.
 template <int Width, int Columns>
-[[gnu::always_inline]] inline void Strip(int size, const Product& p, int column) {
+[[gnu::always_inline]] inline void Strip(int rows, const Product& p, int column) {
   int row = column;
-  for (; row + 2 * Width <= size; row += 2 * Width) Tile<Width, 2, Columns>(p, row, column);
-  if (row + Width <= size) {
-    Tile<Width, 1, Columns>(p, row, column);
-    row += Width;
-  }
-  for (; row < size; ++row) Row<Columns>(p, row, column);
+  for (; row + Width < rows; row += 2 * Width) Tile<Width, 2, Columns>(p, row, column);
+  if (row < rows) Tile<Width, 1, Columns>(p, row, column);
 }
 
 template <int Width>
-[[gnu::always_inline]] inline void Subtract(int size, const Product& p) {
+[[gnu::always_inline]] inline void Subtract(const LowerSizes& sizes, const Product& p) {
+  static_assert(Width <= kPaddingRows + 1 && kColumns == 6);
   int column = 0;
-  for (; column + kColumns <= size; column += kColumns) Strip<Width, kColumns>(size, p, column);
-  for (; column < size; ++column) Strip<Width, 1>(size, p, column);
+  for (; column + kColumns <= sizes.columns; column += kColumns) {
+    Strip<Width, kColumns>(sizes.rows, p, column);
+  }
+  switch (sizes.columns - column) {
+    case 5:
+      return Strip<Width, 5>(sizes.rows, p, column);
+    case 4:
+      return Strip<Width, 4>(sizes.rows, p, column);
+    case 3:
+      return Strip<Width, 3>(sizes.rows, p, column);
+    case 2:
+      return Strip<Width, 2>(sizes.rows, p, column);
+    case 1:
+      return Strip<Width, 1>(sizes.rows, p, column);
+    default:
+      return;
+  }
 }
 
-void SubtractPortably(int size, int depth, int stride, const double* a, const double* b,
-                      double* c) {
-  Subtract<2>(size, {depth, stride, a, b, c});
+void SubtractPortably(const LowerSizes& sizes, const double* a, const double* b, double* c) {
+  Subtract<2>(sizes, {sizes.depth, sizes.stride, a, b, c});
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2,fma")]] void SubtractByAvx2(int size, int depth, int stride, const double* a,
+[[gnu::target("avx2,fma")]] void SubtractByAvx2(const LowerSizes& sizes, const double* a,
                                                 const double* b, double* c) {
-  Subtract<4>(size, {depth, stride, a, b, c});
+  Subtract<4>(sizes, {sizes.depth, sizes.stride, a, b, c});
 }
 
-[[gnu::target("avx512f")]] void SubtractByAvx512(int size, int depth, int stride, const double* a,
+[[gnu::target("avx512f")]] void SubtractByAvx512(const LowerSizes& sizes, const double* a,
                                                  const double* b, double* c) {
-  Subtract<8>(size, {depth, stride, a, b, c});
+  Subtract<8>(sizes, {sizes.depth, sizes.stride, a, b, c});
 }
 #endif
 

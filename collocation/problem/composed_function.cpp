@@ -15,7 +15,7 @@ ComposedFunction::ComposedFunction(std::shared_ptr<Function> function,
       H_(function_->num_inputs(), function_->num_inputs()) {}
 
 void ComposedFunction::FindHessianSlots(ElementSlots* hessian) {
-  const Eigen::VectorXd x = PointFor(arguments_);
+  const AllOnes x;
   const std::size_t n = arguments_.size();
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = 0; b < n; ++b) {
@@ -69,15 +69,6 @@ void ComposedFunction::AddHessian(const Eigen::VectorXd& x, const Eigen::VectorX
     arguments_[a].Hessian(x,
                           [&](int, int, double second) { (*values)[*slot++] += slope * second; });
   }
-}
-
-Eigen::VectorXd PointFor(const std::vector<PolynomialForm>& forms) {
-  int greatest = -1;
-  for (const PolynomialForm& form : forms) {
-    greatest = std::max(greatest, form.duration);
-    for (const Monomial& m : form.monomials) greatest = std::max(greatest, m.variable);
-  }
-  return Eigen::VectorXd::Ones(greatest + 1);
 }
 
 }  // namespace possibility::collocation

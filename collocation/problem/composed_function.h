@@ -39,8 +39,4 @@ class ComposedFunction {
   Eigen::MatrixXd J_, H_;
 };
 
-/// A point at which forms can be visited to find their variables: slots are found by the same
-/// visits as in the evaluation.
-Eigen::VectorXd PointFor(const std::vector<PolynomialForm>& forms);
-
 }  // namespace possibility::collocation

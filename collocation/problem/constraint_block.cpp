@@ -14,9 +14,8 @@ ConstraintBlock::ConstraintBlock(std::shared_ptr<Function> function,
 void ConstraintBlock::FindSlots(int first_row, ElementSlots* jacobian, ElementSlots* hessian) {
   first_row_ = first_row;
   const std::vector<PolynomialForm>& arguments = function_.arguments();
-  const Eigen::VectorXd x = PointFor(arguments);
   for (std::size_t a = 0; a < arguments.size(); ++a) {
-    arguments[a].Gradient(x, [&](int variable, double) {
+    arguments[a].Gradient(AllOnes(), [&](int variable, double) {
       for (int o = 0; o < function_.num_outputs(); ++o) {
         if (jacobian_mask_(o, a)) jacobian_slots_.push_back(jacobian->At(first_row + o, variable));
       }

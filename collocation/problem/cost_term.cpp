@@ -10,9 +10,7 @@ CostTerm::CostTerm(std::shared_ptr<Function> function, std::vector<PolynomialFor
 
 void CostTerm::FindSlots(ElementSlots* hessian) {
   function_.FindHessianSlots(hessian);
-  std::vector<PolynomialForm> all = function_.arguments();
-  all.push_back(weight_);
-  const Eigen::VectorXd x = PointFor(all);
+  const AllOnes x;
   weight_.Gradient(x, [&](int i, double) {
     for (const PolynomialForm& argument : function_.arguments()) {
       argument.Gradient(x, [&](int j, double) { weight_slots_.push_back(hessian->AtLower(i, j)); });

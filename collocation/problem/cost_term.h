@@ -39,9 +39,8 @@ template <typename Visit>
 void CostTerm::ForVariables(const Visit& visit) const {
   std::vector<PolynomialForm> forms = function_.arguments();
   forms.push_back(weight_);
-  const Eigen::VectorXd x = PointFor(forms);
   for (const PolynomialForm& form : forms) {
-    form.Gradient(x, [&](int variable, double) { visit(variable); });
+    form.Gradient(AllOnes(), [&](int variable, double) { visit(variable); });
   }
 }
 

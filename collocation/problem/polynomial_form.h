@@ -12,6 +12,12 @@ struct Monomial {
   int power = 0;  ///< -1 to 2; -1 in rates of controls
 };
 
+/// A point whose variables are all 1, however many: where only the places of derivatives are asked
+/// for.
+struct AllOnes {
+  double operator[](int) const { return 1; }
+};
+
 /// A sum of monomials in the variables of a program, all with the same duration. Transcription
 /// makes such forms of integrals and interpolants: they are linear in the variables except for the
 /// duration of a phase.
@@ -20,14 +26,14 @@ struct PolynomialForm {
   std::vector<Monomial> monomials;
 
   double Value(const Eigen::VectorXd& x) const;
-  /// Calls visit(variable, derivative) for the variable of each monomial; the duration comes last,
+  /// `x`: the variables, by index. Calls visit(variable, derivative) for the variable of each monomial; the duration comes last,
   /// with its derivatives summed up.
-  template <typename Visit>
-  void Gradient(const Eigen::VectorXd& x, const Visit& visit) const;
+  template <typename Point, typename Visit>
+  void Gradient(const Point& x, const Visit& visit) const;
   /// Calls visit(variable, variable, derivative) for each second derivative that may be non-zero.
   /// All of them involve the duration; a mixed pair is visited once.
-  template <typename Visit>
-  void Hessian(const Eigen::VectorXd& x, const Visit& visit) const;
+  template <typename Point, typename Visit>
+  void Hessian(const Point& x, const Visit& visit) const;
   bool is_linear() const { return duration < 0; }
 
  private:
@@ -54,8 +60,8 @@ inline double PolynomialForm::Value(const Eigen::VectorXd& x) const {
   return sum;
 }
 
-template <typename Visit>
-void PolynomialForm::Gradient(const Eigen::VectorXd& x, const Visit& visit) const {
+template <typename Point, typename Visit>
+void PolynomialForm::Gradient(const Point& x, const Visit& visit) const {
   const double t = duration < 0 ? 1 : x[duration];
   double by_duration = 0;
   for (const Monomial& m : monomials) {
@@ -68,8 +74,8 @@ void PolynomialForm::Gradient(const Eigen::VectorXd& x, const Visit& visit) cons
   if (duration >= 0) visit(duration, by_duration);
 }
 
-template <typename Visit>
-void PolynomialForm::Hessian(const Eigen::VectorXd& x, const Visit& visit) const {
+template <typename Point, typename Visit>
+void PolynomialForm::Hessian(const Point& x, const Visit& visit) const {
   if (duration < 0) return;
   const double t = x[duration];
   double by_duration = 0;
