@@ -298,8 +298,10 @@ std::vector<std::vector<Phase>> DynamicGait::Variants(const std::vector<PlanarPo
   settings.knot_spacing = knot_spacing;
   settings.minimum_intervals = 2;
   for (const Pace& pace : paces_) {
-    // A slow pace has shorter steps than the one before, if it carries the root as high.
-    const bool is_within = &pace != paces_.data() && pace.rise <= (&pace - 1)->rise;
+    // A slow pace has shorter steps than the one before, if it carries the body in the same way and
+    // no higher.
+    const bool is_within = &pace != paces_.data() && pace.rise <= (&pace - 1)->rise &&
+                           pace.style == (&pace - 1)->style;
     if (is_within) continue;
     try {
       variants.push_back(MotionAt(pace, strides, settings, false, cancellation));

@@ -14,6 +14,8 @@ struct PaceStyle {
   double zmp_ahead = 0;  ///< m: of the balanced place of a swing's support
   /// The root is lowered where the limbs need it to reach their places.
   bool keeps_reach = false;
+
+  bool operator==(const PaceStyle&) const = default;
 };
 
 /// Length and timing of a dynamic gait's steps, and how the body is carried.

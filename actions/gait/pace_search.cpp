@@ -31,8 +31,10 @@ constexpr double kWiden = 1.3;
 constexpr double kNarrow = 0.98;
 constexpr int kMostChanges = 4;  // of numbers at a time
 
-/// A few steps do not show a gait that goes on: with each of them limbs may lag a little more.
+/// A few steps do not show a gait that goes on: with each of them limbs may lag a little more. On
+/// more than two limbs steps are short.
 constexpr int kManySteps = 8;
+constexpr int kManyShortSteps = 20;
 /// Motions may use 95 % of the limits; trials ask for 92 %, to have a reserve for this, too.
 constexpr double kReserve = 0.92 / 0.95;
 
@@ -59,14 +61,17 @@ class Searched {
     // In double supports shorter than the family's, forces change too quickly to be linear between
     // knots: points that bear little need more friction there than they have.
     const double double_support = start.timing.double_support;
+    const bool on_feet = gait.limbs.size() == 2;
+    const double least_start = on_feet ? 0.6 : 0.4;  // limbs that are well apart need less time
+    const double farthest_back = on_feet ? 0.15 : 0.35;
     unknowns_ = {
         {&timing.swing, 0.5 * swing, 1.2 * swing},
         {&timing.double_support, double_support, 2 * double_support},
-        {&timing.start, 0.6 * swing, 1.4 * swing},
+        {&timing.start, least_start * swing, 1.4 * swing},
         {&pace_.rise, 0, 0.17 * height},
         {&style.evenness, 1, kMostEven},
         {&style.zmp_ahead, -0.5 * gait.parameters.com_margin, 0.5 * gait.parameters.com_margin},
-        {&style.lean, -0.15, 0.15},
+        {&style.lean, -farthest_back, 0.15},
         {&style.turn, -0.3, 0.3}};
     if (WaistJoint(robot, stance)) unknowns_.push_back({&style.twist, -0.4, 0.4});
   }
@@ -117,31 +122,33 @@ class Searched {
 
 /// Of steps ahead, and of those of `start` aside and in turns. Many and shorter steps ahead count,
 /// too, if the others keep the limits. Only a lower bound if it is not below `enough`.
-double LoadOf(const PaceTrial& trial, const Pace& pace, const Pace& start, double enough) {
+double LoadOf(const PaceTrial& trial, const Pace& pace, const Pace& start, int many_steps,
+              double enough) {
   double load = trial.Load(pace, {pace.bounds.forward, 0, 0});
   if (load < enough) load = std::max(load, trial.Load(pace, {0, start.bounds.lateral, 0}));
   if (load < enough) load = std::max(load, trial.Load(pace, {0, 0, start.bounds.turn}));
   for (const double share : {1.0, 0.9, 0.8, 0.7, 0.6}) {
     if (load > 1) break;
     const PlanarPose step{share * pace.bounds.forward, 0, 0};
-    load = std::max(load, kReserve * trial.Load(pace, step, kManySteps));
+    load = std::max(load, kReserve * trial.Load(pace, step, many_steps));
   }
   return load;
 }
 
-/// The paces that a search found, from slow to quick. `asked`: before each trial, with its number.
-std::vector<Pace> FoundFrom(std::uint32_t seed, const Pace& start, const PaceTrial& trial,
-                            const PaceSearchSettings& settings, Searched* searched,
-                            const std::function<void(int)>& asked) {
+/// The paces that a search found, from slow to quick. `load_of`: LoadOf. `asked`: before each
+/// trial, with its number.
+std::vector<Pace> FoundFrom(std::uint32_t seed, const PaceSearchSettings& settings,
+                            const std::function<double(const Pace&, double enough)>& load_of,
+                            Searched* searched, const std::function<void(int)>& asked) {
   std::mt19937 random(seed);
   std::vector<Pace> found;
-  double load = LoadOf(trial, searched->pace(), start, kInfinite);
+  double load = load_of(searched->pace(), kInfinite);
   double spread = kSpread;
   int last = 0;  // trial that made the pace quicker
   for (int i = 0; i < settings.trials && i - last < settings.idle_trials; ++i) {
     asked(i);
     searched->Mutate(spread, &random);
-    const double now = LoadOf(trial, searched->pace(), start, load);
+    const double now = load_of(searched->pace(), load);
     if (!(now < load)) {
       searched->TakeBack();
       spread = std::max(kNarrow * spread, kNarrowest);
@@ -153,7 +160,7 @@ std::vector<Pace> FoundFrom(std::uint32_t seed, const Pace& start, const PaceTri
       last = i;
       found.push_back(searched->pace());
       searched->GoQuicker();
-      load = LoadOf(trial, searched->pace(), start, kInfinite);
+      load = load_of(searched->pace(), kInfinite);
     }
   }
   return found;
@@ -165,6 +172,10 @@ std::optional<Pace> SearchPace(const models::RobotModel& robot, const NominalSta
                                const Pace& start, const PaceSearchSettings& settings,
                                const CancellationToken& cancellation) {
   const PaceTrial trial(robot, stance);
+  const int many_steps = stance.gait->limbs.size() == 2 ? kManySteps : kManyShortSteps;
+  const auto load_of = [&](const Pace& pace, double enough) {
+    return LoadOf(trial, pace, start, many_steps, enough);
+  };
   std::vector<Pace> found;
   for (std::size_t search = 0; search < settings.seeds.size(); ++search) {
     Searched searched(robot, stance, start);
@@ -175,7 +186,7 @@ std::optional<Pace> SearchPace(const models::RobotModel& robot, const NominalSta
                         static_cast<int>(settings.seeds.size()) * settings.trials);
     };
     const std::vector<Pace> more =
-        FoundFrom(settings.seeds[search], start, trial, settings, &searched, asked);
+        FoundFrom(settings.seeds[search], settings, load_of, &searched, asked);
     found.insert(found.end(), more.begin(), more.end());
   }
   const Searched measure(robot, stance, start);
@@ -195,7 +206,7 @@ std::vector<Pace> OptimisedPaces(const models::RobotModel& robot, const NominalS
                                  const PaceSearchSettings& settings,
                                  const CancellationToken& cancellation) {
   std::vector<Pace> paces = FitPaces(robot, stance);
-  if (paces.empty() || stance.gait->limbs.size() != 2) return paces;
+  if (paces.empty() || SwingGroups(stance).size() != 2) return paces;
   const std::optional<Pace> quick =
       SearchPace(robot, stance, paces.front(), settings, cancellation);
   if (quick) paces.insert(paces.begin(), *quick);

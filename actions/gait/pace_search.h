@@ -26,14 +26,14 @@ struct PaceSearchSettings {
 /// numbers and takes the parent's place if it needs less of the limits; whenever they are kept, the
 /// speed rises. Steps aside and in turns stay as long as those of `start`, or become longer. The
 /// same seeds give the same pace.
-/// `stance`: of a gait on two feet. `start`: one that fits. None if no quicker one was found.
+/// `stance`: of a gait whose limbs swing in two groups. `start`: one that fits. None if no quicker one was found.
 /// @throws Cancelled.
 std::optional<Pace> SearchPace(const models::RobotModel& robot, const NominalStance& stance,
                                const Pace& start, const PaceSearchSettings& settings = {},
                                const CancellationToken& cancellation = {});
 
-/// The fitted paces, for gaits on two feet with an optimised one before them if there is one. Takes
-/// a minute or two.
+/// The fitted paces, for gaits whose limbs swing in two groups with an optimised one before them if
+/// there is one. Takes a minute or two.
 std::vector<Pace> OptimisedPaces(const models::RobotModel& robot, const NominalStance& stance,
                                  const PaceSearchSettings& settings = {},
                                  const CancellationToken& cancellation = {});

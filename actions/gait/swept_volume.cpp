@@ -21,8 +21,9 @@ constexpr double kSamplingInterval = 0.04;
 /// Merging two slabs may add at most this fraction to their volume.
 constexpr double kMergeSlack = 0.03;
 
-/// Strides of a sampled way of a gait that flows: start, full speed, stop.
-constexpr int kStridesOnTheWay = 5;
+/// Strides of a sampled way of a gait that flows: start, two steps at full speed, stop. Optimised
+/// steps are as long as two strides.
+constexpr int kStridesOnTheWay = 8;
 
 /// Zero displacement, and the corners, edge midpoints and face centres of the octahedron of allowed
 /// strides.

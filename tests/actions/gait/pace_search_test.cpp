@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "actions/gait/pace_trial.h"
 #include "common/cancellation_token.h"
 #include "tests/actions/dynamic_gaits.h"
@@ -39,6 +41,32 @@ TEST_F(PaceSearchTest, FindsAQuickerPaceThatKeepsTheLimits) {
   ASSERT_TRUE(again);
   EXPECT_EQ(again->speed(), found->speed());
   EXPECT_EQ(again->style.turn, found->style.turn);
+}
+
+// With few steps, arms that became too fast on longer ways had gone unseen.
+TEST(OptimisedCrawl, HoldsOnWaysOfAnyLength) {
+  const DynamicGait& crawl = DrcHubo1Flowing("crawl").motion();
+  ASSERT_EQ(crawl.paces().size(), 3u);
+  const Pace& pace = crawl.paces().front();
+  EXPECT_GT(pace.speed(), 1.5 * crawl.paces()[1].speed());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any_length(0.3, 9);
+  for (int i = 0; i < 12; ++i) {
+    const double length = any_length(random);
+    EXPECT_NO_THROW(
+        crawl.MotionAt(pace, {PlanarPose(), PlanarPose{length, 0, 0}}, crawl.Settings(), false))
+        << length;
+  }
+}
+
+// Volumes of the optimised crawl, whose trunk leans, do not contain those of an upright one.
+TEST(OptimisedCrawl, DoesNotStandForPacesOfAnotherStyle) {
+  const DynamicGait& crawl = DrcHubo1Flowing("crawl").motion();
+  ASSERT_NE(crawl.paces()[0].style, crawl.paces()[1].style);
+  const double stride = DrcHubo1Flowing("crawl").parameters().forward;
+  const std::vector<std::vector<Phase>> variants =
+      crawl.Variants({PlanarPose(), PlanarPose{stride, 0, 0}}, 0.04, {});
+  EXPECT_EQ(variants.size(), 1 + crawl.paces().size());  // the quasi-static one, too
 }
 
 TEST_F(PaceSearchTest, CanBeCancelled) {

@@ -117,13 +117,13 @@ void ExpectInside(const models::RobotModel& robot, const std::vector<Phase>& mot
   }
 }
 
-/// Ways of up to eight strides of one class, of any length.
-void ExpectVolumesHoldRandomWays(const std::string& name, int trials) {
+/// Ways of up to `most` strides of one class, of any length.
+void ExpectVolumesHoldRandomWays(const std::string& name, int trials, double most) {
   const models::RobotModel& robot = DrcHubo1();
   const FlowingGait& gait = DrcHubo1Flowing(name);
   const GaitVolumes volumes = SweepGait(robot, gait.stance(), gait.motion());
   std::mt19937 generator(4);
-  std::uniform_real_distribution<double> count(1, 8);
+  std::uniform_real_distribution<double> count(1, most);
   for (int trial = 0; trial < trials && !::testing::Test::HasFailure(); ++trial) {
     const StrideClass strides = kStrideClasses[trial % kStrideClasses.size()];
     const PlanarPose stride = RandomStride(strides, gait.parameters(), &generator);
@@ -145,11 +145,11 @@ class FlowingSweptVolumeTest : public ::testing::TestWithParam<std::string> {};
 class FlowingSweptVolumeLong : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FlowingSweptVolumeTest, HoldsRandomWaysOfEveryClass) {
-  ExpectVolumesHoldRandomWays(GetParam(), 60);
+  ExpectVolumesHoldRandomWays(GetParam(), 60, 8);
 }
 
 TEST_P(FlowingSweptVolumeLong, HoldsRandomWaysOfEveryClass) {
-  ExpectVolumesHoldRandomWays(GetParam(), 500);
+  ExpectVolumesHoldRandomWays(GetParam(), 500, 16);
 }
 
 const auto kGaitName = [](const auto& info) { return info.param; };
@@ -200,7 +200,8 @@ TEST(SweptVolumeTest, StridesInOneDirectionNeedLessRoomAcrossIt) {
     const GaitVolumes& volumes = gait->volumes;
     const models::GaitParameters& parameters = gait->stance.gait->parameters;
     const Eigen::Vector3d any = extent(volumes.sweep(StrideClass::kAny));
-    EXPECT_LT(extent(volumes.sweep(StrideClass::kStraight)).y(), any.y() - parameters.lateral / 2);
+    // The trunk of the optimised crawl turns with every step ahead: half a step aside would not do.
+    EXPECT_LT(extent(volumes.sweep(StrideClass::kStraight)).y(), any.y() - parameters.lateral / 3);
     EXPECT_LT(extent(volumes.sweep(StrideClass::kSideways)).x(), any.x() - parameters.forward / 2);
     EXPECT_LT(extent(volumes.standing).y(),
               extent(volumes.sweep(StrideClass::kStraight)).y() - 0.02);
