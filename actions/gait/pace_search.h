@@ -26,7 +26,8 @@ struct PaceSearchSettings {
 /// numbers and takes the parent's place if it needs less of the limits; whenever they are kept, the
 /// speed rises. Steps aside and in turns stay as long as those of `start`, or become longer. The
 /// same seeds give the same pace.
-/// `stance`: of a gait whose limbs swing in two groups. `start`: one that fits. None if no quicker one was found.
+/// `stance`: of a gait whose limbs swing in two groups. `start`: one that fits. None if no quicker
+/// one was found.
 /// @throws Cancelled.
 std::optional<Pace> SearchPace(const models::RobotModel& robot, const NominalStance& stance,
                                const Pace& start, const PaceSearchSettings& settings = {},

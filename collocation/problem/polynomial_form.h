@@ -26,8 +26,8 @@ struct PolynomialForm {
   std::vector<Monomial> monomials;
 
   double Value(const Eigen::VectorXd& x) const;
-  /// `x`: the variables, by index. Calls visit(variable, derivative) for the variable of each monomial; the duration comes last,
-  /// with its derivatives summed up.
+  /// `x`: the variables, by index. Calls visit(variable, derivative) for the variable of each
+  /// monomial; the duration comes last, with its derivatives summed up.
   template <typename Point, typename Visit>
   void Gradient(const Point& x, const Visit& visit) const;
   /// Calls visit(variable, variable, derivative) for each second derivative that may be non-zero.
