@@ -45,6 +45,7 @@ OptimalControlOptions OptionsOf(const py::dict& given) {
   options.intervals = given["intervals"].cast<std::vector<int>>();
   options.mesh_tolerance = given["mesh_tolerance"].cast<double>();
   options.jump_tolerance = given["jump_tolerance"].cast<double>();
+  options.coarse_first = given["coarse_first"].cast<bool>();
   options.solver.tolerance = given["tolerance"].cast<double>();
   options.solver.max_iterations = given["max_iterations"].cast<int>();
   options.solver.time_limit = given["time_limit"].cast<double>();

@@ -64,6 +64,8 @@ class Searched {
     const bool on_feet = gait.limbs.size() == 2;
     const double least_start = on_feet ? 0.6 : 0.4;  // limbs that are well apart need less time
     const double farthest_back = on_feet ? 0.15 : 0.35;
+    // Narrow passages are what more limbs are for: a trunk that turns far does not pass them.
+    const double most_turn = on_feet ? 0.3 : 0.08;
     unknowns_ = {
         {&timing.swing, 0.5 * swing, 1.2 * swing},
         {&timing.double_support, double_support, 2 * double_support},
@@ -72,7 +74,7 @@ class Searched {
         {&style.evenness, 1, kMostEven},
         {&style.zmp_ahead, -0.5 * gait.parameters.com_margin, 0.5 * gait.parameters.com_margin},
         {&style.lean, -farthest_back, 0.15},
-        {&style.turn, -0.3, 0.3}};
+        {&style.turn, -most_turn, most_turn}};
     if (WaistJoint(robot, stance)) unknowns_.push_back({&style.twist, -0.4, 0.4});
   }
   // The unknowns point into the pace.

@@ -37,6 +37,16 @@ std::size_t Mergeable(const Mesh& mesh, const std::vector<MeshError>& errors, st
 
 }  // namespace
 
+Mesh Coarse(const Mesh& mesh) {
+  constexpr std::size_t kFactor = 5;
+  constexpr std::size_t kLeast = 4;
+  const std::size_t intervals = mesh.size() - 1;
+  const std::size_t count = std::max(intervals / kFactor, std::min(intervals, kLeast));
+  Mesh coarse;
+  for (std::size_t i = 0; i <= count; ++i) coarse.push_back(mesh[i * intervals / count]);
+  return coarse;
+}
+
 Mesh Refined(const Mesh& mesh, const std::vector<MeshError>& errors, const MeshRule& rule) {
   Mesh refined = {mesh.front()};
   for (std::size_t i = 0; i + 1 < mesh.size(); ++i) {

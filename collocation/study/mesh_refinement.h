@@ -19,6 +19,9 @@ struct MeshRule {
   bool coarsen = false;
 };
 
+/// Every fifth knot, but at least four intervals; a mesh of up to four stays.
+Mesh Coarse(const Mesh& mesh);
+
 /// The mesh for the next solve. `errors`: by interval.
 Mesh Refined(const Mesh& mesh, const std::vector<MeshError>& errors, const MeshRule& rule);
 

@@ -206,6 +206,38 @@ std::vector<Mesh> NextMeshes(const std::vector<Mesh>& meshes,
   return next;
 }
 
+/// Whether a coarser mesh is worth a solve of its own: a small program is solved at once, and half
+/// of the intervals would take as long as they save.
+bool IsWorthwhile(const std::vector<Mesh>& coarse, const std::vector<Mesh>& meshes,
+                  const Transcription& program) {
+  constexpr int kLarge = 1200;  // variables
+  const auto intervals = [](const std::vector<Mesh>& of) {
+    std::size_t sum = 0;
+    for (const Mesh& mesh : of) sum += mesh.size() - 1;
+    return sum;
+  };
+  return program.num_variables() > kLarge && 3 * intervals(coarse) < intervals(meshes);
+}
+
+/// Where the solve of a program starts: from a solution on a coarser mesh, which is solved in the
+/// same way (nested iteration), or from the problem's guesses if that is not worthwhile or fails.
+SolverGuess GuessFromCoarse(const OptimalControlProblem& problem, const Transcription& program,
+                            const TranscriptionScheme& scheme, const std::vector<Mesh>& meshes,
+                            Method* method, OptimalControlResult* result) {
+  std::vector<Mesh> coarse;
+  for (const Mesh& mesh : meshes) coarse.push_back(Coarse(mesh));
+  if (!IsWorthwhile(coarse, meshes, program)) return GuessOf(program, {});
+  Transcription smaller(problem, scheme, coarse, method->cancellation);
+  const SolverGuess guess = GuessFromCoarse(problem, smaller, scheme, coarse, method, result);
+  const SolverResult solution = SolveToSize(&smaller, guess, method, result);
+  result->trajectory = smaller.TrajectoryOf(solution.x);
+  if (solution.status == SolverStatus::kCancelled) throw Cancelled();
+  if (!solution.succeeded()) return GuessOf(program, {});
+  if (!method->solver.has_multipliers()) return GuessOf(program, {&result->trajectory, nullptr});
+  const Multipliers multipliers = smaller.MultipliersOf(solution);
+  return GuessOf(program, {&result->trajectory, &multipliers});
+}
+
 void SolveFrom(Start start, const OptimalControlProblem& problem,
                const OptimalControlOptions& options, const CancellationToken& cancellation,
                const std::function<void(const SolverIteration&)>& log, OptimalControlResult* out) {
@@ -217,11 +249,14 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
   Method method{solver, options.solver, cancellation, log};
   for (;; ++result.refinements) {
     Transcription program(problem, options.scheme, meshes, cancellation);
-    const SolverGuess guess = GuessOf(program, start);
+    SolverGuess guess = GuessOf(program, start);
     if (result.refinements == 0) {
       result.dual_start = guess.constraint_multipliers.size() > 0;
       const bool check = options.check_derivatives;
       if (check && FoundWrongDerivative(program, guess, cancellation, &result)) return;
+      if (options.coarse_first && !start.trajectory) {
+        guess = GuessFromCoarse(problem, program, options.scheme, meshes, &method, &result);
+      }
     }
     result.solver = SolveToSize(&program, guess, &method, &result);
     if (options.explain_infeasible && FoundNoFeasiblePoint(result.solver, method.options)) {

@@ -24,6 +24,11 @@ struct OptimalControlOptions {
   std::vector<int> intervals = {20};
   /// Initial knots per phase, in place of `intervals`; empty: uniform.
   std::vector<Mesh> meshes;
+  /// A program of more than 1200 variables is first solved on every fifth knot of its mesh, and
+  /// that one in the same way (nested iteration). Motion and multipliers are where the solve on the
+  /// mesh itself starts; if the coarse one fails, it starts from the guesses. No matter if a motion
+  /// is given to start from.
+  bool coarse_first = true;
   /// The mesh is refined until the error between the knots is below this; 0: never.
   double mesh_tolerance = 0;
   /// When the mesh is refined, neighbouring intervals whose errors are far below mesh_tolerance
@@ -80,7 +85,7 @@ struct OptimalControlResult {
   std::vector<std::vector<ControlJump>> jumps;
   int refinements = 0;
   SolverResult solver;            ///< of the last mesh
-  SolverTimes times;              ///< of all meshes together
+  SolverTimes times;              ///< of all meshes together, coarse ones too
   int iterations = 0;             ///< of all meshes together
   SolverEvaluations evaluations;  ///< of all meshes together
 

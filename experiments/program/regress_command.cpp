@@ -45,6 +45,7 @@ struct RegressOptions {
   std::string linear_solver = "ldlt";
   std::string hessian = "exact";
   bool work_precision = false;
+  bool direct = false;
   bool json = false;
 };
 
@@ -99,6 +100,7 @@ RegressionOptions RunOptions(const RegressOptions& options) {
   if (run.solver != &IpoptSolver()) run.time_limit = kSlsqpSeconds;
   run.second_order_check = true;
   run.work_precision = options.work_precision;
+  run.coarse_first = !options.direct;
   run.linear_solver =
       Choose<LinearSolver>("--linear-solver", options.linear_solver,
                            {{"ldlt", LinearSolver::kSparseLdlt}, {"mumps", LinearSolver::kMumps}});
@@ -252,6 +254,7 @@ Command AddRegressCommand(CLI::App& program) {
   command.AddOptional("--solver", &options->solver, "ipopt, or slsqp: dense, for small problems");
   command.AddOptional("--linear-solver", &options->linear_solver, "ldlt or mumps");
   command.AddOptional("--hessian", &options->hessian, "exact or limited_memory");
+  command.AddFlag("--direct", &options->direct, "Solve no large problem on coarser meshes first");
   command.AddFlag("--work-precision", &options->work_precision,
                   "Also each scheme's error and time on meshes from coarse to fine");
   command.AddFlag("--json", &options->json, "Print one JSON object");

@@ -87,7 +87,8 @@ ordered_json RegressionOptions::Json() const {
           {"intervals", intervals ? ordered_json(*intervals) : ordered_json(nullptr)},
           {"solver", solver ? solver->name() : collocation::IpoptSolver().name()},
           {"linear_solver", ldlt ? "ldlt" : "mumps"},
-          {"hessian", exact ? "exact" : "limited_memory"}};
+          {"hessian", exact ? "exact" : "limited_memory"},
+          {"coarse_first", coarse_first}};
 }
 
 collocation::OptimalControlOptions RegressionOptions::For(const RegressionProblem& problem) const {
@@ -100,6 +101,7 @@ collocation::OptimalControlOptions RegressionOptions::For(const RegressionProble
   options.solver.time_limit = time_limit;
   options.nonlinear_solver = solver;
   options.second_order_check = second_order_check;
+  options.coarse_first = coarse_first;
   return options;
 }
 

@@ -20,6 +20,7 @@ struct RegressionOptions {
   const collocation::NonlinearSolver* solver = nullptr;  ///< null: Ipopt
   double time_limit = 0;                                 ///< s for each mesh; 0: none
   bool second_order_check = false;
+  bool coarse_first = true;     ///< large problems are first solved on coarser meshes
   bool work_precision = false;  ///< measured for each problem; takes 20 to 70 times as long
 
   nlohmann::ordered_json Json() const;

@@ -260,14 +260,14 @@ class Problem:
               scheme: Optional[str] = None, nodes: int = 4, mesh_tolerance: Optional[float] = None,
               jump_tolerance: float = 0, tolerance: float = 1e-8, max_iterations: int = 1000,
               time_limit: float = 0, check_derivatives: bool = False,
-              second_order_check: bool = False) -> "Solution":
+              second_order_check: bool = False, coarse_first: bool = True) -> "Solution":
         """Solves the problem. Raises SolveError if it is not solved. Ctrl-C ends it.
 
         intervals: of the first mesh, for all phases or for each. scheme: trapezoidal,
         hermite_simpson, hermite_simpson_compressed, gauss_lobatto, legendre_gauss or flipped_radau,
         of `nodes` nodes where it needs them. mesh_tolerance: the mesh is refined until the error
-        between its points is below; 0: never. time_limit: s; 0: none. docs/collocation.md tells
-        more.
+        between its points is below; 0: never. time_limit: s; 0: none. coarse_first: large problems
+        are first solved on every fifth knot. docs/collocation.md tells more.
         """
         chosen = {"intervals": intervals, "scheme": scheme, "mesh_tolerance": mesh_tolerance}
         options = {"intervals": 20, "scheme": "hermite_simpson", "mesh_tolerance": 0.0,
@@ -278,7 +278,7 @@ class Problem:
                        nodes=nodes, jump_tolerance=jump_tolerance, tolerance=tolerance,
                        max_iterations=max_iterations, time_limit=time_limit,
                        check_derivatives=check_derivatives,
-                       second_order_check=second_order_check)
+                       second_order_check=second_order_check, coarse_first=coarse_first)
         solution = Solution(self, _ext.solve(self._raw, options))
         if not solution.succeeded:
             conflict = "; ".join(solution.conflict)

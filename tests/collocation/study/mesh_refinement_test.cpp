@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "collocation/study/optimal_control.h"
 
@@ -13,6 +15,24 @@ std::vector<MeshError> ErrorsOf(const std::vector<double>& values) {
   std::vector<MeshError> errors;
   for (const double value : values) errors.push_back({value, 0, 0});
   return errors;
+}
+
+TEST(Coarse, HasEveryFifthKnotButAtLeastFourIntervals) {
+  EXPECT_EQ(Coarse(UniformMesh(10000)).size(), 2001U);
+  EXPECT_EQ(Coarse(UniformMesh(3)), UniformMesh(3));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> length(0.1, 10);
+  for (int intervals = 4; intervals < 60; ++intervals) {
+    Mesh mesh = {0};
+    for (int i = 0; i < intervals; ++i) mesh.push_back(mesh.back() + length(random));
+    for (double& knot : mesh) knot /= mesh.back();
+    const Mesh coarse = Coarse(mesh);
+    EXPECT_EQ(coarse.size() - 1, std::max<std::size_t>(intervals / 5, 4));
+    EXPECT_EQ(coarse.front(), 0);
+    EXPECT_EQ(coarse.back(), mesh.back());
+    EXPECT_TRUE(std::is_sorted(coarse.begin(), coarse.end()));
+    EXPECT_TRUE(std::includes(mesh.begin(), mesh.end(), coarse.begin(), coarse.end()));
+  }
 }
 
 TEST(Refined, SplitsWhatIsAboveTheToleranceAndMergesWhatStaysFarBelow) {

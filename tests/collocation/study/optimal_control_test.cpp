@@ -3,6 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/collocation/study/neighbouring_problems.h"
 
 namespace possibility::collocation {
 namespace {
@@ -245,6 +250,101 @@ TEST(OptimalControlTest, StartFromASolutionTakesFewerIterations) {
   ASSERT_TRUE(warm.succeeded());
   EXPECT_LT(warm.iterations, cold.iterations);
   EXPECT_NEAR(warm.objective, cold.objective, 1e-6 * cold.objective);
+}
+
+/// The numbers of iterations of the solves, one after another.
+std::vector<int> SolvesOf(const OptimalControlProblem& problem,
+                          const OptimalControlOptions& options, OptimalControlResult* result) {
+  std::vector<int> solves;
+  *result = SolveOptimalControl(problem, options, std::nullopt, {},
+                                [&solves](const SolverIteration& iteration) {
+                                  if (iteration.number == 0) solves.push_back(0);
+                                  solves.back() = iteration.number;
+                                });
+  return solves;
+}
+
+TEST(CoarseFirst, ALargeProblemIsSolvedFromASolutionOnFewerKnots) {
+  const auto problem = Goddard(0.6);
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  options.intervals = {600};  // 4208 variables
+  OptimalControlResult direct, nested;
+  options.coarse_first = false;
+  ASSERT_EQ(SolvesOf(*problem, options, &direct).size(), 1U);
+  options.coarse_first = true;
+  const std::vector<int> iterations = SolvesOf(*problem, options, &nested);
+  ASSERT_EQ(iterations.size(), 2U);
+  EXPECT_LT(iterations[1], direct.iterations);
+  EXPECT_EQ(nested.iterations, iterations[0] + iterations[1]);
+  EXPECT_EQ(nested.refinements, 0);
+  EXPECT_FALSE(nested.dual_start);
+  EXPECT_EQ(nested.trajectory.phases[0].mesh, UniformMesh(600));
+  ASSERT_TRUE(nested.succeeded()) << nested.message;
+  EXPECT_NEAR(nested.objective, direct.objective, 1e-8);
+}
+
+TEST(CoarseFirst, ASmallProblemIsSolvedAtOnce) {
+  OptimalControlResult result;
+  EXPECT_EQ(SolvesOf(*Goddard(0.6), {}, &result).size(), 1U);
+}
+
+/// Ipopt, which claims that small programs are infeasible.
+class FailsOnSmallPrograms : public NonlinearSolver {
+ public:
+  std::string name() const override { return "fails on small programs"; }
+  bool has_multipliers() const override { return true; }
+  SolverResult Solve(NonlinearProgram* program, const SolverGuess& guess,
+                     const SolverOptions& options, const CancellationToken& cancellation,
+                     const std::function<void(const SolverIteration&)>& log) const override {
+    SolverResult result = IpoptSolver().Solve(program, guess, options, cancellation, log);
+    if (program->num_variables() < 2000) result.status = SolverStatus::kInfeasible;
+    return result;
+  }
+};
+
+TEST(CoarseFirst, IfTheCoarseSolveFailsTheGuessesAreTheStart) {
+  const auto problem = Goddard(0.6);
+  const FailsOnSmallPrograms solver;
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  options.intervals = {600};
+  options.nonlinear_solver = &solver;
+  OptimalControlResult direct, nested;
+  options.coarse_first = false;
+  SolvesOf(*problem, options, &direct);
+  options.coarse_first = true;
+  const std::vector<int> iterations = SolvesOf(*problem, options, &nested);
+  ASSERT_EQ(iterations.size(), 2U);
+  EXPECT_EQ(iterations[1], direct.iterations);
+  EXPECT_EQ(nested.objective, direct.objective);
+}
+
+TEST(CoarseFirst, IsNoMatterWhereAMotionIsGiven) {
+  const auto problem = Goddard(0.6);
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  options.intervals = {600};
+  const OptimalControlResult cold = SolveOptimalControl(*problem, options);
+  int solves = 0;
+  const auto count = [&](const SolverIteration& iteration) { solves += iteration.number == 0; };
+  SolveOptimalControl(*problem, options, cold.trajectory, {}, count);
+  EXPECT_EQ(solves, 1);
+  EXPECT_TRUE(SolveOptimalControl(*problem, Store(*problem, cold), options, {}, count).dual_start);
+  EXPECT_EQ(solves, 2);
+}
+
+TEST(CoarseFirst, CancelledOnTheCoarseMeshGivesItsTrajectory) {
+  OptimalControlOptions options;
+  options.scheme = Trapezoidal();
+  options.intervals = {600};
+  bool cancelled = false;
+  const OptimalControlResult result = SolveOptimalControl(
+      *Goddard(0.6), options, std::nullopt, CancellationToken([&] { return !cancelled; }),
+      [&](const SolverIteration&) { cancelled = true; });
+  EXPECT_EQ(result.status, SolverStatus::kCancelled);
+  ASSERT_EQ(result.trajectory.phases.size(), 1U);
+  EXPECT_EQ(result.trajectory.phases[0].mesh.size(), 121U);
 }
 
 TEST(OptimalControlTest, CancelledWhileTheProgramIsBuiltGivesNoTrajectory) {

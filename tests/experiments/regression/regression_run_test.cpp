@@ -124,6 +124,10 @@ TEST(RegressionRun, OptionsReachTheSolver) {
   EXPECT_EQ(json["linear_solver"], "mumps");
   EXPECT_EQ(json["hessian"], "limited_memory");
   EXPECT_EQ(json["intervals"], 7);
+  EXPECT_EQ(json["coarse_first"], true);
+  options.coarse_first = false;
+  EXPECT_EQ(options.Json()["coarse_first"], false);
+  EXPECT_FALSE(options.For(BlockMove({{"global", 12, 1e-6}})).coarse_first);
 }
 
 }  // namespace
