@@ -72,8 +72,10 @@ class JumpSolver {
 
  private:
   /// True if the attempt decided the answer. A finer mesh may help if only the whole robot failed.
+  /// `coarser`: the solution to start from, if there is one, and then this attempt's.
   bool Attempt(const JumpTask& task, double fineness, const CancellationToken& cancellation,
-               const Log& log, JumpAnswer* answer) const;
+               const Log& log, std::optional<collocation::StoredSolution>* coarser,
+               JumpAnswer* answer) const;
   /// Verifies the motion, too, if `is_new`.
   void RealiseInSpace(const JumpProblem& problem, const collocation::Trajectory& trajectory,
                       bool is_new, JumpAnswer* answer) const;

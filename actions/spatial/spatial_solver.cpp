@@ -165,6 +165,12 @@ SpatialSettings SpatialSolverSettings::ProblemDefaults() {
   return problem;
 }
 
+collocation::SolverOptions SpatialSolverSettings::SolverDefaults() {
+  collocation::SolverOptions options;
+  options.ipopt = {{"bound_mult_init_val", "0.01"}};
+  return options;
+}
+
 MotionSettings SpatialSolverSettings::MotionDefaults() {
   MotionSettings motion;
   motion.knot_spacing = 0.01;

@@ -20,7 +20,7 @@ struct SpatialSolverSettings {
   SpatialSettings problem = ProblemDefaults();
   double interval = 0.05;  ///< s, of the mesh, about
   int least_intervals = 3;
-  collocation::SolverOptions solver;
+  collocation::SolverOptions solver = SolverDefaults();
   double clearance = 0.01;  ///< m, of links from each other
   int max_rounds = 8;       ///< of solving again with planes between links that came too close
   MotionSettings motion = MotionDefaults();  ///< of the whole robot
@@ -30,6 +30,9 @@ struct SpatialSolverSettings {
 
   /// The problem keeps a tenth of the robot's limits for what lies between the knots.
   static SpatialSettings ProblemDefaults();
+  /// Multipliers of bounds begin at 0.01 instead of 1: the step over a beam, two rounds, takes 110
+  /// iterations instead of 156.
+  static collocation::SolverOptions SolverDefaults();
   static MotionSettings MotionDefaults();
 };
 

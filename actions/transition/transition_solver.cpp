@@ -1,7 +1,10 @@
 #include "actions/transition/transition_solver.h"
 
+#include <optional>
+
 #include "actions/motion/phase_sequence.h"
 #include "actions/sagittal/bare_ground.h"
+#include "actions/sagittal/sagittal_solver_options.h"
 #include "actions/sagittal/stance_motion.h"
 #include "actions/wholebody/motion_builder.h"
 #include "actions/wholebody/motion_error.h"
@@ -26,19 +29,20 @@ TransitionSolver::TransitionSolver(const models::RobotModel& robot, const Nomina
 SolvedTransition TransitionSolver::Solve(const CancellationToken& cancellation) const {
   const SitDownProblem problem(model_, settings_);
   std::string fault;
+  std::optional<collocation::StoredSolution> coarser;
   for (const auto& intervals : kIntervals) {
     collocation::OptimalControlOptions options;
     options.intervals = {std::begin(intervals), std::end(intervals)};
-    options.solver.tolerance = 1e-5;
-    options.solver.constraint_tolerance = 1e-7;
+    options.solver = SagittalSolverOptions(1e-5, coarser.has_value());
     const collocation::OptimalControlResult result =
-        collocation::SolveOptimalControl(problem.problem(), options, std::nullopt, cancellation);
+        coarser ? SolveOptimalControl(problem.problem(), *coarser, options, cancellation)
+                : SolveOptimalControl(problem.problem(), options, std::nullopt, cancellation);
     if (result.status == collocation::SolverStatus::kCancelled) throw Cancelled();
     fault = result.message;
     if (!result.succeeded()) continue;
+    coarser = collocation::Store(problem.problem(), result);
     try {
-      SolvedTransition solved{InSpace(result.trajectory),
-                              collocation::Store(problem.problem(), result)};
+      SolvedTransition solved{InSpace(result.trajectory), *coarser};
       fault = FaultOnBareGround(robot_, model_, from_, to_, SitDownProblem::Displacement(model_), 0,
                                 solved.phases);
       if (fault.empty()) return solved;

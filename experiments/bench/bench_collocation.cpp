@@ -34,10 +34,12 @@ struct Sample {
   double but_callbacks() const { return times.total - times.functions - times.derivatives; }
 };
 
-/// Solves as `possibility regress` does: from the stated guess, refining the mesh.
+/// Solves as `possibility regress --direct` does: from the stated guess, refining the mesh. Coarse
+/// meshes would leave little to the linear solver.
 Sample SolveWhole(const RegressionProblem& problem, LinearSolver linear_solver) {
   const auto posed = problem.build();
   RegressionOptions options;
+  options.coarse_first = false;
   options.linear_solver = linear_solver;
   const OptimalControlResult result = SolveOptimalControl(*posed, options.For(problem));
   return {result.times, result.succeeded()};

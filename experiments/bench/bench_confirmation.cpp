@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "actions/jump/jump_sweep.h"
 #include "common/stopwatch.h"
+#include "experiments/support/temporary_folder.h"
 #include "models/input/input_error.h"
 
 namespace possibility::experiments {
@@ -15,25 +15,6 @@ namespace {
 using actions::JumpAnswer;
 using actions::JumpSweepEntry;
 using actions::JumpTask;
-
-/// A folder that is removed by the destructor.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(std::filesystem::temp_directory_path() /
-              fmt::format("possibility_bench_{}",
-                          std::chrono::steady_clock::now().time_since_epoch().count())) {}
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Fraction confirmed of the entries between the first and the last possible one of each height.
 double ConfirmedFraction(const std::vector<JumpSweepEntry>& entries,

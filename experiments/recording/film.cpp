@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "experiments/recording/child_process.h"
-#include "experiments/recording/temporary_folder.h"
 #include "experiments/support/output_file.h"
+#include "experiments/support/temporary_folder.h"
 #include "models/input/file_contents.h"
 #include "models/input/input_error.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "experiments/recording/child_process.h"
-#include "experiments/recording/temporary_folder.h"
+#include "experiments/support/temporary_folder.h"
 #include "models/input/json_text.h"
 
 namespace possibility::experiments {

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "actions/jump/jump_library.h"
 #include "actions/jump/jump_reach.h"
@@ -266,6 +268,20 @@ TEST(JumpSolverTest, RefusesARootThatIsTooFast) {
   const JumpAnswer answer = solver.Realise(kTask, *Answer().solution);
   EXPECT_FALSE(answer.jump);
   EXPECT_NE(answer.reason.find("the root flies at"), std::string::npos) << answer.reason;
+}
+
+// On the first mesh a jump up this far is solved, but the whole robot cannot follow it.
+TEST(JumpSolverTest, FinerMeshesStartFromTheCoarserSolution) {
+  std::vector<int> solves;
+  const JumpAnswer answer =
+      Solver().Solve({0.7, 0.2}, {}, [&solves](const collocation::SolverIteration& iteration) {
+        if (iteration.number == 0) solves.push_back(0);
+        solves.back() = iteration.number;
+      });
+  ASSERT_TRUE(answer.jump) << answer.reason;
+  ASSERT_GE(solves.size(), 2U);
+  EXPECT_EQ(answer.effort.attempts, std::ssize(solves));
+  for (std::size_t i = 1; i < solves.size(); ++i) EXPECT_LT(solves[i], solves[0]);
 }
 
 TEST(JumpSolverTest, ACancelledSolveGivesNoJump) {

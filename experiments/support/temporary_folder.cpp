@@ -1,4 +1,4 @@
-#include "experiments/recording/temporary_folder.h"
+#include "experiments/support/temporary_folder.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
