@@ -224,8 +224,8 @@ bool IsWorthwhile(const std::vector<Mesh>& coarse, const std::vector<Mesh>& mesh
 SolverGuess GuessFromCoarse(const OptimalControlProblem& problem, const Transcription& program,
                             const TranscriptionScheme& scheme, const std::vector<Mesh>& meshes,
                             Method* method, OptimalControlResult* result) {
-  std::vector<Mesh> coarse;
-  for (const Mesh& mesh : meshes) coarse.push_back(Coarse(mesh));
+  std::vector<Mesh> coarse(meshes.size());
+  std::transform(meshes.begin(), meshes.end(), coarse.begin(), Coarse);
   if (!IsWorthwhile(coarse, meshes, program)) return GuessOf(program, {});
   Transcription smaller(problem, scheme, coarse, method->cancellation);
   const SolverGuess guess = GuessFromCoarse(problem, smaller, scheme, coarse, method, result);
