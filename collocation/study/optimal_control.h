@@ -26,8 +26,8 @@ struct OptimalControlOptions {
   std::vector<Mesh> meshes;
   /// A program of more than 1200 variables is first solved on every fifth knot of its mesh, and
   /// that one in the same way (nested iteration). Motion and multipliers are where the solve on the
-  /// mesh itself starts; if the coarse one fails, it starts from the guesses. No matter if a motion
-  /// is given to start from.
+  /// mesh itself starts; if the coarse one fails, it starts from the guesses. Without effect if a
+  /// motion is given to start from.
   bool coarse_first = true;
   /// The mesh is refined until the error between the knots is below this; 0: never.
   double mesh_tolerance = 0;
