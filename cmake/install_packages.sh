@@ -8,7 +8,7 @@ set -eu
 packages="build-essential cmake ninja-build pkg-config libeigen3-dev libsimbody-dev
 coinor-libipopt-dev libsundials-dev libbullet-dev liburdfdom-dev libtinyxml2-dev libgtest-dev
 libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libmuparser-dev
-libxxhash-dev libassimp-dev libpng-dev zlib1g-dev libzstd-dev libjs-three libopenblas0-pthread"
+libxxhash-dev libassimp-dev libmeshoptimizer-dev libpng-dev zlib1g-dev libzstd-dev libjs-three libopenblas0-pthread"
 
 python="pybind11-dev python3-dev python3-numpy python3-matplotlib"
 

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <set>
 
 #include "experiments/support/xml_text.h"
 #include "models/input/input_error.h"
+#include "models/mesh/mesh_writer.h"
 
 namespace possibility::experiments {
 namespace {
@@ -50,20 +50,17 @@ std::string Origin(const Isometry3d& X) {
 }
 
 /// A mesh as MuJoCo keeps it: in single precision, about its own frame.
-std::string Stl(const mjModel& model, int mesh) {
-  std::string bytes(80, ' ');
-  const auto append = [&](const auto& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  const int* faces = model.mesh_face + 3 * model.mesh_faceadr[mesh];
+models::TriangleMesh MeshOf(const mjModel& model, int mesh) {
+  models::TriangleMesh result;
   const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
-  append(static_cast<std::uint32_t>(model.mesh_facenum[mesh]));
-  for (int face = 0; face < model.mesh_facenum[mesh]; ++face) {
-    for (int k = 0; k < 3; ++k) append(0.0f);  // the normal follows from the corners
-    for (int k = 0; k < 9; ++k) append(vertices[3 * faces[3 * face + k / 3] + k % 3]);
-    append(std::uint16_t{0});
+  for (int i = 0; i < model.mesh_vertnum[mesh]; ++i) {
+    result.vertices.emplace_back(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
   }
-  return bytes;
+  const int* faces = model.mesh_face + 3 * model.mesh_faceadr[mesh];
+  for (int i = 0; i < model.mesh_facenum[mesh]; ++i) {
+    result.triangles.push_back({faces[3 * i], faces[3 * i + 1], faces[3 * i + 2]});
+  }
+  return result;
 }
 
 class Converter {
@@ -363,7 +360,9 @@ class Converter {
       if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
     }
     std::string file = fmt::format("meshes/{}_{}.stl", mesh, name);
-    if (meshes_.insert(mesh).second) result_.files.push_back({file, Stl(model_, mesh)});
+    if (meshes_.insert(mesh).second) {
+      result_.files.push_back({file, models::BinaryStl(MeshOf(model_, mesh))});
+    }
     return file;
   }
 

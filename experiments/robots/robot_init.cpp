@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "actions/gait/pace_library.h"
 #include "actions/onboarding/gait_fit.h"
@@ -14,6 +15,7 @@
 #include "actions/plan/plan_writer.h"
 #include "actions/planner/planner.h"
 #include "experiments/mjcf/mjcf_robot.h"
+#include "experiments/robots/seen_meshes.h"
 #include "experiments/robots/winding_ways.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/output_file.h"
@@ -53,6 +55,7 @@ class Init {
                  ? DraftOfMjcf()
                  : actions::DraftRobot(options_.urdf, options_.packages, options_.srdf);
     draft_.robot.name = SafeName(options_.urdf);
+    if (!options_.is_mjcf) CopyWhatIsSeen();
     if (!options_.json) PrintFindings();
     std::vector<actions::FittedGait> fits = Fit();
     if (fits.empty()) return ReportNoWalk();
@@ -83,6 +86,18 @@ class Init {
     actions::RobotDraft draft = actions::DraftRobot(urdf, options_.packages, srdf);
     draft.findings.insert(draft.findings.begin(), robot.findings.begin(), robot.findings.end());
     return draft;
+  }
+
+  /// The copy of the URDF lies elsewhere, so it needs meshes of its own.
+  void CopyWhatIsSeen() {
+    SeenMeshes seen = CopySeenMeshes(draft_.urdf, draft_.urdf_file, options_.packages);
+    draft_.urdf = std::move(seen.urdf);
+    draft_.warnings.insert(draft_.warnings.end(), seen.warnings.begin(), seen.warnings.end());
+    if (seen.files.empty()) return;
+    PrepareOutputFolder("--out", options_.out / "meshes");
+    for (const NamedBytes& file : seen.files) WriteOutput(options_.out / file.name, file.bytes);
+    draft_.findings.push_back(fmt::format("looks: {} meshes of {} triangles, in meshes/",
+                                          seen.files.size(), seen.triangles));
   }
 
   void PrintFindings() const {

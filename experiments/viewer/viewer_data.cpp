@@ -13,6 +13,7 @@
 #include "experiments/report/cost_of_transport.h"
 #include "experiments/report/plan_speeds.h"
 #include "experiments/report/plan_summary.h"
+#include "experiments/viewer/robot_look.h"
 #include "experiments/viewer/viewer_motion.h"
 #include "experiments/viewer/viewer_packing.h"
 #include "models/input/json_text.h"
@@ -66,6 +67,40 @@ Json LinksJson(const models::RobotModel& robot) {
     links.push_back({{"name", link.name}, {"shapes", shapes}});
   }
   return links;
+}
+
+Json MeshJson(const models::TriangleMesh& mesh) {
+  std::vector<float> vertices;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) Append(vertex, &vertices);
+  std::vector<std::int32_t> triangles;
+  for (const auto& triangle : mesh.triangles) {
+    triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+  }
+  return {{"vertices", Packed(vertices)}, {"triangles", Packed(triangles)}};
+}
+
+/// Adds what is seen of each link to its JSON, where that is known.
+Json MeshesJson(const RobotLook& look, Json* links) {
+  for (std::size_t i = 0; i < look.links.size(); ++i) {
+    Json parts = Json::array();
+    for (const models::PosedShape& posed : look.links[i].shapes) {
+      parts.push_back(ShapeJson(posed.shape));
+      parts.back()["pose"] = PoseJson(posed.X_PS);
+    }
+    for (const PosedMesh& posed : look.links[i].meshes) {
+      parts.push_back({{"type", "mesh"}, {"mesh", posed.mesh}, {"pose", PoseJson(posed.X_LM)}});
+    }
+    if (!parts.empty()) (*links)[i]["look"] = parts;
+  }
+  Json meshes = Json::array();
+  for (const models::TriangleMesh& mesh : look.meshes) meshes.push_back(MeshJson(mesh));
+  return meshes;
+}
+
+/// What the page says of meshes that are not drawn.
+std::string FaultText(const std::vector<std::string>& faults) {
+  if (faults.size() == 1) return faults.front();
+  return fmt::format("{} (and {} more)", faults.front(), faults.size() - 1);
 }
 
 /// Null for a limit that is absent or zero.
@@ -127,16 +162,9 @@ Json ObstaclesJson(const models::Environment& environment) {
 Json SurfacesJson(const models::Environment& environment) {
   Json surfaces = Json::array();
   for (const models::Surface& surface : environment.surfaces) {
-    std::vector<float> vertices;
-    for (const Eigen::Vector3d& vertex : surface.mesh.vertices) Append(vertex, &vertices);
-    std::vector<std::int32_t> triangles;
-    for (const auto& triangle : surface.mesh.triangles) {
-      triangles.insert(triangles.end(), triangle.begin(), triangle.end());
-    }
-    surfaces.push_back({{"name", surface.name},
-                        {"ground", surface.is_ground},
-                        {"vertices", Packed(vertices)},
-                        {"triangles", Packed(triangles)}});
+    surfaces.push_back(MeshJson(surface.mesh));
+    surfaces.back()["name"] = surface.name;
+    surfaces.back()["ground"] = surface.is_ground;
   }
   return surfaces;
 }
@@ -255,14 +283,19 @@ std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& 
   Json goals = Json::array();
   for (const models::Stance& goal : scenario.goals) goals.push_back(StanceJson(goal));
   const Eigen::AlignedBox2d& bounds = scenario.environment.bounds;
+  const RobotLook look = LookOf(robot);
+  Json links = LinksJson(robot);
+  const Json meshes = MeshesJson(look, &links);
   Json json;
   json["title"] = heading.title;
   json["facts"] = heading.facts;
+  if (!look.faults.empty()) json["facts"].push_back({"Not drawn", FaultText(look.faults)});
   json["plots_first"] = heading.plots_first;
   json["gravity"] = dynamics::kGravity;
   json["weight"] = dynamics::kGravity * robot.TotalMass();
   json["friction"] = robot.friction;
-  json["links"] = LinksJson(robot);
+  json["links"] = links;
+  json["meshes"] = meshes;
   json["joints"] = JointsJson(robot);
   json["pairs"] = robot.sagittal_pairs;
   json["contacts"] = ContactsJson(robot);

@@ -269,7 +269,29 @@ std::filesystem::path UrdfFile(const YamlNode& root, const std::filesystem::path
   return file;
 }
 
+/// Links and joints of the URDF, with what the YAML changes of them.
+UrdfRobot BuildTree(const YamlNode& root, const std::filesystem::path& urdf_file,
+                    const std::string& urdf, UrdfGeometry geometry) {
+  UrdfTree tree = ParseUrdf(urdf, urdf_file, geometry);
+  if (const auto inertials = root.Find("inertials")) ReadInertials(*inertials, &tree);
+  ReadRootLink(root.At("root_link"), tree);
+  return BuildUrdfRobot(tree, ReadLumped(root, tree), urdf_file);
+}
+
 }  // namespace
+
+RobotVisuals LoadRobotVisuals(const std::filesystem::path& yaml_file) {
+  const YamlNode root = YamlNode::Parse(ReadFileContents(yaml_file), yaml_file);
+  RobotVisuals visuals;
+  visuals.urdf_file = UrdfFile(root, yaml_file);
+  const std::string urdf = ReadFileContents(visuals.urdf_file);
+  if (urdf.find("<visual") == std::string::npos) return visuals;
+  UrdfRobot built = BuildTree(root, visuals.urdf_file, urdf, UrdfGeometry::kVisual);
+  visuals.links = std::move(built.robot.links);
+  visuals.meshes = std::move(built.meshes);
+  visuals.packages = ReadPackages(root, yaml_file);
+  return visuals;
+}
 
 std::string RobotContentHash(const std::filesystem::path& yaml_file) {
   const std::string yaml = ReadFileContents(yaml_file);
@@ -287,10 +309,7 @@ RobotModel LoadRobotModel(const std::filesystem::path& yaml_file) {
   const std::string name = root.At("name").String();
   const std::filesystem::path urdf_file = UrdfFile(root, yaml_file);
   const std::string urdf = ReadFileContents(urdf_file);
-  UrdfTree tree = ParseUrdf(urdf, urdf_file);
-  if (const auto inertials = root.Find("inertials")) ReadInertials(*inertials, &tree);
-  ReadRootLink(root.At("root_link"), tree);
-  UrdfRobot built = BuildUrdfRobot(tree, ReadLumped(root, tree), urdf_file);
+  UrdfRobot built = BuildTree(root, urdf_file, urdf, UrdfGeometry::kCollision);
   RobotModel& robot = built.robot;
   robot.name = name;
   robot.file = yaml_file;

@@ -157,18 +157,37 @@ function surfaceMesh(surface, closes) {
   return group;
 }
 
-function linkGroup(link) {
-  const group = new THREE.Group();
-  group.matrixAutoUpdate = false;
-  const material = new THREE.MeshPhongMaterial({color: '#8b99ab', shininess: 25});
-  for (const shape of link.shapes) {
+function addShapes(group, shapes, material) {
+  for (const shape of shapes) {
     for (const geometry of shapeGeometries(shape)) {
       const mesh = new THREE.Mesh(geometry, material);
       mesh.applyMatrix(poseMatrix(shape.pose));
-      mesh.castShadow = true;
+      mesh.castShadow = !material.transparent;
       group.add(mesh);
     }
   }
+}
+
+/* One link. `meshes`: geometries of the page's meshes. Where it is known what the link looks like,
+   its collision shapes are a part that can be switched on. */
+function linkGroup(link, meshes) {
+  const group = new THREE.Group();
+  group.matrixAutoUpdate = false;
+  const solid = new THREE.MeshPhongMaterial({color: '#8b99ab', shininess: 25});
+  addShapes(group, (link.look || link.shapes).filter(({type}) => type !== 'mesh'), solid);
+  if (!link.look) return group;
+  for (const {mesh, pose} of link.look.filter(({type}) => type === 'mesh')) {
+    const seen = new THREE.Mesh(meshes[mesh], solid);
+    seen.applyMatrix(poseMatrix(pose));
+    seen.castShadow = true;
+    group.add(seen);
+  }
+  const collision = new THREE.Group();
+  collision.name = 'collision';
+  collision.visible = false;
+  addShapes(collision, link.shapes, new THREE.MeshPhongMaterial(
+      {color: '#d1495b', transparent: true, opacity: 0.35, depthWrite: false}));
+  group.add(collision);
   return group;
 }
 
@@ -223,6 +242,13 @@ function exploredGraph(explored) {
         {color: colour, size: 3, sizeAttenuation: false})));
   });
   return group;
+}
+
+/* Parts that are seen together or not at all; some may be missing. */
+class Together {
+  constructor(parts) { this.parts = parts.filter(Boolean); }
+  set visible(on) { this.parts.forEach((part) => { part.visible = on; }); }
+  get visible() { return this.parts.some((part) => part.visible); }
 }
 
 /* The browser offers no WebGL. */
@@ -296,8 +322,10 @@ class Drawing {
   }
 
   addRobot(data) {
-    this.links = data.links.map(linkGroup);
+    const meshes = data.meshes.map(creasedGeometry);
+    this.links = data.links.map((link) => linkGroup(link, meshes));
     this.links.forEach((link) => this.scene.add(link));
+    this.collision = new Together(this.links.map((link) => link.getObjectByName('collision')));
     this.patches = data.contacts.map((contact, index) => {
       const parts = new MergedParts();
       addFootprint(parts, contact.points.map((p) => new THREE.Vector3(...p)), limbColour(index));

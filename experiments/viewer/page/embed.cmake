@@ -3,7 +3,7 @@
 # THREE_DIR: the folder of the Debian package libjs-three that has build/ and examples/.
 set(viewer ${CMAKE_CURRENT_LIST_DIR})
 # The page's own scripts, in the order in which they use each other.
-set(scripts kinematics merging routes barrier drawing jumps balance curves timeline margin_plots plots plan_view
+set(scripts kinematics merging meshes routes barrier drawing jumps balance curves timeline margin_plots plots plan_view
     legend keys player)
 set(resources
     page ${viewer}/page.html

@@ -6,7 +6,7 @@ const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50];
 const kRoomForBoth = 660, kRoomForOne = 420, kRoomBelow = 460;  // px
 
 /* What can be switched. */
-const kParts = ['graph', 'route', 'footprints', 'com', 'forces', 'balance', 'barrier'];
+const kParts = ['graph', 'route', 'footprints', 'com', 'forces', 'balance', 'collision', 'barrier'];
 
 /* Whether the reader's system asks for pages that do not move by themselves. */
 const prefersStillness = () => window.matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -56,6 +56,8 @@ class Player {
     element('graph').parentElement.hidden = !some(({data}) => data.explored.actions.length);
     element('barrier').parentElement.hidden =
         !some(({data}) => data.no && (data.no.barrier || data.no.passage));
+    element('collision').parentElement.hidden =
+        !some(({data}) => data.links.some((link) => link.look));
     element('legs').hidden = !some(({motion}) => motion.legs.length > 1);
     element('linked').parentElement.hidden = this.views.length < 2;
     element('plots-of').hidden = this.views.filter((view) => view.moves).length < 2;

@@ -118,6 +118,15 @@ inline TriangleMesh BoxMesh(const Eigen::Vector3d& size) {
   return mesh;
 }
 
+/// Of a closed mesh; negative if its normals point inwards.
+inline double EnclosedVolume(const TriangleMesh& mesh) {
+  double volume = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    volume += mesh.AreaVector(static_cast<int>(i)).dot(mesh.vertices[mesh.triangles[i][0]]) / 6;
+  }
+  return volume;
+}
+
 /// Puts the triangles of `other` beside those of `mesh`, without joining corners.
 inline void Append(const TriangleMesh& other, TriangleMesh* mesh) {
   const auto first = static_cast<int>(mesh->vertices.size());
