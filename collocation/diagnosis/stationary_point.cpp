@@ -53,53 +53,104 @@ std::optional<Derivatives> Evaluate(NonlinearProgram* program, const SolverResul
   return derivatives;
 }
 
-/// The matrix [W + s U, J'; J, t I] of the variables that are not held and of the rows that hold,
-/// with U the uncertainty. Whatever holds at least as firmly as `held` counts as held.
-class HeldSystem {
- public:
-  HeldSystem(const NonlinearProgram& program, const ActiveSet& active, Hold held)
-      : program_(program) {
-    variable_at_ = Number(active.variables, [&](Hold hold) { return hold < held; });
-    num_variables_ = size_;
-    const std::vector<bool> can_move = RowsThatMove();
-    std::size_t row = 0;
-    row_at_ = Number(active.rows, [&](Hold hold) { return hold >= held && can_move[row++]; });
-  }
+/// What is tested: the Hessian W with s U added, U the uncertainty; t on the diagonal of rows.
+struct Shifts {
+  double s = 0;
+  double t = 0;
+};
 
-  int num_rows() const { return size_ - num_variables_; }
+/// The matrices [W + s U, J'; J, t I] of the variables that are not held and of the rows that hold.
+/// Variables that may be free and rows that may hold have a place in all of them, so that one
+/// symbolic analysis serves all; a place that a test leaves out has 1 on its diagonal and nothing
+/// else.
+class HeldSystems {
+ public:
+  HeldSystems(const NonlinearProgram& program, const ActiveSet& active,
+              const Derivatives& derivatives);
+
+  /// Whatever holds at least as firmly as `held` counts as held.
+  void Choose(Hold held);
+  int num_rows() const { return num_rows_; }
 
   /// Number of negative eigenvalues; none if the matrix is singular or nearly so.
-  std::optional<int> NumNegative(const Derivatives& derivatives, double s, double t,
-                                 const CancellationToken& cancellation) const;
+  std::optional<int> NumNegative(const Shifts& shifts, const CancellationToken& cancellation);
 
  private:
-  template <typename Condition>
-  std::vector<int> Number(const std::vector<Hold>& holds, const Condition& counts) {
-    std::vector<int> place;
-    place.reserve(holds.size());
-    for (const Hold hold : holds) place.push_back(counts(hold) ? size_++ : -1);
-    return place;
-  }
+  struct Entry {
+    int row = 0;
+    int column = 0;
+    double value = 0;
+  };
 
-  /// Rows that depend on a variable that is not held.
-  std::vector<bool> RowsThatMove() const {
-    std::vector<bool> moves(program_.num_constraints(), false);
-    const SparsityPattern& pattern = program_.jacobian_pattern();
-    for (int k = 0; k < pattern.size(); ++k) {
-      if (variable_at_[pattern.columns[k]] >= 0) moves[pattern.rows[k]] = true;
-    }
-    return moves;
-  }
-
+  void NumberPlaces();
+  void AddEntries(const Derivatives& derivatives);
+  std::vector<bool> RowsThatMove() const;
   std::vector<double> Times() const;
+  KktFactorisation MakeFactorisation() const;
 
   const NonlinearProgram& program_;
+  const ActiveSet& active_;
   std::vector<int> variable_at_, row_at_;  // place in the matrix, or -1
   int num_variables_ = 0;
   int size_ = 0;
+  std::vector<Entry> entries_;  // without shifts; the last ones are the diagonal, place by place
+  std::vector<double> uncertainty_;  // by place of a variable
+  std::vector<bool> takes_part_;     // by place
+  int num_rows_ = 0;                 // that take part
+  std::optional<KktFactorisation> factorisation_;
 };
 
-std::vector<double> HeldSystem::Times() const {
+HeldSystems::HeldSystems(const NonlinearProgram& program, const ActiveSet& active,
+                         const Derivatives& derivatives)
+    : program_(program), active_(active) {
+  NumberPlaces();
+  AddEntries(derivatives);
+  factorisation_ = MakeFactorisation();
+}
+
+void HeldSystems::NumberPlaces() {
+  for (const Hold hold : active_.variables) {
+    variable_at_.push_back(hold == Hold::kFirm ? -1 : size_++);
+  }
+  num_variables_ = size_;
+  for (const Hold hold : active_.rows) row_at_.push_back(hold == Hold::kFree ? -1 : size_++);
+}
+
+void HeldSystems::AddEntries(const Derivatives& derivatives) {
+  const auto add = [this](int row, int column, double value) {
+    if (row >= 0 && column >= 0) entries_.push_back({row, column, value});
+  };
+  const SparsityPattern& hessian = program_.hessian_pattern();
+  for (int k = 0; k < hessian.size(); ++k) {
+    add(variable_at_[hessian.rows[k]], variable_at_[hessian.columns[k]], derivatives.hessian[k]);
+  }
+  const SparsityPattern& jacobian = program_.jacobian_pattern();
+  for (int k = 0; k < jacobian.size(); ++k) {
+    add(row_at_[jacobian.rows[k]], variable_at_[jacobian.columns[k]], derivatives.jacobian[k]);
+  }
+  for (int place = 0; place < size_; ++place) add(place, place, 0);
+  uncertainty_.resize(num_variables_);
+  for (std::size_t i = 0; i < variable_at_.size(); ++i) {
+    if (variable_at_[i] < 0) continue;
+    uncertainty_[variable_at_[i]] = derivatives.uncertainty[static_cast<int>(i)];
+  }
+}
+
+KktFactorisation HeldSystems::MakeFactorisation() const {
+  std::vector<int> rows, columns;
+  rows.reserve(entries_.size());
+  columns.reserve(entries_.size());
+  for (const Entry& entry : entries_) {
+    rows.push_back(entry.row);
+    columns.push_back(entry.column);
+  }
+  KktFactorisation factorisation(size_, size_ - num_variables_, std::move(rows), std::move(columns),
+                                 Times());
+  factorisation.LimitDelays(size_);
+  return factorisation;
+}
+
+std::vector<double> HeldSystems::Times() const {
   const std::vector<double> variables = program_.VariableTimes();
   const std::vector<double> rows = program_.ConstraintTimes();
   if (variables.empty() || rows.empty()) return {};
@@ -113,56 +164,67 @@ std::vector<double> HeldSystem::Times() const {
   return times;
 }
 
-std::optional<int> HeldSystem::NumNegative(const Derivatives& derivatives, double s, double t,
-                                           const CancellationToken& cancellation) const {
-  std::vector<int> rows, columns;
-  std::vector<double> values;
-  const auto add = [&](int row, int column, double value) {
-    if (row < 0 || column < 0) return;
-    rows.push_back(row);
-    columns.push_back(column);
-    values.push_back(value);
-  };
-  const SparsityPattern& hessian = program_.hessian_pattern();
-  for (int k = 0; k < hessian.size(); ++k) {
-    add(variable_at_[hessian.rows[k]], variable_at_[hessian.columns[k]], derivatives.hessian[k]);
-  }
-  const SparsityPattern& jacobian = program_.jacobian_pattern();
-  for (int k = 0; k < jacobian.size(); ++k) {
-    add(row_at_[jacobian.rows[k]], variable_at_[jacobian.columns[k]], derivatives.jacobian[k]);
-  }
+void HeldSystems::Choose(Hold held) {
+  takes_part_.assign(size_, false);
   for (std::size_t i = 0; i < variable_at_.size(); ++i) {
-    add(variable_at_[i], variable_at_[i], s * derivatives.uncertainty[static_cast<int>(i)]);
+    if (variable_at_[i] >= 0) takes_part_[variable_at_[i]] = active_.variables[i] < held;
   }
-  for (int place = num_variables_; place < size_; ++place) add(place, place, t);
+  const std::vector<bool> moves = RowsThatMove();
+  num_rows_ = 0;
+  for (std::size_t row = 0; row < row_at_.size(); ++row) {
+    if (row_at_[row] < 0 || active_.rows[row] < held || !moves[row]) continue;
+    takes_part_[row_at_[row]] = true;
+    ++num_rows_;
+  }
+}
 
-  KktFactorisation factorisation(size_, num_rows(), std::move(rows), std::move(columns), Times());
-  factorisation.LimitDelays(size_);
-  const KktStatus status = factorisation.Factorise(values.data(), kPivotThreshold, cancellation);
+/// Rows that depend on a variable that is not held.
+std::vector<bool> HeldSystems::RowsThatMove() const {
+  std::vector<bool> moves(program_.num_constraints(), false);
+  const SparsityPattern& pattern = program_.jacobian_pattern();
+  for (int k = 0; k < pattern.size(); ++k) {
+    const int place = variable_at_[pattern.columns[k]];
+    if (place >= 0 && takes_part_[place]) moves[pattern.rows[k]] = true;
+  }
+  return moves;
+}
+
+std::optional<int> HeldSystems::NumNegative(const Shifts& shifts,
+                                            const CancellationToken& cancellation) {
+  std::vector<double> values;
+  values.reserve(entries_.size());
+  for (const Entry& entry : entries_) {
+    const bool counts = takes_part_[entry.row] && takes_part_[entry.column];
+    values.push_back(counts ? entry.value : 0);
+  }
+  double* diagonal = values.data() + values.size() - size_;
+  for (int place = 0; place < size_; ++place) {
+    const double shift = place < num_variables_ ? shifts.s * uncertainty_[place] : shifts.t;
+    diagonal[place] = takes_part_[place] ? shift : 1;
+  }
+  const KktStatus status = factorisation_->Factorise(values.data(), kPivotThreshold, cancellation);
   if (status != KktStatus::kFactorised) return std::nullopt;
-  return factorisation.num_negative();
+  return factorisation_->num_negative();
 }
 
 /// [W J'; J -tI] has a negative eigenvalue for each row and those of W + J'J/t (Sylvester). If the
 /// latter is positive definite, so is W in all directions that keep the rows, even where rows
 /// depend on each other. Bounds that may not push are left out, so more directions are tested than
 /// exist.
-bool IsMinimum(const NonlinearProgram& program, const ActiveSet& active,
-               const Derivatives& derivatives, const CancellationToken& cancellation) {
-  const HeldSystem system(program, active, Hold::kFirm);
-  return system.NumNegative(derivatives, -1, -kDualShift, cancellation) == system.num_rows();
+bool IsMinimum(HeldSystems* systems, const CancellationToken& cancellation) {
+  systems->Choose(Hold::kFirm);
+  return systems->NumNegative({-1, -kDualShift}, cancellation) == systems->num_rows();
 }
 
 /// All that may hold is held, so every direction left is feasible if the rows are independent. No
 /// eigenvalue of [W J'; J tI] falls as t grows. If as many are negative at t as at -t, none passes
 /// zero between the two. At t = 0 the matrix is then regular, so that the rows are independent, and
 /// more negative eigenvalues than rows are directions of descent (Gould 1985).
-bool IsSaddle(const NonlinearProgram& program, const ActiveSet& active,
-              const Derivatives& derivatives, const CancellationToken& cancellation) {
-  const HeldSystem system(program, active, Hold::kWeak);
-  const auto below = system.NumNegative(derivatives, 1, -kDualShift, cancellation);
-  if (!below || *below <= system.num_rows()) return false;
-  return system.NumNegative(derivatives, 1, kDualShift, cancellation) == below;
+bool IsSaddle(HeldSystems* systems, const CancellationToken& cancellation) {
+  systems->Choose(Hold::kWeak);
+  const auto below = systems->NumNegative({1, -kDualShift}, cancellation);
+  if (!below || *below <= systems->num_rows()) return false;
+  return systems->NumNegative({1, kDualShift}, cancellation) == below;
 }
 
 }  // namespace
@@ -188,8 +250,9 @@ StationaryPoint ClassifyStationaryPoint(NonlinearProgram* program, const SolverR
   const ActiveSet active = ActiveSetOf(*program, result, options.objective_size);
   const auto derivatives = Evaluate(program, result, active, options);
   if (!derivatives) return StationaryPoint::kUnknown;
-  if (IsMinimum(*program, active, *derivatives, cancellation)) return StationaryPoint::kMinimum;
-  if (IsSaddle(*program, active, *derivatives, cancellation)) return StationaryPoint::kSaddle;
+  HeldSystems systems(*program, active, *derivatives);
+  if (IsMinimum(&systems, cancellation)) return StationaryPoint::kMinimum;
+  if (IsSaddle(&systems, cancellation)) return StationaryPoint::kSaddle;
   return StationaryPoint::kUnknown;
 }
 
