@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "collocation/kkt/kkt_order.h"
@@ -81,18 +82,49 @@ std::vector<int> Postorder(const std::vector<int>& parent) {
 
 /// Columns that are eliminated together while fronts are being merged.
 struct Group {
-  std::vector<int> columns;
-  std::vector<int> rows;
+  int first_column = 0;  ///< those that it began with are consecutive
+  int num_columns = 0;   ///< with those of merged groups
+  int first_row = 0;     ///< in Groups::rows
+  int num_rows = 0;
   int parent = -1;
-  bool merged = false;
+  int merged_into = -1;
+};
+
+struct Groups {
+  std::vector<Group> groups;  ///< children before parents
+  std::vector<int> rows;      ///< below the groups' columns, one group after the other
+};
+
+/// Children of nodes, each node's in the order in which they were added.
+class ChildLists {
+ public:
+  explicit ChildLists(int size) : first_(size, -1), last_(size, -1), next_(size, -1) {}
+
+  void Add(int parent, int child) {
+    (first_[parent] < 0 ? first_[parent] : next_[last_[parent]]) = child;
+    last_[parent] = child;
+    next_[child] = -1;
+  }
+  /// Empties a list and returns its first child.
+  int Take(int parent) {
+    last_[parent] = -1;
+    return std::exchange(first_[parent], -1);
+  }
+  int first(int parent) const { return first_[parent]; }
+  /// The sibling after a child, or -1.
+  int next(int child) const { return next_[child]; }
+
+ private:
+  std::vector<int> first_, last_, next_;
 };
 
 /// Groups of consecutive columns with the same rows below them (positions in postorder).
-std::vector<Group> FundamentalGroups(const Graph& graph, const std::vector<int>& parent) {
+Groups FundamentalGroups(const Graph& graph, const std::vector<int>& parent) {
   const int size = static_cast<int>(parent.size());
-  // The rows below all columns, one column after the other; children as linked lists.
-  std::vector<int> below, begin(size + 1, 0), first_child(size, -1), sibling(size, -1);
-  std::vector<int> mark(size, -1), group_of(size);
+  // The rows below all columns, one column after the other.
+  std::vector<int> below, begin(size + 1, 0), mark(size, -1), group_of(size);
+  below.reserve(graph.neighbour.size());
+  ChildLists children(size);
   std::vector<Group> groups;
   const auto count = [&](int j) { return begin[j + 1] - begin[j]; };
   for (int j = 0; j < size; ++j) {
@@ -104,25 +136,23 @@ std::vector<Group> FundamentalGroups(const Graph& graph, const std::vector<int>&
       }
     };
     for (int e = graph.begin[j]; e < graph.begin[j + 1]; ++e) add(graph.neighbour[e]);
-    for (int child = first_child[j]; child >= 0; child = sibling[child]) {
+    for (int child = children.first(j); child >= 0; child = children.next(child)) {
       for (int k = begin[child]; k < begin[child + 1]; ++k) add(below[k]);
     }
     begin[j + 1] = static_cast<int>(below.size());
     const bool continues = j > 0 && parent[j - 1] == j && count(j - 1) == count(j) + 1;
-    if (!continues) groups.emplace_back();
+    if (!continues) groups.push_back({j});
     group_of[j] = static_cast<int>(groups.size()) - 1;
-    groups.back().columns.push_back(j);
-    groups.back().rows.assign(below.begin() + begin[j], below.end());
-    if (parent[j] >= 0) {
-      sibling[j] = first_child[parent[j]];
-      first_child[parent[j]] = j;
-    }
+    ++groups.back().num_columns;
+    if (parent[j] >= 0) children.Add(parent[j], j);
   }
   for (Group& group : groups) {
-    const int up = parent[group.columns.back()];
-    group.parent = up < 0 ? -1 : group_of[up];
+    const int last = group.first_column + group.num_columns - 1;
+    group.first_row = begin[last];
+    group.num_rows = count(last);
+    group.parent = parent[last] < 0 ? -1 : group_of[parent[last]];
   }
-  return groups;
+  return {std::move(groups), std::move(below)};
 }
 
 /// What it saves to eliminate a child's columns in its parent's front, in multiplications: the
@@ -131,9 +161,8 @@ double SavedByMerging(const Group& child, const Group& parent) {
   constexpr double kPerMovedEntry = 50;   // written, read and added
   constexpr double kPerStoredEntry = 50;  // copied, and read by several solves
   constexpr double kPerFront = 1000;
-  const auto columns = static_cast<double>(child.columns.size());
-  const auto rows = static_cast<double>(child.rows.size());
-  const auto rows_there = static_cast<double>(parent.columns.size() + parent.rows.size());
+  const double columns = child.num_columns, rows = child.num_rows;
+  const double rows_there = parent.num_columns + parent.num_rows;
   const double longer = rows_there - rows;
   const double multiplications = columns * longer * (columns + rows + rows_there) / 2;
   return kPerFront + kPerMovedEntry * rows * rows / 2 - kPerStoredEntry * columns * longer -
@@ -142,35 +171,58 @@ double SavedByMerging(const Group& child, const Group& parent) {
 
 /// Merges groups into their parents where that saves time.
 void MergeSmallGroups(std::vector<Group>* groups) {
-  std::vector<std::vector<int>> children(groups->size());
+  ChildLists children(static_cast<int>(groups->size()));
   for (int g = 0; g < static_cast<int>(groups->size()); ++g) {
     Group& group = (*groups)[g];
-    std::vector<int> kept;
-    for (size_t next = 0; next < children[g].size(); ++next) {
-      Group& child = (*groups)[children[g][next]];
+    for (int next = children.Take(g); next >= 0;) {
+      const int c = std::exchange(next, children.next(next));
+      Group& child = (*groups)[c];
       if (SavedByMerging(child, group) <= 0) {
-        kept.push_back(children[g][next]);
+        children.Add(g, c);
         continue;
       }
-      group.columns.insert(group.columns.end(), child.columns.begin(), child.columns.end());
-      child.merged = true;
-      const std::vector<int>& orphans = children[children[g][next]];
-      for (const int orphan : orphans) (*groups)[orphan].parent = g;
-      kept.insert(kept.end(), orphans.begin(), orphans.end());
+      group.num_columns += child.num_columns;
+      child.merged_into = g;
+      for (int orphan = children.Take(c); orphan >= 0;) {
+        const int o = std::exchange(orphan, children.next(orphan));
+        (*groups)[o].parent = g;
+        children.Add(g, o);
+      }
     }
-    children[g] = std::move(kept);
-    std::sort(group.columns.begin(), group.columns.end());
-    if (group.parent >= 0) children[group.parent].push_back(g);
+    if (group.parent >= 0) children.Add(group.parent, g);
   }
   // Children are merged before their parents, so a parent is never a merged group.
 }
 
-/// Numbers the columns group by group and finds each front's rows in its parent.
-void LayOutFronts(const std::vector<Group>& groups, KktAnalysis* analysis,
-                  const std::vector<int>& old_variable_at) {
-  std::vector<int> index_of(groups.size(), -1), alive, parent;
-  for (int g = 0; g < static_cast<int>(groups.size()); ++g) {
-    if (groups[g].merged) continue;
+/// Numbers the columns front by front; returns old column -> new position.
+std::vector<int> NumberColumns(const Groups& groups, const std::vector<int>& front_of,
+                               const std::vector<int>& old_variable_at, KktAnalysis* analysis) {
+  int columns = 0;
+  std::vector<int> next(analysis->fronts.size());  // of a front's columns
+  for (std::size_t f = 0; f < next.size(); ++f) {
+    analysis->fronts[f].first_column = next[f] = columns;
+    columns += analysis->fronts[f].num_columns;
+  }
+  analysis->variable_at.resize(old_variable_at.size());
+  std::vector<int> new_position(old_variable_at.size());
+  for (std::size_t g = 0; g < groups.groups.size(); ++g) {
+    const Group& group = groups.groups[g];
+    const std::size_t end =
+        g + 1 < groups.groups.size() ? groups.groups[g + 1].first_column : old_variable_at.size();
+    for (std::size_t column = group.first_column; column < end; ++column) {
+      new_position[column] = next[front_of[g]]++;
+      analysis->variable_at[new_position[column]] = old_variable_at[column];
+    }
+  }
+  return new_position;
+}
+
+/// By group: the front that it is part of, in an order of fronts with children before parents.
+std::vector<int> NumberFronts(const std::vector<Group>& groups, std::vector<KktFront>* fronts) {
+  const int size = static_cast<int>(groups.size());
+  std::vector<int> index_of(size, -1), alive, parent;
+  for (int g = 0; g < size; ++g) {
+    if (groups[g].merged_into >= 0) continue;
     index_of[g] = static_cast<int>(alive.size());
     alive.push_back(g);
   }
@@ -178,32 +230,27 @@ void LayOutFronts(const std::vector<Group>& groups, KktAnalysis* analysis,
     parent.push_back(groups[g].parent < 0 ? -1 : index_of[groups[g].parent]);
   }
   const std::vector<int> order = Postorder(parent);
-  std::vector<int> rank(order.size()), new_position(old_variable_at.size());
-  analysis->fronts.resize(order.size());
-  analysis->variable_at.clear();
-  for (int f = 0; f < static_cast<int>(order.size()); ++f) {
-    rank[order[f]] = f;
-    KktFront& front = analysis->fronts[f];
-    const Group& group = groups[alive[order[f]]];
-    front.first_column = static_cast<int>(analysis->variable_at.size());
-    front.num_columns = static_cast<int>(group.columns.size());
-    for (const int column : group.columns) {
-      new_position[column] = static_cast<int>(analysis->variable_at.size());
-      analysis->variable_at.push_back(old_variable_at[column]);
-    }
+  std::vector<int> front_of(size);
+  fronts->resize(order.size());
+  for (int f = 0; f < static_cast<int>(order.size()); ++f) front_of[alive[order[f]]] = f;
+  for (int g = size - 1; g >= 0; --g) {  // what a group is merged into comes after it
+    if (groups[g].merged_into >= 0) front_of[g] = front_of[groups[g].merged_into];
   }
-  for (int f = 0; f < static_cast<int>(order.size()); ++f) {
-    KktFront& front = analysis->fronts[f];
-    for (const int row : groups[alive[order[f]]].rows) front.rows.push_back(new_position[row]);
-    std::sort(front.rows.begin(), front.rows.end());
-    if (parent[order[f]] >= 0) {
-      front.parent = rank[parent[order[f]]];
-      ++analysis->fronts[front.parent].num_children;
-    }
+  for (const int g : alive) {
+    KktFront& front = (*fronts)[front_of[g]];
+    front.num_columns = groups[g].num_columns;
+    if (groups[g].parent < 0) continue;
+    front.parent = front_of[groups[g].parent];
+    ++(*fronts)[front.parent].num_children;
   }
-  for (KktFront& front : analysis->fronts) {
+  return front_of;
+}
+
+void FindRowsInParents(std::vector<KktFront>* fronts) {
+  for (KktFront& front : *fronts) {
     if (front.parent < 0) continue;
-    const KktFront& up = analysis->fronts[front.parent];
+    const KktFront& up = (*fronts)[front.parent];
+    front.rows_in_parent.reserve(front.rows.size());
     auto next = up.rows.begin();
     for (const int row : front.rows) {
       if (row < up.first_column + up.num_columns) {
@@ -214,6 +261,24 @@ void LayOutFronts(const std::vector<Group>& groups, KktAnalysis* analysis,
       }
     }
   }
+}
+
+/// Numbers the columns group by group and finds each front's rows in its parent.
+void LayOutFronts(const Groups& groups, KktAnalysis* analysis,
+                  const std::vector<int>& old_variable_at) {
+  const std::vector<int> front_of = NumberFronts(groups.groups, &analysis->fronts);
+  const std::vector<int> new_position = NumberColumns(groups, front_of, old_variable_at, analysis);
+  for (std::size_t g = 0; g < groups.groups.size(); ++g) {
+    const Group& group = groups.groups[g];
+    if (group.merged_into >= 0) continue;
+    std::vector<int>& rows = analysis->fronts[front_of[g]].rows;
+    rows.reserve(group.num_rows);
+    for (int k = group.first_row; k < group.first_row + group.num_rows; ++k) {
+      rows.push_back(new_position[groups.rows[k]]);
+    }
+    std::sort(rows.begin(), rows.end());
+  }
+  FindRowsInParents(&analysis->fronts);
 }
 
 std::vector<int> Inverse(const std::vector<int>& permutation) {
@@ -236,8 +301,8 @@ KktAnalysis FrontsOf(const std::vector<int>& variable_at, const std::vector<KktE
   for (const int position : Postorder(parent)) reordered.push_back(variable_at[position]);
   const Graph graph =
       step(MakeGraph(static_cast<int>(variable_at.size()), edges, Inverse(reordered)));
-  std::vector<Group> groups = step(FundamentalGroups(graph, EliminationTree(graph)));
-  MergeSmallGroups(&groups);
+  Groups groups = step(FundamentalGroups(graph, EliminationTree(graph)));
+  MergeSmallGroups(&groups.groups);
   KktAnalysis analysis;
   LayOutFronts(groups, &analysis, reordered);
   analysis.position_of = Inverse(analysis.variable_at);
@@ -260,13 +325,22 @@ KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges
                        const std::vector<double>& times, const CancellationToken& cancellation) {
   const KktPairs pairs(size, num_dual, edges, times);
   cancellation.ThrowIfCancelled();
-  KktAnalysis analysis = FrontsOf(pairs.OrderByDegree(), edges, cancellation);
-  if (analysis.Flops() < kFewFlops * size) return analysis;
-  if (const auto order = pairs.OrderAlongTime()) {
-    KktAnalysis along_time = FrontsOf(*order, edges, cancellation);
-    if (along_time.Flops() < analysis.Flops()) return along_time;
-  }
-  return analysis;
+  std::optional<KktAnalysis> best;
+  double least = 0;
+  const auto consider = [&](const std::optional<std::vector<int>>& order) {
+    if (!order) return;
+    KktAnalysis analysis = FrontsOf(*order, edges, cancellation);
+    const double flops = analysis.Flops();
+    if (best && least <= flops) return;
+    best = std::move(analysis);
+    least = flops;
+  };
+  const double few = kFewFlops * size;
+  consider(pairs.OrderByTime());
+  if (best && least < few) return *std::move(best);
+  consider(pairs.OrderByDegree());
+  if (least >= few) consider(pairs.OrderAlongTime());
+  return *std::move(best);
 }
 
 }  // namespace possibility::collocation

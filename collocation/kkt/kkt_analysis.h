@@ -30,8 +30,9 @@ struct KktAnalysis {
 };
 
 /// Orders the `size` rows of a symmetric indefinite matrix for little fill and groups them into
-/// fronts. `num_dual`, `times`: as KktPairs takes them. Of the orders by degree and along time, the
-/// one that needs fewer operations is taken. `cancellation` is asked from time to time.
+/// fronts. `num_dual`, `times`: as KktPairs takes them. If one instant after the other makes small
+/// fronts, that is the order; otherwise it is that of KktPairs' orders that needs the fewest
+/// operations. `cancellation` is asked from time to time.
 /// @throws Cancelled.
 KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,
                        const std::vector<double>& times, const CancellationToken& cancellation);

@@ -66,6 +66,7 @@ void KktFactorisation::Analyse(const double* values, const CancellationToken& ca
     largest[columns_[t]] = std::max(largest[columns_[t]], magnitude);
   }
   std::vector<KktEdge> edges;
+  edges.reserve(entries);
   for (size_t t = 0; t < entries; ++t) {
     if (rows_[t] == columns_[t]) continue;
     const double bound = std::sqrt(largest[rows_[t]]) * std::sqrt(largest[columns_[t]]);

@@ -12,24 +12,32 @@ namespace {
 /// For each row, the dual row that it is paired with, or -1.
 std::vector<int> PairDualRows(int size, int num_dual, const std::vector<KktEdge>& edges) {
   const int first_dual = size - num_dual;
-  std::vector<std::vector<std::pair<double, int>>> choices(num_dual);
-  for (const KktEdge& edge : edges) {
-    const int dual = std::max(edge.row, edge.column);
-    const int primal = std::min(edge.row, edge.column);
-    if (dual >= first_dual && primal < first_dual && edge.weight > 0) {
-      choices[dual - first_dual].emplace_back(edge.weight, primal);
+  const auto for_choices = [&](const auto& use) {  // use(dual row, weight, other row)
+    for (const KktEdge& edge : edges) {
+      const int dual = std::max(edge.row, edge.column), primal = std::min(edge.row, edge.column);
+      if (dual >= first_dual && primal < first_dual && edge.weight > 0) {
+        use(dual - first_dual, edge.weight, primal);
+      }
     }
-  }
+  };
+  std::vector<int> begin(num_dual + 1, 0);
+  for_choices([&](int dual, double, int) { ++begin[dual + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::pair<double, int>> choices(begin.back());
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  for_choices([&](int dual, double weight, int primal) {
+    choices[next[dual]++] = {weight, primal};
+  });
   // Rows with the fewest choices choose first.
   std::vector<int> turn(num_dual);
   std::iota(turn.begin(), turn.end(), 0);
-  std::stable_sort(turn.begin(), turn.end(),
-                   [&](int a, int b) { return choices[a].size() < choices[b].size(); });
+  const auto count = [&begin](int dual) { return begin[dual + 1] - begin[dual]; };
+  std::stable_sort(turn.begin(), turn.end(), [&](int a, int b) { return count(a) < count(b); });
   std::vector<int> partner(size, -1);
   for (const int dual : turn) {
     std::pair<double, int> best(0, -1);
-    for (const auto& choice : choices[dual]) {
-      if (partner[choice.second] < 0 && choice.first > best.first) best = choice;
+    for (int k = begin[dual]; k < begin[dual + 1]; ++k) {
+      if (partner[choices[k].second] < 0 && choices[k].first > best.first) best = choices[k];
     }
     if (best.second >= 0) partner[best.second] = first_dual + dual;
   }
@@ -145,18 +153,18 @@ std::vector<bool> KktPairs::SeparatingNodes() const {
 std::vector<int> KktPairs::DegreeOrder(const std::vector<int>& nodes) const {
   std::vector<int> index(nodes_.size(), -1);
   for (std::size_t k = 0; k < nodes.size(); ++k) index[nodes[k]] = static_cast<int>(k);
-  std::vector<Eigen::Triplet<double>> places;
+  std::vector<Eigen::Triplet<char>> places;  // of the lower triangle
   places.reserve(connections_.size() + nodes.size());
   for (const auto& [low, high] : connections_) {
-    if (index[low] >= 0 && index[high] >= 0) places.emplace_back(index[high], index[low], 1.0);
+    if (index[low] >= 0 && index[high] >= 0) places.emplace_back(index[high], index[low], 1);
   }
   const int size = static_cast<int>(nodes.size());
   // Eigen's AMD takes a node without a diagonal entry for a dense one.
-  for (int k = 0; k < size; ++k) places.emplace_back(k, k, 1.0);
-  Eigen::SparseMatrix<double> graph(size, size);
-  graph.setFromTriplets(places.begin(), places.end());
+  for (int k = 0; k < size; ++k) places.emplace_back(k, k, 1);
+  Eigen::SparseMatrix<char> graph(size, size);
+  graph.setFromTriplets(places.begin(), places.end(), [](char, char) -> char { return 1; });
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(graph, order);
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
   std::vector<int> result(size);
   for (int k = 0; k < size; ++k) result[k] = nodes[order.indices()[k]];
   return result;
@@ -176,6 +184,22 @@ std::vector<int> KktPairs::OrderByDegree() const {
   std::vector<int> all(nodes_.size());
   std::iota(all.begin(), all.end(), 0);
   return RowsOf(DegreeOrder(all));
+}
+
+std::optional<std::vector<int>> KktPairs::OrderByTime() const {
+  if (num_instants_ == 0) return std::nullopt;
+  // A counting sort; nodes without a time come last.
+  const auto bin = [this](const Node& node) {
+    return node.instant < 0 ? num_instants_ : node.instant;
+  };
+  std::vector<int> next(num_instants_ + 2, 0);
+  for (const Node& node : nodes_) ++next[bin(node) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<int> order(nodes_.size());
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    order[next[bin(nodes_[node])]++] = static_cast<int>(node);
+  }
+  return RowsOf(order);
 }
 
 std::optional<std::vector<int>> KktPairs::OrderAlongTime() const {

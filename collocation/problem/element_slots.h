@@ -1,7 +1,7 @@
 #pragma once
 
-#include <map>
-#include <utility>
+#include <cstddef>
+#include <vector>
 
 #include "collocation/problem/nonlinear_program.h"
 
@@ -18,8 +18,13 @@ class ElementSlots {
   const SparsityPattern& pattern() const { return pattern_; }
 
  private:
+  /// Where the table has the element's slot, or a free place for it.
+  int& Place(int row, int column);
+  void Grow();
+
   SparsityPattern pattern_;
-  std::map<std::pair<int, int>, int> slots_;
+  std::vector<int> table_;  ///< slots by hash, -1: free; at most half full, a power of two long
+  int shift_ = 64;          ///< of hashes, to places in the table
 };
 
 }  // namespace possibility::collocation

@@ -22,86 +22,90 @@ bool IsEquality(const Bounds& bounds) { return bounds.lower == bounds.upper; }
 /// What holds everywhere, perhaps the ends excepted.
 bool HoldsBetween(At at) { return at != At::kStart && at != At::kEnd; }
 
+/// What a motion is at one place of its mesh.
+struct Moment {
+  std::vector<VectorXd> coordinates;  ///< by order
+  VectorXd controls;
+  double share = 0;  ///< of the phase's duration
+};
+
 /// Evaluates one phase of a problem anywhere along a trajectory.
 class PhaseBetweenKnots {
  public:
   PhaseBetweenKnots(const OptimalControlProblem& problem, const Trajectory& trajectory, int phase)
       : phase_(problem.phase(phase)),
         motion_(trajectory.phases[phase]),
-        parameters_(trajectory.parameters) {}
+        parameters_(trajectory.parameters) {
+    for (const QuadraturePoint& point : GaussLegendre(5)) {  // exact for degree 9
+      places_of_rule_.push_back(point.share);
+      weights_of_rule_.push_back(point.weight);
+    }
+    for (int i = 0; i < kSamples; ++i) samples_.push_back((i + 0.5) / kSamples);
+    const TranscriptionScheme& scheme = motion_.scheme;
+    const VectorXd weights = scheme.weights();
+    for (int node = 0; node < scheme.num_nodes(); ++node) {
+      if (!scheme.HasValue(node)) continue;
+      nodes_.push_back(scheme.nodes[node]);
+      weights_of_nodes_.push_back(weights[node]);
+    }
+  }
 
   int num_intervals() const { return static_cast<int>(motion_.mesh.size()) - 1; }
 
-  /// All but the cost, by the midpoint rule.
-  MeshError ErrorOf(int interval) const {
+  /// The error of an interval; the cost's is not yet divided by its size. Adds the magnitude of its
+  /// cost as it was minimised.
+  MeshError ErrorOf(int interval, double* cost) const {
     MeshError error;
+    const std::vector<Moment> samples = MomentsOf(interval, samples_);
+    const double h = LengthOf(interval) / kSamples;  // s that a sample stands for
     for (const Phase::PathConstraint& constraint : phase_.constraints()) {
-      if (!HoldsBetween(constraint.at)) continue;
-      VectorXd equalities = VectorXd::Zero(constraint.function->num_outputs());
-      VectorXd inequalities = equalities;
-      ForSamples(interval, [&](const MeshPlace& at, double h) {
-        const VectorXd excess = h * ExcessAt(constraint, at);
-        for (Eigen::Index o = 0; o < excess.size(); ++o) {
-          (IsEquality(constraint.bounds[o]) ? equalities : inequalities)[o] += excess[o];
-        }
-      });
-      Raise(equalities, &error.dynamics);
-      Raise(inequalities, &error.inequalities);
+      if (HoldsBetween(constraint.at)) AddConstraint(constraint, samples, h, &error);
     }
-    AddBounds(interval, &error);
-    AddIntegrals(interval, &error);
+    AddBounds(samples, h, &error);
+    AddRateBounds(samples, h, &error);
+    if (phase_.integrals().empty() && phase_.costs().empty()) return error;
+    const std::vector<Moment> nodes = MomentsOf(interval, nodes_);
+    const std::vector<Moment> rule = MomentsOf(interval, places_of_rule_);
+    const double length = LengthOf(interval);
+    AddIntegrals(nodes, rule, length, &error);
+    const auto integrand = [this](const Moment& moment) { return CostAt(moment); };
+    const double transcribed = length * WeightedSum(nodes, weights_of_nodes_, integrand);
+    const double difference =
+        std::abs(length * WeightedSum(rule, weights_of_rule_, integrand) - transcribed);
+    *cost += std::abs(transcribed);
+    error.cost = std::isnan(difference) ? kInfinity : difference;
     return error;
   }
 
-  /// The integral costs of an interval as they were minimised.
-  double TranscribedCost(int interval) const {
-    return Transcribed(interval, [this](const MeshPlace& at) { return CostAt(at); });
-  }
-
-  /// The same along the motion.
-  double TrueCost(int interval) const {
-    return Integral(interval, [this](const MeshPlace& at) { return CostAt(at); });
-  }
-
  private:
-  /// The integral over an interval by the scheme's nodes.
-  template <typename Integrand>
-  double Transcribed(int interval, const Integrand& integrand) const {
-    const TranscriptionScheme& scheme = motion_.scheme;
-    const VectorXd weights = scheme.weights();
-    double sum = 0;
-    for (int node = 0; node < scheme.num_nodes(); ++node) {
-      if (!scheme.HasValue(node)) continue;
-      sum += weights[node] * integrand(MeshPlace{interval, scheme.nodes[node]});
+  static constexpr int kSamples = 10;
+
+  std::vector<Moment> MomentsOf(int interval, const std::vector<double>& shares) const {
+    std::vector<Moment> moments;
+    moments.reserve(shares.size());
+    const double begin = motion_.mesh[interval], end = motion_.mesh[interval + 1];
+    for (const double share : shares) {
+      Moment& moment = moments.emplace_back();
+      const MeshPlace place{interval, share};
+      for (std::size_t order = 0; order < motion_.coordinates.size(); ++order) {
+        moment.coordinates.push_back(motion_.Coordinates(place, static_cast<int>(order)));
+      }
+      moment.controls = motion_.Controls(place);
+      moment.share = begin + share * (end - begin);
     }
-    return sum * LengthOf(interval);
+    return moments;
   }
 
   template <typename Integrand>
-  double Integral(int interval, const Integrand& integrand) const {
+  static double WeightedSum(const std::vector<Moment>& moments, const std::vector<double>& weights,
+                            const Integrand& integrand) {
     double sum = 0;
-    for (const QuadraturePoint& point : rule_) {
-      sum += point.weight * integrand(MeshPlace{interval, point.share});
-    }
-    return sum * LengthOf(interval);
+    for (std::size_t i = 0; i < moments.size(); ++i) sum += weights[i] * integrand(moments[i]);
+    return sum;
   }
 
-  /// Of the phase.
-  double ShareOf(const MeshPlace& place) const {
-    const double begin = motion_.mesh[place.interval];
-    return begin + place.share * (motion_.mesh[place.interval + 1] - begin);
-  }
   double LengthOf(int interval) const {  // s
     return (motion_.mesh[interval + 1] - motion_.mesh[interval]) * motion_.duration;
-  }
-
-  /// Calls use(place, s that the sample stands for).
-  template <typename Use>
-  void ForSamples(int interval, const Use& use) const {
-    constexpr int kSamples = 10;
-    for (int i = 0; i < kSamples; ++i) {
-      use(MeshPlace{interval, (i + 0.5) / kSamples}, LengthOf(interval) / kSamples);
-    }
   }
 
   static void Raise(const VectorXd& sums, double* error) {
@@ -109,49 +113,62 @@ class PhaseBetweenKnots {
     *error = std::max(*error, sums.allFinite() ? sums.maxCoeff() : kInfinity);
   }
 
-  void AddBounds(int interval, MeshError* error) const {
+  /// By the midpoint rule, as are bounds.
+  void AddConstraint(const Phase::PathConstraint& constraint, const std::vector<Moment>& samples,
+                     double h, MeshError* error) const {
+    VectorXd equalities = VectorXd::Zero(constraint.function->num_outputs());
+    VectorXd inequalities = equalities;
+    for (const Moment& moment : samples) {
+      const VectorXd excess = h * ExcessAt(constraint, moment);
+      for (Eigen::Index o = 0; o < excess.size(); ++o) {
+        (IsEquality(constraint.bounds[o]) ? equalities : inequalities)[o] += excess[o];
+      }
+    }
+    Raise(equalities, &error->dynamics);
+    Raise(inequalities, &error->inequalities);
+  }
+
+  void AddBounds(const std::vector<Moment>& samples, double h, MeshError* error) const {
     for (std::size_t order = 0; order < motion_.coordinates.size(); ++order) {
       VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.coordinates().size()));
-      ForSamples(interval, [&](const MeshPlace& at, double h) {
-        const VectorXd values = motion_.Coordinates(at, static_cast<int>(order));
+      for (const Moment& moment : samples) {
         for (Eigen::Index i = 0; i < sums.size(); ++i) {
           if (static_cast<int>(order) > phase_.OrderOf(static_cast<int>(i))) continue;
-          sums[i] += h * ExcessOf(phase_.coordinates()[i][order], values[i]);
+          sums[i] += h * ExcessOf(phase_.coordinates()[i][order], moment.coordinates[order][i]);
         }
-      });
+      }
       Raise(sums, &error->inequalities);
     }
     VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.controls().size()));
-    ForSamples(interval, [&](const MeshPlace& at, double h) {
-      const VectorXd values = motion_.Controls(at);
+    for (const Moment& moment : samples) {
       for (Eigen::Index i = 0; i < sums.size(); ++i) {
-        sums[i] += h * ExcessOf(phase_.controls()[i], values[i]);
+        sums[i] += h * ExcessOf(phase_.controls()[i], moment.controls[i]);
       }
-    });
+    }
     Raise(sums, &error->inequalities);
-    AddRateBounds(interval, error);
   }
 
-  void AddRateBounds(int interval, MeshError* error) const {
+  void AddRateBounds(const std::vector<Moment>& samples, double h, MeshError* error) const {
     VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(phase_.rate_bounds().size()));
     if (sums.size() == 0) return;
-    ForSamples(interval, [&](const MeshPlace& at, double h) {
-      const VectorXd rates = motion_.ControlRates(ShareOf(at));
+    for (const Moment& moment : samples) {
+      const VectorXd rates = motion_.ControlRates(moment.share);
       for (Eigen::Index i = 0; i < sums.size(); ++i) {
         const Phase::RateBound& bound = phase_.rate_bounds()[i];
         sums[i] += h * Excess(rates[bound.control], bound.bounds) / bound.scale;
       }
-    });
+    }
     Raise(sums, &error->inequalities);
   }
 
-  void AddIntegrals(int interval, MeshError* error) const {
+  void AddIntegrals(const std::vector<Moment>& nodes, const std::vector<Moment>& rule,
+                    double length, MeshError* error) const {
     for (const Phase::IntegralConstraint& integral : phase_.integrals()) {
-      const auto integrand = [&](const MeshPlace& at) {
-        return Evaluate(integral.function.get(), integral.arguments, at)[0];
+      const auto integrand = [&](const Moment& moment) {
+        return Evaluate(integral.function.get(), integral.arguments, moment)[0];
       };
-      const double difference =
-          std::abs(Integral(interval, integrand) - Transcribed(interval, integrand));
+      const double difference = length * std::abs(WeightedSum(rule, weights_of_rule_, integrand) -
+                                                  WeightedSum(nodes, weights_of_nodes_, integrand));
       Raise(VectorXd::Constant(1, difference / integral.scale),
             IsEquality(integral.bounds) ? &error->dynamics : &error->inequalities);
     }
@@ -165,29 +182,29 @@ class PhaseBetweenKnots {
     return excess / quantity.scale;
   }
 
-  double ValueOf(const Variable& variable, const MeshPlace& at) const {
+  double ValueOf(const Variable& variable, const Moment& moment) const {
     switch (variable.kind) {
       case VariableKind::kCoordinate:
-        return motion_.Coordinates(at, variable.order)[variable.index];
+        return moment.coordinates[variable.order][variable.index];
       case VariableKind::kControl:
-        return motion_.Controls(at)[variable.index];
+        return moment.controls[variable.index];
       case VariableKind::kParameter:
         return parameters_[variable.index];
       case VariableKind::kDuration:
         return motion_.duration;
       case VariableKind::kTime:
-        return motion_.begin + ShareOf(at) * motion_.duration;
+        return motion_.begin + moment.share * motion_.duration;
       case VariableKind::kShare:
-        return ShareOf(at);
+        return moment.share;
     }
     return 0;
   }
 
   /// Infinite where the function is not defined.
   VectorXd Evaluate(Function* f, const std::vector<Variable>& arguments,
-                    const MeshPlace& at) const {
+                    const Moment& moment) const {
     VectorXd z(f->num_inputs());
-    for (int i = 0; i < f->num_inputs(); ++i) z[i] = ValueOf(arguments[i], at);
+    for (int i = 0; i < f->num_inputs(); ++i) z[i] = ValueOf(arguments[i], moment);
     VectorXd y(f->num_outputs());
     try {
       f->Evaluate(z, &y);
@@ -198,8 +215,8 @@ class PhaseBetweenKnots {
   }
 
   /// By how much each row lies outside its bounds, divided by its scale.
-  VectorXd ExcessAt(const Phase::PathConstraint& constraint, const MeshPlace& at) const {
-    VectorXd y = Evaluate(constraint.function.get(), constraint.arguments, at);
+  VectorXd ExcessAt(const Phase::PathConstraint& constraint, const Moment& moment) const {
+    VectorXd y = Evaluate(constraint.function.get(), constraint.arguments, moment);
     for (Eigen::Index o = 0; o < y.size(); ++o) {
       if (!std::isfinite(y[o])) continue;
       y[o] = Excess(y[o], constraint.bounds[o]) / constraint.scales[o];
@@ -207,10 +224,10 @@ class PhaseBetweenKnots {
     return y;
   }
 
-  double CostAt(const MeshPlace& at) const {
+  double CostAt(const Moment& moment) const {
     double sum = 0;
     for (const Phase::IntegralCost& cost : phase_.costs()) {
-      sum += cost.weight * Evaluate(cost.function.get(), cost.arguments, at)[0];
+      sum += cost.weight * Evaluate(cost.function.get(), cost.arguments, moment)[0];
     }
     return sum;
   }
@@ -218,7 +235,10 @@ class PhaseBetweenKnots {
   const Phase& phase_;
   const PhaseTrajectory& motion_;
   const VectorXd& parameters_;
-  const std::vector<QuadraturePoint> rule_ = GaussLegendre(5);  // exact for degree 9
+  // Shares of an interval and weights: where the motion is sampled, where it was transcribed, and a
+  // quadrature that is better than that.
+  std::vector<double> samples_, nodes_, places_of_rule_;
+  std::vector<double> weights_of_nodes_, weights_of_rule_;
 };
 
 }  // namespace
@@ -233,11 +253,7 @@ std::vector<std::vector<MeshError>> MeshErrors(const OptimalControlProblem& prob
     const PhaseBetweenKnots phase(problem, trajectory, p);
     auto& of_phase = errors.emplace_back();
     for (int i = 0; i < phase.num_intervals(); ++i) {
-      of_phase.push_back(phase.ErrorOf(i));
-      const double transcribed = phase.TranscribedCost(i);
-      magnitude += std::abs(transcribed);
-      const double difference = std::abs(phase.TrueCost(i) - transcribed);
-      of_phase.back().cost = std::isnan(difference) ? kInfinity : difference;
+      of_phase.push_back(phase.ErrorOf(i, &magnitude));
     }
   }
   magnitude = std::max(magnitude, std::abs(objective));

@@ -43,9 +43,8 @@ std::map<std::string, ConstraintViolation> Violations(const Transcription& progr
     const double amount =
         std::max({0.0, program.constraint_lower()[i] - g, g - program.constraint_upper()[i]}) *
         program.ConstraintScale(i);
-    const std::string where = program.ConstraintName(i);
     ConstraintViolation& worst = violations[program.ConstraintGroup(i)];
-    if (worst.where.empty() || amount > worst.amount) worst = {amount, where};
+    if (worst.where.empty() || amount > worst.amount) worst = {amount, program.ConstraintName(i)};
   }
   return violations;
 }

@@ -28,7 +28,9 @@ Eigen::VectorXd OfOneOrder(const PhaseTrajectory& motion, const MeshPlace& place
     factor *= c * h / (r - order + 1);
   }
   const int k = highest - order;
-  value += std::pow(h, k) * nodes * motion.scheme.LagrangeIntegrals(c, k);
+  Eigen::VectorXd weights = motion.scheme.LagrangeIntegrals(c, k);
+  for (int step = 0; step < k; ++step) weights *= h;
+  value.noalias() += nodes * weights;
   return value;
 }
 

@@ -31,19 +31,26 @@ void AppendRoots(const Eigen::MatrixXd& recurrence, std::vector<double>* shares)
 }  // namespace
 
 Eigen::VectorXd TranscriptionScheme::LagrangeIntegrals(double c, int k) const {
-  Eigen::VectorXd powers(num_nodes());  // c^p, integrated k times
+  Eigen::VectorXd integrals = Eigen::VectorXd::Zero(num_nodes());
+  double power = 1;
+  for (int step = 1; step <= k; ++step) power *= c;
   for (int p = 0; p < num_nodes(); ++p) {
-    double factor = 1;
-    for (int step = 1; step <= k; ++step) factor /= p + step;
-    powers[p] = factor * std::pow(c, p + k);
+    double integrated = power;  // c^p, k times
+    for (int step = 1; step <= k; ++step) integrated /= p + step;
+    integrals += integrated * lagrange.row(p).transpose();
+    power *= c;
   }
-  return lagrange.transpose() * powers;
+  return integrals;
 }
 
 Eigen::VectorXd TranscriptionScheme::LagrangeSlopes(double c) const {
-  Eigen::VectorXd powers = Eigen::VectorXd::Zero(num_nodes());
-  for (int p = 1; p < num_nodes(); ++p) powers[p] = p * std::pow(c, p - 1);
-  return lagrange.transpose() * powers;
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(num_nodes());
+  double power = 1;
+  for (int p = 1; p < num_nodes(); ++p) {
+    slopes += p * power * lagrange.row(p).transpose();
+    power *= c;
+  }
+  return slopes;
 }
 
 TranscriptionScheme SchemeOfNodes(const std::string& name, const std::vector<double>& nodes,

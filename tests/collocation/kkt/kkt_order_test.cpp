@@ -146,12 +146,38 @@ TEST(KktPairs, OrdersHoldEveryRowOnceAndKeepPairsTogether) {
     const Chain chain(RandomShape(&random), &random);
     const KktPairs pairs(chain.size(), chain.num_dual(), chain.Edges(), chain.times);
     const std::optional<std::vector<int>> along_time = pairs.OrderAlongTime();
-    for (std::vector<int> order :
-         {pairs.OrderByDegree(), along_time.value_or(pairs.OrderByDegree())}) {
+    for (std::vector<int> order : {pairs.OrderByDegree(), pairs.OrderByTime().value(),
+                                   along_time.value_or(pairs.OrderByDegree())}) {
       std::sort(order.begin(), order.end());
       std::vector<int> all(chain.size());
       std::iota(all.begin(), all.end(), 0);
       EXPECT_EQ(order, all);
+    }
+  }
+}
+
+/// A pair stands at the instant of its row that is no dual one, unless a far coupling has taken its
+/// time away.
+TEST(KktPairs, ByTimeOneInstantFollowsTheOther) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 100; ++trial) {
+    ChainShape shape = RandomShape(&random);
+    shape.periodic = false;
+    const Chain chain(shape, &random);
+    const std::vector<int> order =
+        KktPairs(chain.size(), chain.num_dual(), chain.Edges(), chain.times).OrderByTime().value();
+    double last = -1;
+    bool at_end = false;  // only rows without a time are left
+    for (const int row : order) {
+      if (row >= chain.size() - chain.num_dual()) continue;
+      const double time = chain.times[row];
+      if (std::isnan(time)) {
+        at_end = true;
+        continue;
+      }
+      EXPECT_FALSE(at_end);
+      EXPECT_GE(time, last);
+      last = time;
     }
   }
 }
@@ -171,6 +197,7 @@ TEST(KktPairs, WithoutTimesThereIsNoOrderAlongTime) {
   const std::vector<double> none(chain.size(), kNoTime);
   EXPECT_FALSE(KktPairs(chain.size(), chain.num_dual(), chain.Edges(), {}).OrderAlongTime());
   EXPECT_FALSE(KktPairs(chain.size(), chain.num_dual(), chain.Edges(), none).OrderAlongTime());
+  EXPECT_FALSE(KktPairs(chain.size(), chain.num_dual(), chain.Edges(), none).OrderByTime());
 }
 
 TEST(KktAlongTime, RandomChainsAreSolved) {
@@ -203,12 +230,20 @@ TEST(KktAlongTime, FlopsGrowWithTheNumberOfInstantsOnly) {
   }
 }
 
-TEST(KktAlongTime, TimesNeverCostFlops) {
+/// Where one instant after the other makes small fronts, no better order is looked for: 300
+/// multiplications a row cost less than the search.
+TEST(KktAlongTime, TimesCostFlopsOnlyWhereFrontsAreSmall) {
   std::mt19937 random(6);
+  int num_large = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    const Chain chain(RandomShape(&random), &random);
-    EXPECT_LE(FlopsOf(chain, chain.times), FlopsOf(chain, {}));
+    ChainShape shape = RandomShape(&random);
+    if (trial % 2 == 1) shape.states *= 4;
+    const Chain chain(shape, &random);
+    const double without = FlopsOf(chain, {}), with = FlopsOf(chain, chain.times);
+    EXPECT_LE(with, std::max(without, 300.0 * chain.size()));
+    num_large += with > 300 * chain.size() ? 1 : 0;
   }
+  EXPECT_GT(num_large, 10);
 }
 
 }  // namespace

@@ -85,6 +85,20 @@ TEST_F(ImportProgram, PositionsAndContactsAreCompletedAndVerify) {
   EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
 }
 
+TEST_F(ImportProgram, APlanOfFormatTwoVerifiesAndTakesThePlaceOfFormatOne) {
+  Plan("three_routes_a");
+  ASSERT_EQ(Run("export out --csv tables").code, 0);
+  const std::string import =
+      "import tables/trajectory.csv --scenario " + Scenario("three_routes_a") + " --out again";
+  ASSERT_EQ(Run(import).code, 0);
+  const Outcome outcome = Run(import + " --format 2");
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "again/plan.json"));
+  EXPECT_LT(std::filesystem::file_size(folder_ / "again/plan.zip"),
+            std::filesystem::file_size(folder_ / "out/plan.json") / 5);
+  EXPECT_EQ(Run("verify again").code, 0);
+}
+
 TEST_F(ImportProgram, AMotionThatTheRobotCannotDoIsRejected) {
   Plan("three_routes_a");
   ASSERT_EQ(Run("export out --npz plan.npz --period 0.01").code, 0);
@@ -129,6 +143,7 @@ TEST_F(ImportProgram, BadInputIsRefusedInOneLine) {
   ExpectRefused("import none.csv" + scenario);
   ExpectRefused("import . " + scenario);
   ExpectRefused("import motion.csv --scenario none.yaml --out again");
+  ExpectRefused("import motion.csv --format 3" + scenario);
   ExpectRefused("import motion.csv --robot none.yaml" + scenario);
   EXPECT_NE(
       ExpectRefused("import motion.csv" + scenario).find("motion.csv:1: no column 'q_root_qw'"),
