@@ -1,9 +1,12 @@
-"""Measures what planning from Python costs beside the program, in pairs, processor time of each.
+"""Measures what planning from Python costs beside the program: processor time of each, in pairs,
+or, where the machine is too busy for that, the instructions that Valgrind counts (minutes).
 
     PYTHONPATH=build/release/python python3 tests/python/overhead.py PROGRAM SCENARIO [PAIRS]
+    PYTHONPATH=build/release/python python3 tests/python/overhead.py PROGRAM SCENARIO instructions
 """
 
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -28,12 +31,33 @@ def seconds(command):
             - before.children_user - before.children_system)
 
 
-def main(program, scenario, pairs=7):
+def instructions(command):
+    """Number of instructions of a process, the same whatever else the machine does."""
+    valgrind = ["valgrind", "--tool=cachegrind", "--cache-sim=no",
+                "--cachegrind-out-file=/dev/null"]
+    run = subprocess.run(valgrind + command, check=True, capture_output=True, text=True)
+    return int(re.search(r"I +refs: +([\d,]+)", run.stderr).group(1).replace(",", ""))
+
+
+def both(program, scenario, out):
+    """The commands of a pair: by the program, and from Python."""
+    return [[program, "plan", scenario, "--seed", "1", "--threads", "1", "--out", out],
+            [sys.executable, "-c", CHILD, scenario, out]]
+
+
+def compare_instructions(program, scenario):
+    with tempfile.TemporaryDirectory() as out:
+        theirs, ours = [instructions(command) for command in both(program, scenario, out)]
+    alone = instructions([sys.executable, "-c", EMPTY])
+    print(f"program {theirs:,} instructions, Python {ours:,}, Python and NumPy alone {alone:,}: "
+          f"{100 * ((ours - alone) / theirs - 1):+.2f} % without these")
+
+
+def compare_times(program, scenario, pairs):
     ours, theirs, imports = [], [], []
     with tempfile.TemporaryDirectory() as out:
-        for i in range(int(pairs)):
-            commands = [[program, "plan", scenario, "--seed", "1", "--threads", "1", "--out", out],
-                        [sys.executable, "-c", CHILD, scenario, out]]
+        commands = both(program, scenario, out)
+        for i in range(pairs):
             times = {}
             for j in (i % 2, 1 - i % 2):
                 times[j] = seconds(commands[j])
@@ -48,6 +72,13 @@ def main(program, scenario, pairs=7):
         share = (of(ours) - alone) / of(theirs) - 1
         print(f"{name} of {len(ours)}: {100 * share:+.1f} % without {alone:.2f} s of Python and "
               "NumPy")
+
+
+def main(program, scenario, how="7"):
+    if how == "instructions":
+        compare_instructions(program, scenario)
+    else:
+        compare_times(program, scenario, int(how))
 
 
 main(*sys.argv[1:])
