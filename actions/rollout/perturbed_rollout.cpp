@@ -105,7 +105,9 @@ void Simulate(const RolloutReference& reference, const PerturbedRolloutSettings&
   for (const double until : ends) {
     const dynamics::CompliantRollout rollout = simulator.Run(q, v, time, until);
     const double end = rollout.trajectory.end_time();
-    Record(reference, rollout, time, settings.sample_time, &simulator, &slides, drift);
+    if (settings.compares) {
+      Record(reference, rollout, time, settings.sample_time, &simulator, &slides, drift);
+    }
     q = rollout.Configuration(end);
     v = rollout.Velocity(end);
     time = end;

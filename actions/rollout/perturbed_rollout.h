@@ -12,8 +12,11 @@ namespace possibility::actions {
 
 struct PerturbedRolloutSettings {
   RolloutGains gains;
-  double settling_time = 0.5;      ///< s, hold time of the last posture if the motion ends at rest
-  double sample_time = 0.005;      ///< s, between compared states
+  double settling_time = 0.5;  ///< s, hold time of the last posture if the motion ends at rest
+  double sample_time = 0.005;  ///< s, between compared states
+  /// Departures during the motion, torque and sliding, a tenth of the time. Whether the robot falls
+  /// and how it ends are known without them.
+  bool compares = true;
   CancellationToken cancellation;  ///< asked before every step
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 
 #include "dynamics/rollout/robot_rollout.h"
 
@@ -25,7 +26,8 @@ dynamics::RobotRolloutSettings SimulatorSettings(const RolloutCheckSettings& che
   dynamics::RobotRolloutSettings settings;
   settings.touching = kTouching;
   settings.jam_depth = kJamDepth;
-  settings.utilisation_interval = check.sample_time;
+  settings.utilisation_interval =
+      check.measures_torque ? check.sample_time : std::numeric_limits<double>::infinity();
   dynamics::OdeSettings& integration = settings.hybrid.integration;
   integration.relative_tolerance = check.tolerance;
   integration.absolute_tolerances.resize(model.nq() + model.nv());
@@ -38,15 +40,15 @@ dynamics::RobotRolloutSettings SimulatorSettings(const RolloutCheckSettings& che
 }
 
 void Compare(const RolloutReference& reference, const dynamics::RobotRollout& rollout,
-             double sample_time, RolloutDrift* drift) {
+             const RolloutCheckSettings& settings, RolloutDrift* drift) {
   const double end = std::min(drift->end, rollout.time);
-  const auto samples = static_cast<int>(std::ceil((end - drift->start) / sample_time));
+  const auto samples = static_cast<int>(std::ceil((end - drift->start) / settings.sample_time));
   for (int i = 0; i <= samples; ++i) {
-    const double t = std::min(end, drift->start + i * sample_time);
+    const double t = std::min(end, drift->start + i * settings.sample_time);
     reference.Compare(t, rollout.Configuration(t), drift);
   }
   reference.CompareEnd(rollout.Configuration(rollout.time), rollout.Velocity(rollout.time), drift);
-  drift->torque_used = rollout.torque_utilisation.maxCoeff();
+  if (settings.measures_torque) drift->torque_used = rollout.torque_utilisation.maxCoeff();
   for (const dynamics::RobotContactEvent& event : rollout.events) {
     drift->impacts += event.energy_lost > 0 ? 1 : 0;
   }
@@ -60,7 +62,7 @@ void Simulate(const RolloutReference& reference, const RolloutCheckSettings& set
   const double end = drift->end + (drift->ends_at_rest ? settings.settling_time : 0);
   const dynamics::RobotRollout rollout = simulator.Run(
       reference.Configuration(drift->start), reference.Velocity(drift->start), drift->start, end);
-  Compare(reference, rollout, settings.sample_time, drift);
+  Compare(reference, rollout, settings, drift);
   if (rollout.time < end) {
     drift->failure = fmt::format("ends at {:.3f} s: {}", rollout.time, rollout.reason);
   }

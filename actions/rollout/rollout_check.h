@@ -15,6 +15,7 @@ struct RolloutCheckSettings {
   double sample_time = 0.005;  ///< s, between compared states
   double tolerance = 1e-8;     ///< of the integrator: relative, and absolute of configurations
   double velocity_tolerance = 5e-5;  ///< of the integrator: absolute, m/s and rad/s
+  bool measures_torque = true;       ///< RolloutDrift::torque_used, a twelfth of the time
   CancellationToken cancellation;    ///< asked before every step
 };
 

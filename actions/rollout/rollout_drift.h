@@ -17,7 +17,7 @@ struct RolloutDrift {
   double end_speed = 0;          ///< m/s or rad/s, the root's greater one, likewise
   bool ends_at_rest = false;     ///< the motion does, so the simulation must
   int impacts = 0;               ///< instants with impacts; 0 on compliant ground
-  double torque_used = 0;        ///< greatest |torque| over effort limit
+  double torque_used = 0;        ///< greatest |torque| over effort limit; 0 if not asked for
   double slide = 0;              ///< m: farthest that a bearing point slides; on compliant ground
   /// Time of the motion, s, when the root first departs by kFallOrientation or kFallHeight.
   std::optional<double> fell_at;

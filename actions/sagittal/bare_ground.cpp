@@ -81,8 +81,11 @@ std::string FaultWithoutSimulation(const Plan& plan, const models::RobotModel& r
 
 std::string FaultInSimulation(const DynamicStretch& stretch, const models::RobotModel& robot,
                               const models::GroundMap& ground) {
-  const std::vector<Violation> faults = RolloutViolations(
-      {stretch.first_segment, stretch.last_segment, RollOutSegment(stretch.motion, robot, ground)});
+  RolloutCheckSettings check;
+  check.measures_torque = false;
+  const std::vector<Violation> faults =
+      RolloutViolations({stretch.first_segment, stretch.last_segment,
+                         RollOutSegment(stretch.motion, robot, ground, check)});
   return faults.empty() ? std::string() : TextOf(faults.front());
 }
 
@@ -90,9 +93,12 @@ std::string FaultInSimulation(const DynamicStretch& stretch, const models::Robot
 bool Survives(const DynamicStretch& stretch, const models::RobotModel& robot,
               const SagittalModel& model, const models::GroundMap& ground,
               const Perturbation& perturbation) {
-  const std::optional<FoldedMotion> folded = FoldMotion(model.reduction(), stretch.motion);
-  if (!folded) return RollOutPerturbed(stretch.motion, robot, ground, perturbation).survives();
   PerturbedRolloutSettings settings;
+  settings.compares = false;
+  const std::optional<FoldedMotion> folded = FoldMotion(model.reduction(), stretch.motion);
+  if (!folded) {
+    return RollOutPerturbed(stretch.motion, robot, ground, perturbation, settings).survives();
+  }
   settings.gains = folded->gains;
   return RollOutPerturbed(folded->motion, folded->robot, ground, perturbation, settings).survives();
 }

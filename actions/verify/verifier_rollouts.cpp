@@ -75,6 +75,7 @@ void VerifyRollouts(const VerifiedPlan& subject, const VerifierSettings& setting
   std::atomic<bool> cancelled = false;
   std::atomic<int> kept = 0;
   RolloutCheckSettings check;
+  check.measures_torque = false;  // the plan's own are among the margins
   check.cancellation = CancellationToken([&] {
     if (settings.progress) settings.progress(1);
     if (!settings.cancellation.Proceed()) cancelled = true;

@@ -157,9 +157,14 @@ const PointDerivatives& MultibodyDynamics::DifferentiatePoint(const ContactPoint
 
 void MultibodyDynamics::AddPointForce(const ContactPoint& point, const Eigen::Vector3d& force,
                                       Eigen::Ref<VectorXd> forces) const {
-  MatrixXd J(3, model_->nv());
-  Jacobian(point, J);
-  forces.noalias() += J.transpose() * force;
+  CheckPoint(point);
+  VectorXd tree = VectorXd::Zero(model_->tree().nv());
+  kinematics().AddPointForce(point.link, point.p_L, force, &tree);
+  if (model_->is_identity()) {
+    forces += tree;
+  } else {
+    forces += model_->IndependentForces(tree);
+  }
 }
 
 void MultibodyDynamics::AddPointForceDerivative(

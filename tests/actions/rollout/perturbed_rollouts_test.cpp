@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "actions/rollout/perturbed_rollout.h"
 #include "actions/rollout/rollout_check.h"
 #include "tests/actions/dynamic_gaits.h"
 #include "tests/actions/standing_plan.h"
@@ -35,6 +36,35 @@ TEST_F(PerturbedRolloutsTest, WithoutPerturbationTheResultIsCloseToTheVerifiers)
   EXPECT_TRUE(drift.survives());
   EXPECT_GT(drift.torque_used, 0.1);
   EXPECT_LT(drift.slide, 3e-3);
+}
+
+TEST_F(PerturbedRolloutsTest, WhatIsNotMeasuredLeavesTheRestAsItIs) {
+  const models::GroundMap ground(scenario_.environment);
+  const Segment& segment = plan_.segments.front();
+  RolloutCheckSettings check;
+  const RolloutDrift whole = RollOutSegment(segment, DrcHubo1(), ground, check);
+  check.measures_torque = false;
+  const RolloutDrift part = RollOutSegment(segment, DrcHubo1(), ground, check);
+  EXPECT_GT(whole.torque_used, 0.1);
+  EXPECT_EQ(part.torque_used, 0);
+  EXPECT_EQ(part.worst_position, whole.worst_position);
+  EXPECT_EQ(part.end_position, whole.end_position);
+  EXPECT_EQ(part.impacts, whole.impacts);
+
+  Perturbation hard;
+  hard.push = 100;
+  for (const Perturbation& perturbation : {Perturbation(), hard}) {
+    PerturbedRolloutSettings settings;
+    const RolloutDrift compared =
+        RollOutPerturbed(segment, DrcHubo1(), ground, perturbation, settings);
+    settings.compares = false;
+    const RolloutDrift bare = RollOutPerturbed(segment, DrcHubo1(), ground, perturbation, settings);
+    EXPECT_EQ(bare.survives(), compared.survives());
+    EXPECT_EQ(bare.fell_at, compared.fell_at);
+    EXPECT_EQ(bare.end_position, compared.end_position);
+    EXPECT_EQ(bare.slide, 0);
+    EXPECT_GT(compared.worst_joint, 0);
+  }
 }
 
 TEST_F(PerturbedRolloutsTest, JointErrorsGrowInProportionToAddedMass) {
