@@ -56,15 +56,19 @@ Json ShapeJson(const models::Shape& shape) {
   return {{"type", "convex"}, {"vertices", vertices}};
 }
 
+Json ShapesJson(const std::vector<models::PosedShape>& shapes) {
+  Json json = Json::array();
+  for (const models::PosedShape& posed : shapes) {
+    json.push_back(ShapeJson(posed.shape));
+    json.back()["pose"] = PoseJson(posed.X_PS);
+  }
+  return json;
+}
+
 Json LinksJson(const models::RobotModel& robot) {
   Json links = Json::array();
   for (const models::Link& link : robot.links) {
-    Json shapes = Json::array();
-    for (const models::PosedShape& posed : link.shapes) {
-      shapes.push_back(ShapeJson(posed.shape));
-      shapes.back()["pose"] = PoseJson(posed.X_PS);
-    }
-    links.push_back({{"name", link.name}, {"shapes", shapes}});
+    links.push_back({{"name", link.name}, {"shapes", ShapesJson(link.shapes)}});
   }
   return links;
 }
@@ -80,18 +84,17 @@ Json MeshJson(const models::TriangleMesh& mesh) {
 }
 
 /// Adds what is seen of each link to its JSON, where that is known.
-Json MeshesJson(const RobotLook& look, Json* links) {
+void AddLooks(const RobotLook& look, Json* links) {
   for (std::size_t i = 0; i < look.links.size(); ++i) {
-    Json parts = Json::array();
-    for (const models::PosedShape& posed : look.links[i].shapes) {
-      parts.push_back(ShapeJson(posed.shape));
-      parts.back()["pose"] = PoseJson(posed.X_PS);
-    }
+    Json parts = ShapesJson(look.links[i].shapes);
     for (const PosedMesh& posed : look.links[i].meshes) {
       parts.push_back({{"type", "mesh"}, {"mesh", posed.mesh}, {"pose", PoseJson(posed.X_LM)}});
     }
     if (!parts.empty()) (*links)[i]["look"] = parts;
   }
+}
+
+Json MeshesJson(const RobotLook& look) {
   Json meshes = Json::array();
   for (const models::TriangleMesh& mesh : look.meshes) meshes.push_back(MeshJson(mesh));
   return meshes;
@@ -285,7 +288,7 @@ std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& 
   const Eigen::AlignedBox2d& bounds = scenario.environment.bounds;
   const RobotLook look = LookOf(robot);
   Json links = LinksJson(robot);
-  const Json meshes = MeshesJson(look, &links);
+  AddLooks(look, &links);
   Json json;
   json["title"] = heading.title;
   json["facts"] = heading.facts;
@@ -295,7 +298,7 @@ std::string ViewerDataJson(const actions::Plan& plan, const models::RobotModel& 
   json["weight"] = dynamics::kGravity * robot.TotalMass();
   json["friction"] = robot.friction;
   json["links"] = links;
-  json["meshes"] = meshes;
+  json["meshes"] = MeshesJson(look);
   json["joints"] = JointsJson(robot);
   json["pairs"] = robot.sagittal_pairs;
   json["contacts"] = ContactsJson(robot);
