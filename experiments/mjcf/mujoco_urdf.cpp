@@ -7,11 +7,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "experiments/support/file_name.h"
 #include "experiments/support/xml_text.h"
 #include "models/input/input_error.h"
 #include "models/mesh/mesh_writer.h"
@@ -355,11 +355,8 @@ class Converter {
   }
 
   std::string MeshFile(int mesh) {
-    std::string name = NameOf(mjOBJ_MESH, mesh, "mesh");
-    for (char& c : name) {
-      if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
-    }
-    std::string file = fmt::format("meshes/{}_{}.stl", mesh, name);
+    std::string file =
+        fmt::format("meshes/{}_{}.stl", mesh, SafeFileName(NameOf(mjOBJ_MESH, mesh, "mesh")));
     if (meshes_.insert(mesh).second) {
       result_.files.push_back({file, models::BinaryStl(MeshOf(model_, mesh))});
     }

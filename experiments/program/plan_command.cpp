@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -18,6 +17,7 @@
 #include "experiments/service/anytime.h"
 #include "experiments/service/plan_output.h"
 #include "experiments/service/plan_watch.h"
+#include "experiments/support/file_name.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/option_values.h"
 #include "experiments/support/output_file.h"
@@ -49,11 +49,8 @@ struct PlanOptions {
 };
 
 /// out/<name>, safe for any characters in the name.
-std::filesystem::path DefaultFolder(std::string name) {
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
-  }
-  return std::filesystem::path("out") / (name.empty() ? "plan" : name);
+std::filesystem::path DefaultFolder(const std::string& name) {
+  return std::filesystem::path("out") / (name.empty() ? "plan" : SafeFileName(name));
 }
 
 /// Overlays the options on `request`, which holds the defaults.

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
 #include <numeric>
 
 #include "experiments/regression/work_precision.h"
 #include "experiments/report/svg_plot.h"
 #include "experiments/report/trajectory_plot.h"
+#include "experiments/support/file_name.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/xml_text.h"
 #include "models/input/json_text.h"
@@ -17,11 +17,7 @@ namespace possibility::experiments {
 namespace {
 
 std::string FileName(const std::string& problem, const char* suffix = "") {
-  std::string name = problem;
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
-  }
-  return name + suffix + ".svg";
+  return SafeFileName(problem) + suffix + ".svg";
 }
 
 std::string Number(double value, const char* format) {

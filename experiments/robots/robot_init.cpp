@@ -17,6 +17,7 @@
 #include "experiments/mjcf/mjcf_robot.h"
 #include "experiments/robots/seen_meshes.h"
 #include "experiments/robots/winding_ways.h"
+#include "experiments/support/file_name.h"
 #include "experiments/support/hardware_threads.h"
 #include "experiments/support/output_file.h"
 #include "experiments/support/standard_streams.h"
@@ -38,10 +39,7 @@ constexpr double kTimeLimit = 20;  // s, to plan
 
 /// The robot's name, safe as a file name.
 std::string SafeName(const fs::path& urdf) {
-  std::string name = urdf.stem().string();
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
-  }
+  const std::string name = SafeFileName(urdf.stem().string());
   return name.empty() ? "robot" : name;
 }
 

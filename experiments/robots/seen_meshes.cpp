@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include <cctype>
 #include <map>
 #include <utility>
 
+#include "experiments/support/file_name.h"
 #include "experiments/viewer/robot_look.h"
 #include "experiments/viewer/simpler_mesh.h"
 #include "models/input/input_error.h"
@@ -19,13 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that every file system allows; the number keeps it from another's.
+/// The number keeps the name from another's.
 std::string FileName(const fs::path& source, std::size_t number) {
-  std::string name = source.stem().string();
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
-  }
-  return fmt::format("meshes/{}_{}.stl", number, name);
+  return fmt::format("meshes/{}_{}.stl", number, SafeFileName(source.stem().string()));
 }
 
 class Copier {
