@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "actions/jump/jump_motion_file.h"
 #include "actions/motion/motion_folder.h"
 #include "collocation/study/stored_solution_reader.h"
 #include "collocation/study/stored_solution_writer.h"
+#include "common/stopwatch.h"
 #include "dynamics/tree/tree_kinematics.h"
 #include "models/input/atomic_file.h"
 #include "models/input/file_contents.h"
@@ -21,6 +23,8 @@ namespace {
 
 constexpr const char* kFormat = "possibility-jumps/1";
 constexpr const char* kReachFile = "reach.json";
+constexpr const char* kMotionEnding = ".zip";
+constexpr const char* kSolutionEnding = ".json";
 constexpr double kSame = 1e-9;  // m
 
 /// Optimistic bound: ballistic flight at take-off speed v = greatest joint speed * leg length, with
@@ -88,19 +92,35 @@ std::optional<JumpAnswer> JumpLibrary::Find(const JumpTask& task) {
     const auto known = answers_.find(KeyOf(task));
     if (known != answers_.end()) return known->second;
   }
-  if (folder_.empty() || use_ == Use::kReachAlone || !std::filesystem::exists(FileOf(task))) {
-    return std::nullopt;
-  }
-  JumpAnswer answer;
-  try {
-    answer = solver_.Realise(OnGrid(task), collocation::ReadSolution(FileOf(task)));
-  } catch (const std::exception&) {
-    // A jump that cannot be read is solved again.
-    return std::nullopt;
-  }
+  if (folder_.empty() || use_ == Use::kReachAlone) return std::nullopt;
+  const JumpAnswer answer = Read(task);
   if (!answer.jump) return std::nullopt;
   const std::lock_guard lock(mutex_);
   return answers_.emplace(KeyOf(task), answer).first->second;
+}
+
+// A motion that cannot be read is realised from the solution; without that, the jump is solved
+// again.
+JumpAnswer JumpLibrary::Read(const JumpTask& task) const {
+  const Stopwatch stopwatch;
+  const std::filesystem::path motion = FileOf(task, kMotionEnding);
+  const std::filesystem::path solution = FileOf(task, kSolutionEnding);
+  if (std::filesystem::exists(motion)) {
+    try {
+      JumpAnswer answer;
+      answer.jump =
+          std::make_shared<const SolvedJump>(ReadJumpMotion(OnGrid(task), solver_.robot(), motion));
+      answer.effort.total = stopwatch.Seconds();
+      return answer;
+    } catch (const std::exception&) {
+    }
+  }
+  if (!std::filesystem::exists(solution)) return {};
+  try {
+    return solver_.Realise(OnGrid(task), collocation::ReadSolution(solution));
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 JumpAnswer JumpLibrary::FindOrSolve(const JumpTask& task, const CancellationToken& cancellation,
@@ -112,16 +132,17 @@ JumpAnswer JumpLibrary::FindOrSolve(const JumpTask& task, const CancellationToke
   return answers_.emplace(KeyOf(task), answer).first->second;
 }
 
-std::filesystem::path JumpLibrary::FileOf(const JumpTask& task) const {
+std::filesystem::path JumpLibrary::FileOf(const JumpTask& task, const char* ending) const {
   const auto [distance, height] = KeyOf(task);
-  return folder_ / fmt::format("jump_{}_{}.json", distance, height);
+  return folder_ / fmt::format("jump_{}_{}{}", distance, height, ending);
 }
 
 void JumpLibrary::Save(const JumpAnswer& answer, const JumpTask& task) const {
   if (folder_.empty() || !answer.solution) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
-  collocation::WriteSolution(FileOf(task), *answer.solution);
+  collocation::WriteSolution(FileOf(task, kSolutionEnding), *answer.solution);
+  WriteJumpMotion(*answer.jump, solver_.robot(), FileOf(task, kMotionEnding));
 }
 
 void JumpLibrary::SaveReach(const JumpReach& reach) const {

@@ -31,8 +31,9 @@ struct JumpReach {
 };
 
 /// Solved jumps on a grid of distances and heights: those of this run, and those in a folder that
-/// earlier runs and `possibility library` filled. Each robot has its own part of the folder, and
-/// gets a new one when anything changes that its jumps depend on. Safe to share between threads.
+/// earlier runs and `possibility library` filled with their motions and their solutions in the
+/// plane. Each robot has its own part of the folder, and gets a new one when anything changes that
+/// its jumps depend on. Safe to share between threads.
 class JumpLibrary {
  public:
   static constexpr double kDistanceStep = 0.05;  ///< m
@@ -49,7 +50,8 @@ class JumpLibrary {
   /// The nearest task on the grid.
   static JumpTask OnGrid(const JumpTask& task);
 
-  /// The known answer to a task on the grid, without solving; none if unknown.
+  /// The known answer to a task on the grid, without solving; none if unknown. A folder that has
+  /// only the solution of a jump is enough: the motion is realised again.
   std::optional<JumpAnswer> Find(const JumpTask& task);
   /// Find, or else solves (JumpSolver::Solve); keeps the answer unless it was cancelled. Two
   /// threads that ask for the same jump may both solve it.
@@ -65,14 +67,18 @@ class JumpLibrary {
   const std::filesystem::path& folder() const { return folder_; }
   bool reach_is_derived() const { return reach_is_derived_; }
 
-  /// Writes an answer and the table into the folder. @throws InputError if that fails.
+  /// Writes an answer that was solved or realised, and the table, into the folder.
+  /// @throws InputError if that fails.
   void Save(const JumpAnswer& answer, const JumpTask& task) const;
   void SaveReach(const JumpReach& reach) const;
 
  private:
   using Key = std::pair<int, int>;
   static Key KeyOf(const JumpTask& task);
-  std::filesystem::path FileOf(const JumpTask& task) const;
+  /// Its file with an ending: ".zip" the motion, ".json" the solution.
+  std::filesystem::path FileOf(const JumpTask& task, const char* ending) const;
+  /// From the folder; no jump if it has none that can be read.
+  JumpAnswer Read(const JumpTask& task) const;
   void ReadReach();
 
   const JumpSolver& solver_;

@@ -96,10 +96,7 @@ std::vector<Phase> JumpMotion::Realise(const JumpProblem& problem,
   const Support all = stance_.LandingAll(task.distance, task.height);
   std::vector<Phase> motion;
   const auto last = [&motion]() -> const Knot& { return motion.back().knots.back(); };
-  if (preparation) {
-    Append(*preparation, &motion);
-    report->preparation = last().t;
-  }
+  if (preparation) Append(*preparation, &motion);
   const PhaseTrajectory& crouch = plans[JumpProblem::kCrouch];
   Append(stance_.Follow(crouch, stance_.PlannedKnot(crouch, 0), stance_.LaunchFeet()), &motion);
   Append(RollOverToes(plans[JumpProblem::kToes], last()), &motion);

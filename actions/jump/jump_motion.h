@@ -13,7 +13,6 @@ namespace possibility::actions {
 
 /// How closely a jump of the whole robot follows the sagittal one.
 struct JumpMotionReport {
-  double preparation = 0;  ///< s, of a first phase that only turns joints; 0 if there is none
   double landing_correction = 0;  ///< rad: greatest joint correction that brings feet and hands to
                                   ///< their places in spite of the robot's asymmetry
   double impact_friction = 0;     ///< greatest fraction of the friction coefficient used by impacts

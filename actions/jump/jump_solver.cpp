@@ -36,9 +36,11 @@ constexpr std::array<double, 4> kFineness = {0.6, 1, 1.5, 1.25};
 /// Least gap between grounds of different heights, m.
 constexpr double kLeastGap = 0.01;
 
-/// The cost only selects among jumps, so it need not be exact.
+/// The cost only selects among jumps, so it need not be exact; on the first mesh least of all. A
+/// jump that the whole robot cannot follow from there is solved more closely, too: that helps.
 collocation::SolverOptions Options(bool from_solution) {
-  collocation::SolverOptions options = SagittalSolverOptions(1e-4, from_solution);
+  collocation::SolverOptions options =
+      from_solution ? SagittalSolverOptions(1e-4, true) : SagittalSolverOptionsWithinBarrier();
   options.max_iterations = kMostIterations;
   options.ipopt.emplace_back("nlp_scaling_method", "none");
   return options;
@@ -149,7 +151,9 @@ void JumpSolver::RealiseInSpace(const JumpProblem& problem,
   jump->task = problem.task();
   try {
     JumpMotion motion(robot_, model_, launch_, landing_);
-    jump->phases = motion.Realise(problem, trajectory, Preparation(motion), &jump->report);
+    const std::optional<Phase>& preparation = Preparation(motion);
+    if (preparation) jump->preparation = preparation->knots.back().t;
+    jump->phases = motion.Realise(problem, trajectory, preparation, &jump->report.emplace());
     if (is_new) RequireSound(*jump);
     answer->jump = std::move(jump);
     answer->reason.clear();

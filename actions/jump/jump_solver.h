@@ -7,24 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "actions/jump/jump_motion.h"
 #include "actions/jump/jump_problem.h"
+#include "actions/jump/solved_jump.h"
 #include "collocation/solver/solver.h"
 #include "collocation/study/stored_solution.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::actions {
-
-/// A jump of the whole robot within all limits, independent of its place.
-struct SolvedJump {
-  JumpTask task;
-  std::vector<Phase> phases;  ///< in the launch stance's frame, rest to rest, times from 0
-  JumpMotionReport report;
-
-  double duration() const { return phases.back().knots.back().t; }  ///< s
-  /// Of the first phase, which only turns joints, s. A gait that leads to the jump does so, too.
-  double preparation() const { return report.preparation; }
-};
 
 /// Cost of an answer.
 struct JumpEffort {
@@ -39,7 +28,7 @@ struct JumpAnswer {
   std::shared_ptr<const SolvedJump> jump;               ///< null: no jump, or cancelled
   std::string reason;                                   ///< why there is no jump
   bool cancelled = false;                               ///< the answer is unknown
-  std::optional<collocation::StoredSolution> solution;  ///< in the plane, if there is a jump
+  std::optional<collocation::StoredSolution> solution;  ///< in the plane; none if it was stored
   JumpEffort effort;
 };
 
@@ -58,6 +47,7 @@ class JumpSolver {
              const NominalStance& landing)
       : JumpSolver(robot, launch, landing, JumpSettings::For(robot, launch, landing)) {}
 
+  const models::RobotModel& robot() const { return robot_; }
   const SagittalModel& model() const { return model_; }
   const JumpSettings& settings() const { return settings_; }
   /// Of this solver's jumps (JumpIdentity).

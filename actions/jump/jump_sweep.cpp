@@ -60,10 +60,9 @@ class SweepQueue {
     entry.task = task;
     std::optional<JumpAnswer> answer = library_.Find(task);
     entry.was_known = answer.has_value();
-    if (!answer) {
-      answer = library_.FindOrSolve(task);
-      if (answer->jump) library_.Save(*answer, task);
-    }
+    if (!answer) answer = library_.FindOrSolve(task);
+    // A known one, too, if its folder has no motion.
+    if (answer->jump && answer->solution) library_.Save(*answer, task);
     entry.is_possible = answer->jump != nullptr;
     entry.reason = answer->reason;
     entry.effort = answer->effort;

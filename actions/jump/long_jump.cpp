@@ -397,7 +397,7 @@ double LongJump::ExpectedDuration(const graph::Edge& edge) const {
   const std::lock_guard lock(mutex_);
   for (const Solved& solved : solved_) {
     if (leap && SameTask(solved.jump->task, leap->task)) {
-      return rest_time + solved.jump->duration() - solved.jump->preparation();
+      return rest_time + solved.jump->duration() - solved.jump->preparation;
     }
   }
   return rest_time + kNominalDuration;
@@ -415,7 +415,7 @@ double LongJump::GreatestSpeed() const {
       const std::optional<JumpAnswer> answer =
           library_->Find(JumpLibrary::OnGrid({distance, height}));
       if (!answer || !answer->jump) continue;
-      const double seconds = answer->jump->duration() - answer->jump->preparation();
+      const double seconds = answer->jump->duration() - answer->jump->preparation;
       greatest = std::max(greatest, (distance + beyond) / seconds);
     }
   }

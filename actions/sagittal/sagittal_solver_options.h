@@ -16,4 +16,8 @@ namespace possibility::actions {
 /// ended.
 collocation::SolverOptions SagittalSolverOptions(double tolerance, bool from_solution = false);
 
+/// The same, but the barrier stays where it begins. The motion is as feasible and keeps a little
+/// farther from its bounds; the cost is some percent above the least.
+collocation::SolverOptions SagittalSolverOptionsWithinBarrier();
+
 }  // namespace possibility::actions

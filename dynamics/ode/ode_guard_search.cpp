@@ -153,7 +153,7 @@ double GuardSearch::Spacing() const { return settings_.max_step / settings_.guar
 
 bool GuardSearch::IsDue(double time) const {
   // This part of the time since the start.
-  constexpr double kShare = 0.25;
+  constexpr double kShare = 0.5;
   const double soon = kShare * (time - problem_.start_time);
   const double spacing = std::isfinite(settings_.max_step) ? std::min(Spacing(), soon) : 0;
   return time - searched_ >= spacing;

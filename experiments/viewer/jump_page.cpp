@@ -144,8 +144,8 @@ void AddFlight(const LoadedJump& loaded, PageHeading* heading) {
     if (phase.impulses.cols() > 0) {
       heading->facts.emplace_back("Impact", fmt::format("{:.1f} N s, {:.1f} J, {:.0f} % friction",
                                                         phase.impulses.rowwise().sum().norm(),
-                                                        loaded.jump->report.energy_lost,
-                                                        100 * loaded.jump->report.impact_friction));
+                                                        loaded.jump->report->energy_lost,
+                                                        100 * loaded.jump->report->impact_friction));
     }
   }
 }

@@ -114,7 +114,7 @@ TEST(LeapSolverTest, LeadsFromWalkingStanceToWalkingStanceAtRest) {
     EXPECT_LT((phases.back().knots.back().q - landed).norm(), 1e-7);
     EXPECT_LT(phases.back().knots.back().v.norm(), kMesh);
     // No joint turns before the crouch.
-    EXPECT_EQ(answer.jump->preparation(), 0);
+    EXPECT_EQ(answer.jump->preparation, 0);
     ASSERT_EQ(phases.size(), 5u);
     EXPECT_TRUE(phases.at(kFlight - 1).contacts.empty());
     for (const int phase : {kSettle, kLanding}) {
@@ -338,7 +338,9 @@ TEST_F(JumpLibraryTest, SavedJumpsAndReachAreReadBack) {
   const auto known = library.Find(kTask);
   ASSERT_TRUE(known && known->jump);
   ASSERT_EQ(known->jump->phases.size(), Answer().jump->phases.size());
-  EXPECT_EQ(known->jump->phases.back().knots.back().q, MotionPhaseOf(kLanding).knots.back().q);
+  EXPECT_LT(
+      (known->jump->phases.back().knots.back().q - MotionPhaseOf(kLanding).knots.back().q).norm(),
+      1e-9);
   EXPECT_EQ(known->effort.iterations, 0);
   EXPECT_FALSE(library.Find({0.55, 0}));
 }
@@ -462,15 +464,36 @@ bool SurvivesAllAtOnce(const JumpSolver& solver, const JumpTask& task) {
   return true;
 }
 
-/// With as much torque until the hands touch down as before, its knees give way after the impact.
+const JumpTask kLongJump = {0.85, 0};
+
+TEST(GearedJumpTest, ALongJumpSurvivesWeakMotorsAHeavyBodyAndASlope) {
+  const JumpSolver solver(GearedDrcHubo1(), Stance("walk"), Stance("crawl"));
+  EXPECT_TRUE(SurvivesAllAtOnce(solver, kLongJump));
+}
+
+/// Greatest share of a joint's torque between the impact and the touchdown of the hands.
+double TorqueToSettleWith(const JumpSettings& settings) {
+  const models::RobotModel& robot = GearedDrcHubo1();
+  const JumpAnswer answer =
+      JumpSolver(robot, Stance("walk"), Stance("crawl"), settings).Solve(kLongJump);
+  EXPECT_TRUE(answer.jump) << answer.reason;
+  double share = 0;
+  if (!answer.jump) return share;
+  for (const Knot& knot : answer.jump->phases.at(kSettle).knots) {
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      share = std::max(share, std::abs(knot.tau[j]) / robot.joints[j].effort);
+    }
+  }
+  return share;
+}
+
 TEST(GearedJumpTest, ALongJumpKeepsTorqueToSettleWith) {
   JumpSettings settings = JumpSettings::For(GearedDrcHubo1(), Stance("walk"), Stance("crawl"));
-  const JumpTask task = {0.85, 0};
-  EXPECT_TRUE(SurvivesAllAtOnce(
-      JumpSolver(GearedDrcHubo1(), Stance("walk"), Stance("crawl"), settings), task));
+  const double kept = TorqueToSettleWith(settings);
+  // In the plane 0.75; the whole robot is not quite symmetric.
+  EXPECT_LT(kept, 0.85);
   settings.settling_torque = 1;
-  EXPECT_FALSE(SurvivesAllAtOnce(
-      JumpSolver(GearedDrcHubo1(), Stance("walk"), Stance("crawl"), settings), task));
+  EXPECT_GT(TorqueToSettleWith(settings), kept + 0.05);
 }
 
 TEST(GearedJumpTest, TheTorqueToSettleWithBelongsToTheIdentityWhereItLimits) {
