@@ -181,7 +181,7 @@ void JumpProblem::GuessMotion() {
   GuessLine(kToes, 0.5, 0, 0.1);
   GuessLine(kRise, kHalfFlight, 0.1, 0.5);
   GuessLine(kDescent, kHalfFlight, 0.5, 0.8);
-  GuessLine(kSettle, 0.8, 0.8, 1);
+  GuessLine(kSettle, 1.2, 0.8, 1);
   GuessLine(kLanding, 2.3, 1, 1);
   const double apex = model_.units().length * kHalfFlight * kHalfFlight / 2;
   GuessHeight(kRise, 0.1, 0.5, [apex](double s) { return apex * (1 - (1 - s) * (1 - s)); });

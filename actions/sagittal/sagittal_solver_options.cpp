@@ -26,6 +26,8 @@ collocation::SolverOptions SagittalSolverOptionsWithinBarrier() {
   constexpr double kTolerance = 11.01 * kFirstBarrier;
   collocation::SolverOptions options = SagittalSolverOptions(kTolerance);
   options.ipopt.emplace_back("compl_inf_tol", fmt::format("{:g}", kTolerance));
+  // So far from feasible, the multipliers of least squares are too large to be used.
+  options.ipopt.emplace_back("constr_mult_init_max", "0");
   return options;
 }
 

@@ -35,6 +35,10 @@ class ComposedFunction {
   std::vector<PolynomialForm> arguments_;
   Mask hessian_mask_;
   std::vector<int> hessian_slots_;  // in the order of AddHessian
+  /// By argument: where its gradient begins in `slopes_`, and the end of the last.
+  std::vector<int> first_slope_;
+  std::vector<int> slope_variables_;
+  std::vector<double> slopes_;  ///< of AddHessian
   Eigen::VectorXd z_, y_;
   Eigen::MatrixXd J_, H_;
 };

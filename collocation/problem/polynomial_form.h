@@ -52,8 +52,14 @@ struct PolynomialForm {
 };
 
 inline double PolynomialForm::Value(const Eigen::VectorXd& x) const {
-  const double t = duration < 0 ? 1 : x[duration];
   double sum = 0;
+  if (is_linear()) {
+    for (const Monomial& m : monomials) {
+      sum += m.coefficient * (m.variable < 0 ? 1 : x[m.variable]);
+    }
+    return sum;
+  }
+  const double t = x[duration];
   for (const Monomial& m : monomials) {
     sum += m.coefficient * (m.variable < 0 ? 1 : x[m.variable]) * Power(t, m.power);
   }

@@ -112,7 +112,8 @@ void RigidBasis::Reduce(const MatrixXd& J, MatrixXd* reduced) const {
   for (const Group& group : groups_) {
     auto part = reduced->middleCols(group.column, group.basis.cols());
     for (const std::size_t point : group.points) {
-      part.noalias() += J.middleRows<3>(3 * point).transpose() * Block(group, point);
+      // Three products an entry: Eigen's blocked product would spend more on packing.
+      part += J.middleRows<3>(3 * point).transpose().lazyProduct(Block(group, point));
     }
   }
 }

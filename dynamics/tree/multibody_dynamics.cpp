@@ -60,15 +60,18 @@ void MultibodyDynamics::SetState(const Eigen::Ref<const VectorXd>& q,
   } else {
     tree_.SetState(model_->TreeConfiguration(q), model_->TreeVelocity(v), model_->TreeVelocity(a));
   }
+  acceleration_ = a;
 }
 
 void MultibodyDynamics::SetAcceleration(const Eigen::Ref<const VectorXd>& a) {
   Check("a", a, model_->nv());
+  if (acceleration_.size() == a.size() && acceleration_ == a) return;
   if (model_->is_identity()) {
     tree_.SetAcceleration(a);
   } else {
     tree_.SetAcceleration(model_->TreeVelocity(a));
   }
+  acceleration_ = a;
 }
 
 /// Reduces rows and columns.

@@ -31,7 +31,7 @@ class MultibodyDynamics {
   void SetState(const Eigen::Ref<const Eigen::VectorXd>& q,
                 const Eigen::Ref<const Eigen::VectorXd>& v,
                 const Eigen::Ref<const Eigen::VectorXd>& a);
-  /// Sets another acceleration at the same state; nv.
+  /// Sets another acceleration at the same state; nv. Costs nothing if it is the one set.
   void SetAcceleration(const Eigen::Ref<const Eigen::VectorXd>& a);
 
   /// M(q) a + c(q, v) + g(q), with the torques of rotors and friction, at the acceleration set; nv.
@@ -82,6 +82,7 @@ class MultibodyDynamics {
 
   std::shared_ptr<const MultibodyModel> model_;
   TreeDerivatives tree_;
+  Eigen::VectorXd acceleration_;
   Eigen::VectorXd torque_limits_;
   // Only for models whose coordinates are not the tree's.
   Eigen::VectorXd forces_;

@@ -288,12 +288,12 @@ TEST(LongJumpTest, ACancelledJobIsUndecided) {
   EXPECT_TRUE(scene.searched().Explorable(edge));
 }
 
-/// Number of turns of 100 checkpoints in which the jump is solved and placed. `pause`: between
+/// Number of turns of 50 checkpoints in which the jump is solved and placed. `pause`: between
 /// turns.
 int TurnsOfJump(double distance, std::chrono::milliseconds pause) {
   const JumpScene scene(TwoFloors(kGap));
   // Sanitizers are slow.
-  graph::ConfirmationQueue queue({.checkpoints_per_turn = 100, .job_time_limit = 1000});
+  graph::ConfirmationQueue queue({.checkpoints_per_turn = 50, .job_time_limit = 1000});
   queue.Insert(0, scene.jump().SpawnConfirmationJob(JumpScene::Edge(-0.2, distance)), 0);
   int turns = 1;
   for (; !queue.RunTurn(Deadline(1000)); ++turns) std::this_thread::sleep_for(pause);
