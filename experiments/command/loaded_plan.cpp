@@ -31,6 +31,15 @@ LoadedPlan LoadAlone(const std::filesystem::path& file_or_directory) {
   return loaded;
 }
 
+/// @throws InputError if the plan names none: it is the motion of a library's jump.
+void RequireScenario(const LoadedPlan& loaded) {
+  if (!loaded.plan.scenario_file.empty()) return;
+  throw InputError(fmt::format(
+      "{}: scenario: file: empty, expected a scenario's path (of the motion of a library's jump, "
+      "view the .json beside it)",
+      loaded.file.string()));
+}
+
 }  // namespace
 
 bool LoadedPlan::IsCurrent() const {
@@ -39,6 +48,7 @@ bool LoadedPlan::IsCurrent() const {
 
 LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory) {
   LoadedPlan loaded = LoadAlone(file_or_directory);
+  RequireScenario(loaded);
   loaded.scenario = models::LoadScenario(loaded.plan.scenario_file);
   loaded.robot = models::LoadRobotModel(loaded.plan.robot_file);
   actions::CompleteTorques(loaded.robot, &loaded.plan);
@@ -48,6 +58,7 @@ LoadedPlan LoadPlan(const std::filesystem::path& file_or_directory) {
 LoadedPlan LoadPlanToVerify(const std::filesystem::path& file_or_directory,
                             const VerifiedWith& files) {
   LoadedPlan loaded = LoadAlone(file_or_directory);
+  if (files.scenario.empty()) RequireScenario(loaded);
   loaded.scenario =
       models::LoadScenario(files.scenario.empty() ? loaded.plan.scenario_file : files.scenario);
   const std::filesystem::path& named = loaded.scenario.robot_file;

@@ -332,12 +332,18 @@ TEST_F(Program, ViewRefusesFilesThatAreNeitherPlanNorJump) {
   std::ofstream(folder_ / "list.json") << "[]";
   std::ofstream(folder_ / "other.json") << R"({"format": "possibility-jumps/1", "reach": []})";
   std::ofstream(folder_ / "jump.json") << R"({"format": "possibility-solution/1"})";
+  const fs::path jumps = POSSIBILITY_SOURCE_DIR "/models/drchubo1/jumps";
+  for (const auto& entry : fs::recursive_directory_iterator(jumps)) {
+    if (entry.path().filename() != "jump_10_0.zip") continue;
+    fs::copy_file(entry.path(), folder_ / "motion.zip", fs::copy_options::overwrite_existing);
+  }
   const std::pair<std::string, std::string> cases[] = {
       {"none.json", "no such file"},
       {"text.json", "neither a plan nor a jump"},
       {"list.json", "neither a plan nor a jump"},
       {"other.json", "neither a plan nor a jump"},
       {"jump.json", "jump.json"},
+      {"motion.zip", "view the .json beside it"},
       {"plan.json jump.json", "expected two plans"},
       {"jump.json plan.json", "expected two plans"},
       {"plan.json none.json", "none.json: no such file"},
@@ -356,7 +362,8 @@ TEST_F(Program, ViewOfAJumpAloneNeedsTheRobotOption) {
   fs::path jump;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(POSSIBILITY_SOURCE_DIR) /
                                                             "models/drchubo1/jumps")) {
-    if (entry.path().filename().string().starts_with("jump_")) jump = entry.path();
+    const bool is_solution = entry.path().extension() == ".json";
+    if (is_solution && entry.path().filename().string().starts_with("jump_")) jump = entry.path();
   }
   ASSERT_FALSE(jump.empty());
   fs::copy_file(jump, folder_ / "jump.json");
