@@ -1,9 +1,6 @@
 #include "common/run_on_threads.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -17,27 +14,32 @@ void RunOnThreads(int threads, const std::function<void()>& work) {
 
 void ForEachOnThreads(int threads, std::size_t count,
                       const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::size_t failed = count;  // the least index whose call threw
-  std::exception_ptr fault;
-  const auto fail = [&](std::size_t i) {
-    const std::lock_guard lock(mutex);
-    if (i >= failed) return;
-    failed = i;
-    fault = std::current_exception();
-    next = count;
-  };
-  RunOnThreads(static_cast<int>(std::min<std::size_t>(std::max(1, threads), count)), [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        fail(i);
-      }
+  SharedCalls calls(count, work);
+  RunOnThreads(static_cast<int>(std::min<std::size_t>(std::max(1, threads), count)),
+               [&] { calls.Run(); });
+  calls.ThrowIfFailed();
+}
+
+void SharedCalls::Run() {
+  for (std::size_t i = next_++; i < count_; i = next_++) {
+    try {
+      work_(i);
+    } catch (...) {
+      Fail(i);
     }
-  });
-  if (fault) std::rethrow_exception(fault);
+  }
+}
+
+void SharedCalls::Fail(std::size_t index) {
+  const std::lock_guard lock(mutex_);
+  if (index >= failed_) return;
+  failed_ = index;
+  fault_ = std::current_exception();
+  next_ = count_;
+}
+
+void SharedCalls::ThrowIfFailed() const {
+  if (fault_) std::rethrow_exception(fault_);
 }
 
 }  // namespace possibility

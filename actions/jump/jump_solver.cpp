@@ -33,6 +33,9 @@ constexpr int kMostIterations = 100;
 /// mesh's fault.
 constexpr std::array<double, 4> kFineness = {0.6, 1, 1.5, 1.25};
 
+/// Always the same, so that jumps do not depend on the machine.
+constexpr int kThreads = 2;
+
 /// Least gap between grounds of different heights, m.
 constexpr double kLeastGap = 0.01;
 
@@ -98,6 +101,7 @@ bool JumpSolver::Attempt(const JumpTask& task, double fineness,
   collocation::OptimalControlOptions options;
   options.intervals = Intervals(fineness);
   options.solver = Options(coarser->has_value());
+  options.threads = kThreads;
   const collocation::OptimalControlResult result =
       *coarser ? SolveOptimalControl(problem.problem(), **coarser, options, cancellation, log)
                : SolveOptimalControl(problem.problem(), options, std::nullopt, cancellation, log);

@@ -20,6 +20,13 @@ Powers PowersOf(double s) {
   return powers;
 }
 
+/// Derivatives of the powers.
+Powers RatesOf(double s) {
+  Powers rates;
+  rates << 0, 1, 2 * s, 3 * s * s, 4 * s * s * s, 5 * s * s * s * s;
+  return rates;
+}
+
 Quaterniond RootOrientation(const VectorXd& q) {
   return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
@@ -71,9 +78,8 @@ Knot KnotInterpolant::At(double t) const {
   if (t <= k0_->t) return *k0_;
   if (t >= k1_->t) return *k1_;
   const double s = (t - k0_->t) / h_;
-  Powers rate;
+  const Powers rate = RatesOf(s);
   Powers acceleration;
-  rate << 0, 1, 2 * s, 3 * s * s, 4 * s * s * s, 5 * s * s * s * s;
   acceleration << 0, 0, 2, 6 * s, 12 * s * s, 20 * s * s * s;
 
   const VectorXd x = c_ * PowersOf(s);
@@ -91,6 +97,22 @@ Knot KnotInterpolant::At(double t) const {
   knot.tau = (1 - s) * k0_->tau + s * k1_->tau;
   knot.forces = (1 - s) * k0_->forces + s * k1_->forces;
   return knot;
+}
+
+void KnotInterpolant::JointsAt(double t, VectorXd* position, VectorXd* velocity,
+                               VectorXd* torque) const {
+  const Eigen::Index n = c_.rows() - 6;
+  if (t <= k0_->t || t >= k1_->t) {
+    const Knot& knot = t <= k0_->t ? *k0_ : *k1_;
+    *position = knot.q.tail(n);
+    *velocity = knot.v.tail(n);
+    *torque = knot.tau;
+    return;
+  }
+  const double s = (t - k0_->t) / h_;
+  position->noalias() = c_.bottomRows(n) * PowersOf(s);
+  velocity->noalias() = c_.bottomRows(n) * (RatesOf(s) / h_);
+  *torque = (1 - s) * k0_->tau + s * k1_->tau;
 }
 
 VectorXd KnotInterpolant::ConfigurationAt(double t) const {

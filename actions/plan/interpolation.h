@@ -18,6 +18,10 @@ class KnotInterpolant {
 
   /// `t` is clamped to [k0.t, k1.t]; at both ends the knots themselves are returned.
   Knot At(double t) const;
+  /// Of the same: positions and velocities of the joints (n) and their torques, at a fraction of
+  /// the time.
+  void JointsAt(double t, Eigen::VectorXd* position, Eigen::VectorXd* velocity,
+                Eigen::VectorXd* torque) const;
   /// q of the same.
   Eigen::VectorXd ConfigurationAt(double t) const;
 

@@ -90,10 +90,9 @@ RolloutReference::Track::Track(const Segment& segment) {
   }
 }
 
-/// At the meeting of two phases: the later one's.
-Knot RolloutReference::Track::At(double t) const {
+const KnotInterpolant& RolloutReference::Track::Around(double t) const {
   const auto after = std::upper_bound(starts_.begin() + 1, starts_.end(), t);
-  return intervals_[after - starts_.begin() - 1].At(t);
+  return intervals_[after - starts_.begin() - 1];
 }
 
 RolloutReference::RolloutReference(const Segment& segment, const models::RobotModel& robot,
@@ -193,21 +192,19 @@ dynamics::JointControl RolloutReference::Control(const StepFeedback* steps) cons
   dynamics::JointControl control;
   control.stiffness = stiffness_(model_->joints());
   control.damping = damping_time_ * control.stiffness;
-  control.command = [this, steps](double t, dynamics::JointCommand* command) {
-    const Knot knot = track_.At(t);
-    const int n = model_->num_joints();
-    const VectorXd q = Configuration(knot);
-    command->position = q.tail(n);
-    command->velocity = Velocity(knot).tail(n);
-    const auto correction =
-        steps ? steps->CorrectionAt(t, model_->TreeConfiguration(q)) : std::nullopt;
-    for (int j = 0; correction && j < n; ++j) {
-      command->position[j] += correction->position[model_->joints()[j]];
-      command->velocity[j] += correction->velocity[model_->joints()[j]];
+  control.command = [this, steps, planned = dynamics::JointCommand()](
+                        double t, dynamics::JointCommand* command) mutable {
+    track_.Around(t).JointsAt(t, &planned.position, &planned.velocity, &planned.torque);
+    if (steps && steps->IsCorrecting()) {
+      const auto correction = steps->CorrectionAt(t, TreeConfiguration(t));
+      planned.position += correction->position;
+      planned.velocity += correction->velocity;
     }
+    command->position = planned.position(model_->joints());
+    command->velocity = planned.velocity(model_->joints());
     VectorXd forces = VectorXd::Zero(model_->tree().nv());
-    forces.tail(knot.tau.size()) = knot.tau;
-    command->torque = model_->IndependentForces(forces).tail(n);
+    forces.tail(planned.torque.size()) = planned.torque;
+    command->torque = model_->IndependentForces(forces).tail(model_->num_joints());
   };
   return control;
 }

@@ -71,7 +71,9 @@ class RolloutReference {
   class Track {
    public:
     explicit Track(const Segment& segment);
-    Knot At(double t) const;
+    /// At the meeting of two phases: the later one's.
+    const KnotInterpolant& Around(double t) const;
+    Knot At(double t) const { return Around(t).At(t); }
 
    private:
     std::vector<double> starts_;

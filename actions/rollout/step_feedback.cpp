@@ -159,10 +159,12 @@ void StepFeedback::Sense(double t, const RootTilt& root, const VectorXd& q_landi
   foot.rate = omega;
 }
 
+bool StepFeedback::IsCorrecting() const {
+  return std::any_of(feet_.begin(), feet_.end(), [](const Foot& foot) { return foot.IsMoved(); });
+}
+
 std::optional<JointCorrection> StepFeedback::CorrectionAt(double t, const VectorXd& q) const {
-  if (std::none_of(feet_.begin(), feet_.end(), [](const Foot& foot) { return foot.IsMoved(); })) {
-    return std::nullopt;
-  }
+  if (!IsCorrecting()) return std::nullopt;
   constexpr double kStep = 1e-4;  // s, of a central difference
   JointCorrection correction{VectorXd::Zero(robot_->num_joints()),
                              VectorXd::Zero(robot_->num_joints())};

@@ -42,6 +42,8 @@ class StepFeedback {
   /// When the foot that swings at tick `t` is planned to land, s.
   double LandingAfter(double t) const;
 
+  /// Whether a foot is displaced.
+  bool IsCorrecting() const;
   /// Corrections of the joints at `t`. `q`: configuration of the tree, nq, as planned. None if no
   /// foot is displaced.
   std::optional<JointCorrection> CorrectionAt(double t, const Eigen::VectorXd& q) const;

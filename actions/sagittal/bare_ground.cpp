@@ -27,8 +27,12 @@ constexpr const char* kMotion = "motion";  // action name in the plan
 constexpr double kHeavier = 0.01;          // share of all masses
 /// m: a hand that slides in the simulation has no sole that reaches back across the edge.
 constexpr double kSlides = 0.01;
-/// Simulations at once.
+/// Simulations at once, or threads that verify.
 constexpr int kThreads = 3;
+
+int Threads() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kThreads);
+}
 
 models::Obstacle Floor(const std::string& name, double x, double height) {
   models::Obstacle floor;
@@ -75,6 +79,7 @@ std::string FaultWithoutSimulation(const Plan& plan, const models::RobotModel& r
   VerifierSettings settings;
   settings.simulates = false;
   settings.measures_margins = false;
+  settings.threads = Threads();
   const VerificationReport report = Verify(plan, robot, scenario, settings);
   return report.accepted() ? std::string() : TextOf(report.violations.front());
 }
@@ -116,9 +121,8 @@ using Trial = std::function<std::string()>;
 
 /// Begins no trial after one has failed.
 std::string FirstFault(const std::vector<Trial>& trials) {
-  const int threads = std::min(kThreads, static_cast<int>(std::thread::hardware_concurrency()));
   try {
-    ForEachOnThreads(threads, trials.size(), [&trials](std::size_t i) {
+    ForEachOnThreads(Threads(), trials.size(), [&trials](std::size_t i) {
       if (const std::string fault = trials[i](); !fault.empty()) throw MotionError(fault);
     });
   } catch (const MotionError& error) {
@@ -146,11 +150,14 @@ std::string FaultOnBareGround(const models::RobotModel& robot, const SagittalMod
                               bool simulates) {
   const models::Scenario scenario = ScenarioOnBareGround(model, launch, landing, distance, height);
   const Plan plan = PlanOnBareGround(robot, scenario, phases);
-  std::vector<Trial> trials = {[&] { return FaultWithoutSimulation(plan, robot, scenario); }};
+  if (std::string fault = FaultWithoutSimulation(plan, robot, scenario);
+      !fault.empty() || !simulates) {
+    return fault;
+  }
+  std::vector<Trial> trials;
   const models::GroundMap ground(BareGround(model, distance, height, kSlides), robot.friction);
   const std::vector<DynamicStretch> stretches = DynamicStretches(plan);
   for (const DynamicStretch& stretch : stretches) {
-    if (!simulates) break;
     // It takes longer than the others, so it begins before them.
     trials.push_back([&] { return FaultInSimulation(stretch, robot, ground); });
     for (const double mass : {1 - kHeavier, 1 + kHeavier}) {

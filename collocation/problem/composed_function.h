@@ -18,8 +18,11 @@ class ComposedFunction {
 
   int num_outputs() const { return function_->num_outputs(); }
   const std::vector<PolynomialForm>& arguments() const { return arguments_; }
+  const Function& function() const { return *function_; }
 
   void FindHessianSlots(ElementSlots* hessian);
+  /// Those that were found, one per term of AddHessian.
+  std::vector<int>* hessian_slots() { return &hessian_slots_; }
 
   /// Call it before everything below.
   void SetPoint(const Eigen::VectorXd& x);

@@ -20,6 +20,9 @@ class ConstraintBlock {
                   const Eigen::VectorXd& scales = {});
 
   void FindSlots(int first_row, ElementSlots* jacobian, ElementSlots* hessian);
+  /// Slots of the Hessian that were found, one per term that AddHessian adds.
+  std::vector<int>* hessian_slots() { return function_.hessian_slots(); }
+  const Function& function() const { return function_.function(); }
 
   /// Writes into rows first_row ... of `constraints`.
   void AddRows(const Eigen::VectorXd& x, Eigen::VectorXd* constraints);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "collocation/problem/jet.h"
 
@@ -35,6 +36,9 @@ class Function {
   /// Elements outside the masks are zero for every z.
   virtual Mask JacobianMask() const { return Mask::Constant(num_outputs_, num_inputs_, true); }
   virtual Mask HessianMask() const { return Mask::Constant(num_inputs_, num_inputs_, true); }
+  /// Functions by which it evaluates itself, if something else may use them as well: they are not
+  /// evaluated by two threads at once.
+  virtual std::vector<const Function*> Parts() const { return {}; }
 
  private:
   int num_inputs_;

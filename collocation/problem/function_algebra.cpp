@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace possibility::collocation {
 namespace {
@@ -65,6 +66,8 @@ class LinearExtensionFunction : public Function {
     return (A.transpose() * f_->HessianMask().cast<double>().matrix() * A).array() != 0.0;
   }
 
+  std::vector<const Function*> Parts() const override { return {f_.get()}; }
+
  private:
   std::shared_ptr<Function> f_;
   MatrixXd A_, B_;
@@ -112,6 +115,8 @@ class CompositionFunction : public Function {
     const MatrixXd both = J.transpose() * f_->HessianMask().cast<double>().matrix() * J;
     return both.array() != 0.0 || g_->HessianMask();
   }
+
+  std::vector<const Function*> Parts() const override { return {f_.get(), g_.get()}; }
 
  private:
   void DifferentiateOnce(const VectorXd& z) {
@@ -176,6 +181,8 @@ class StackedFunction : public Function {
     mask.bottomRightCorner(g_->num_inputs(), g_->num_inputs()) = g_->HessianMask();
     return mask;
   }
+
+  std::vector<const Function*> Parts() const override { return {f_.get(), g_.get()}; }
 
  private:
   std::shared_ptr<Function> f_, g_;

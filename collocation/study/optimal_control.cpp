@@ -104,6 +104,7 @@ struct Method {
   SolverOptions options;
   const CancellationToken& cancellation;
   const std::function<void(const SolverIteration&)>& log;
+  int threads;
 
   SolverResult Solve(Transcription* program, const SolverGuess& guess) const {
     return solver.Solve(program, guess, options, cancellation, log);
@@ -226,7 +227,7 @@ SolverGuess GuessFromCoarse(const OptimalControlProblem& problem, const Transcri
   std::vector<Mesh> coarse(meshes.size());
   std::transform(meshes.begin(), meshes.end(), coarse.begin(), Coarse);
   if (!IsWorthwhile(coarse, meshes, program)) return GuessOf(program, {});
-  Transcription smaller(problem, scheme, coarse, method->cancellation);
+  Transcription smaller(problem, scheme, coarse, method->cancellation, method->threads);
   const SolverGuess guess = GuessFromCoarse(problem, smaller, scheme, coarse, method, result);
   const SolverResult solution = SolveToSize(&smaller, guess, method, result);
   result->trajectory = smaller.TrajectoryOf(solution.x);
@@ -245,9 +246,9 @@ void SolveFrom(Start start, const OptimalControlProblem& problem,
   std::vector<Mesh> meshes = FirstMeshes(problem, options);
   const NonlinearSolver& solver =
       options.nonlinear_solver ? *options.nonlinear_solver : IpoptSolver();
-  Method method{solver, options.solver, cancellation, log};
+  Method method{solver, options.solver, cancellation, log, options.threads};
   for (;; ++result.refinements) {
-    Transcription program(problem, options.scheme, meshes, cancellation);
+    Transcription program(problem, options.scheme, meshes, cancellation, options.threads);
     SolverGuess guess = GuessOf(program, start);
     if (result.refinements == 0) {
       result.dual_start = guess.constraint_multipliers.size() > 0;

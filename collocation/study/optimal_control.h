@@ -46,6 +46,10 @@ struct OptimalControlOptions {
   /// If the objective proves much smaller than solver.objective_size, the problem is solved again
   /// with its true size: to the solver's tolerance any motion would be the best.
   SolverOptions solver;
+  /// Threads that evaluate constraints, those of different functions at once. Functions that share
+  /// anything they write must say so (Function::Parts). The same solution, but for rounding, as
+  /// with one; with several, their number does not matter.
+  int threads = 1;
   /// What solves the nonlinear programs; null: Ipopt. Must outlive the call.
   const NonlinearSolver* nonlinear_solver = nullptr;
   /// After a successful solve, finds out whether the motion is a minimum or a saddle

@@ -77,11 +77,42 @@ void ProgramFunctions::Named(const char* kind, const PlacedName& name, const Run
   }
 }
 
+void ProgramFunctions::Share(int threads) {
+  if (threads <= 1) return;
+  groups_ = GroupByFunction(&blocks_);
+  team_ = std::make_unique<ThreadTeam>(threads);
+}
+
 template <typename Run>
 void ProgramFunctions::ForEachBlock(const Run& run) {
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+  const auto run_named = [&](std::size_t i) {
     Named("constraint", block_names_[i], [&] { run(&blocks_[i]); });
+  };
+  if (team_) {
+    team_->ForEach(groups_.size(), [&](std::size_t group) {
+      for (const int block : groups_[group].blocks) run_named(static_cast<std::size_t>(block));
+    });
+  } else {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) run_named(i);
   }
+}
+
+void ProgramFunctions::AddBlocksHessian(const Eigen::VectorXd& x,
+                                        const Eigen::VectorXd& multipliers,
+                                        Eigen::VectorXd* values) {
+  if (!team_) {
+    ForEachBlock([&](ConstraintBlock* block) { block->AddHessian(x, multipliers, values); });
+    return;
+  }
+  team_->ForEach(groups_.size(), [&](std::size_t i) {
+    BlockGroup& group = groups_[i];
+    group.hessian.setZero();
+    for (const int block : group.blocks) {
+      Named("constraint", block_names_[block],
+            [&] { blocks_[block].AddHessian(x, multipliers, &group.hessian); });
+    }
+  });
+  for (const BlockGroup& group : groups_) group.AddHessianTo(values);
 }
 
 template <typename Run>
@@ -147,11 +178,19 @@ void ProgramFunctions::FailForHessian(const Eigen::VectorXd& x, double objective
           name(hessian_.pattern().rows[i]), name(hessian_.pattern().columns[i]), values[i]));
     }
   };
-  ForEachBlock([&](ConstraintBlock* block) {
-    values.setZero();
-    block->AddHessian(x, multipliers, &values);
-    check();
-  });
+  const auto check_block = [&](std::size_t i, BlockGroup* group) {
+    Named("constraint", block_names_[i], [&] {
+      values.setZero();
+      if (group) group->hessian.setZero();
+      blocks_[i].AddHessian(x, multipliers, group ? &group->hessian : &values);
+      if (group) group->AddHessianTo(&values);
+      check();
+    });
+  };
+  for (std::size_t i = 0; !team_ && i < blocks_.size(); ++i) check_block(i, nullptr);
+  for (BlockGroup& group : groups_) {
+    for (const int i : group.blocks) check_block(static_cast<std::size_t>(i), &group);
+  }
   ForEachIntegralTerm([&](const IntegralRow& integral, CostTerm* term) {
     values.setZero();
     term->AddHessian(x, integral.factor * multipliers[integral.row], &values);
@@ -213,7 +252,7 @@ void ProgramFunctions::Hessian(const Eigen::VectorXd& x, double objective_factor
     const int* slot = row.hessian_slots.data();
     row.form.Hessian(x, [&](int, int, double second) { (*values)[*slot++] += factor * second; });
   }
-  ForEachBlock([&](ConstraintBlock* block) { block->AddHessian(x, multipliers, values); });
+  AddBlocksHessian(x, multipliers, values);
   ForEachIntegralTerm([&](const IntegralRow& integral, CostTerm* term) {
     term->AddHessian(x, integral.factor * multipliers[integral.row], values);
   });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@
 #include "collocation/problem/element_slots.h"
 #include "collocation/problem/nonlinear_program.h"
 #include "collocation/problem/optimal_control_problem.h"
+#include "collocation/transcription/block_group.h"
 #include "collocation/transcription/placed_name.h"
 #include "collocation/transcription/variable_layout.h"
+#include "common/thread_team.h"
 
 namespace possibility::collocation {
 
@@ -29,6 +32,9 @@ class ProgramFunctions {
   /// One row, the sum of its terms.
   void AddIntegralRow(std::vector<CostTerm> terms, double scale, Bounds bounds, PlacedName name);
   void AddCost(CostTerm cost, PlacedName name);
+  /// Blocks are evaluated by several threads from here on: those of different functions at once.
+  /// Nothing may be added any more.
+  void Share(int threads);
 
   int num_rows() const { return static_cast<int>(row_lowers_.size()); }
   const std::vector<double>& row_lowers() const { return row_lowers_; }  ///< divided by the scales
@@ -71,6 +77,8 @@ class ProgramFunctions {
   void Named(const char* kind, const PlacedName& name, const Run& run) const;
   template <typename Run>
   void ForEachBlock(const Run& run);
+  void AddBlocksHessian(const Eigen::VectorXd& x, const Eigen::VectorXd& multipliers,
+                        Eigen::VectorXd* values);
   template <typename Run>
   void ForEachCost(const Run& run);
   /// For each integral row and each of its terms.
@@ -88,6 +96,8 @@ class ProgramFunctions {
   std::vector<PlacedName> row_names_, block_names_, cost_names_;
   std::vector<FormRow> form_rows_;  // the first rows
   std::vector<ConstraintBlock> blocks_;
+  std::vector<BlockGroup> groups_;  // of all blocks, if threads share them; else none
+  std::unique_ptr<ThreadTeam> team_;
   std::vector<IntegralRow> integral_rows_;
   std::vector<CostTerm> costs_;
   ElementSlots jacobian_, hessian_;

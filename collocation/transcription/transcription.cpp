@@ -13,7 +13,7 @@ namespace possibility::collocation {
 
 Transcription::Transcription(const OptimalControlProblem& problem,
                              const TranscriptionScheme& scheme, std::vector<Mesh> meshes,
-                             const CancellationToken& cancellation)
+                             const CancellationToken& cancellation, int threads)
     : layout_(problem, scheme, std::move(meshes)), functions_(layout_) {
   CheckEverythingIsUsed(problem);
   CheckControls();
@@ -27,6 +27,7 @@ Transcription::Transcription(const OptimalControlProblem& problem,
     AddIntegrals(p, cancellation);
   }
   AddInstants();
+  functions_.Share(threads);
   const auto copy = [](const std::vector<double>& from) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(from.data(), static_cast<Eigen::Index>(from.size())));

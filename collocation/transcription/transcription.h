@@ -24,9 +24,11 @@ namespace possibility::collocation {
 /// that nothing uses (CheckEverythingIsUsed).
 class Transcription : public NonlinearProgram {
  public:
-  /// `cancellation` is asked from time to time. @throws Cancelled.
+  /// `cancellation` is asked from time to time. `threads`: as OptimalControlOptions::threads.
+  /// @throws Cancelled.
   Transcription(const OptimalControlProblem& problem, const TranscriptionScheme& scheme,
-                std::vector<Mesh> meshes, const CancellationToken& cancellation = {});
+                std::vector<Mesh> meshes, const CancellationToken& cancellation = {},
+                int threads = 1);
   Transcription(const Transcription&) = delete;
   Transcription& operator=(const Transcription&) = delete;
 

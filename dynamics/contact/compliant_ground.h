@@ -21,6 +21,10 @@ struct GroundReaction {
   Eigen::Matrix3d to_velocity = Eigen::Matrix3d::Zero();
 };
 
+/// Its force alone.
+Eigen::Vector3d ForceOf(const CompliantGround& ground, double friction,
+                        const Eigen::Vector3d& normal, double gap, const Eigen::Vector3d& velocity);
+
 /// `gap`: m, of the point above the ground; `normal`: of the ground, unit; `velocity`: m/s. Zero
 /// above the ground; the ground never pulls.
 GroundReaction ReactionOf(const CompliantGround& ground, double friction,

@@ -1,9 +1,9 @@
 #include "dynamics/ode/newton_linear_solver.h"
 
-#include <nvector/nvector_serial.h>
-
 #include <exception>
 #include <new>
+
+#include "dynamics/ode/state_vector.h"
 
 namespace possibility::dynamics {
 namespace {
@@ -36,8 +36,8 @@ int Solve(SUNLinearSolver solver, SUNMatrix /*matrix*/, N_Vector x, N_Vector b,
   try {
     const Content* content = ContentOf(solver);
     if (!content->is_regular) return kFailed;
-    Eigen::Map<Eigen::VectorXd> solution(N_VGetArrayPointer(x), N_VGetLength(x));
-    solution = Eigen::Map<const Eigen::VectorXd>(N_VGetArrayPointer(b), N_VGetLength(b));
+    auto solution = AsVector(x);
+    solution = AsVector(b);
     content->matrix->Solve(solution);
     return SUNLS_SUCCESS;
   } catch (const std::exception&) {

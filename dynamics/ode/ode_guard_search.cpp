@@ -155,7 +155,7 @@ bool GuardSearch::IsDue(double time) const {
   // This part of the time since the start.
   constexpr double kShare = 0.5;
   const double soon = kShare * (time - problem_.start_time);
-  const double spacing = std::isfinite(settings_.max_step) ? std::min(Spacing(), soon) : 0;
+  const double spacing = std::isfinite(settings_.max_step) ? std::min(Spacing() / 2, soon) : 0;
   return time - searched_ >= spacing;
 }
 

@@ -1,9 +1,9 @@
-// Only this file and newton_linear_solver include SUNDIALS (docs/dynamics.md: the SUNDIALS seam).
+// Only this file, newton_linear_solver and state_vector include SUNDIALS (docs/dynamics.md: the
+// SUNDIALS seam).
 #include "dynamics/ode/ode_integrator.h"
 
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -22,6 +22,7 @@
 
 #include "dynamics/ode/newton_linear_solver.h"
 #include "dynamics/ode/ode_guard_search.h"
+#include "dynamics/ode/state_vector.h"
 
 namespace possibility::dynamics {
 
@@ -98,10 +99,6 @@ struct Free {
 
 template <typename Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
-
-Eigen::Map<Eigen::VectorXd> AsVector(N_Vector vector) {
-  return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
-}
 
 /// CVODE's integration of one problem, step by step.
 class Stepper {
@@ -207,9 +204,8 @@ class Stepper {
   }
 
   Owned<N_Vector> NewVector(const Eigen::VectorXd& values) {
-    Owned<N_Vector> vector(N_VNew_Serial(values.size(), context_.get()));
+    Owned<N_Vector> vector(MakeStateVector(values, context_.get()));
     if (!vector) throw std::bad_alloc();
-    AsVector(vector.get()) = values;
     return vector;
   }
 

@@ -9,6 +9,7 @@ namespace possibility::dynamics {
 
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 CompliantRolloutSettings::CompliantRolloutSettings() {
@@ -37,12 +38,15 @@ CompliantSimulator::CompliantSimulator(std::shared_ptr<const MultibodyModel> mod
     : settings_(std::move(settings)),
       forward_(std::move(model)),
       applied_(forward_.model(), std::move(control), settings_.push),
-      contacts_(std::move(contacts)),
-      reactions_(contacts_.size()) {}
+      contacts_(std::move(contacts)) {}
 
 bool CompliantSimulator::Bears(const RolloutContact& contact, const Eigen::Ref<const VectorXd>& q,
                                double gap) const {
   return gap < 0 && gap > -kSide && (!contact.lands || contact.lands(q));
+}
+
+double CompliantSimulator::Gap(const RolloutContact& contact) {
+  return contact.point.normal_W.dot(forward_.dynamics()->Position(contact.point)) - contact.offset;
 }
 
 void CompliantSimulator::SetForces(double t, const Eigen::Ref<const VectorXd>& state) {
@@ -50,17 +54,15 @@ void CompliantSimulator::SetForces(double t, const Eigen::Ref<const VectorXd>& s
   forward_.SetState(q, state.tail(model().nv()));
   MultibodyDynamics* dynamics = forward_.dynamics();
   generalised_ = applied_.Evaluate(t, q, state.tail(model().nv()), true, dynamics);
+  forces_.setZero(3, static_cast<Eigen::Index>(contacts_.size()));
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const RolloutContact& contact = contacts_[i];
-    const double gap =
-        contact.point.normal_W.dot(dynamics->Position(contact.point)) - contact.offset;
-    reactions_[i] = Bears(contact, q, gap)
-                        ? ReactionOf(settings_.ground, contact.friction, contact.point.normal_W,
-                                     gap, dynamics->Velocity(contact.point))
-                        : GroundReaction();
-    if (!reactions_[i].force.isZero()) {
-      dynamics->AddPointForce(contact.point, reactions_[i].force, generalised_);
-    }
+    const double gap = Gap(contact);
+    if (!Bears(contact, q, gap)) continue;
+    const Vector3d force = ForceOf(settings_.ground, contact.friction, contact.point.normal_W, gap,
+                                   dynamics->Velocity(contact.point));
+    forces_.col(static_cast<Eigen::Index>(i)) = force;
+    if (!force.isZero()) dynamics->AddPointForce(contact.point, force, generalised_);
   }
 }
 
@@ -79,9 +81,12 @@ void CompliantSimulator::DifferentiateRate(double t, const Eigen::Ref<const Vect
       -applied_.torques().Damping() - FrictionSlopes(model(), state.tail(nv));
   MatrixXd J(3, nv);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const GroundReaction& reaction = reactions_[i];
-    if (reaction.force.isZero()) continue;
-    forward_.dynamics()->Jacobian(contacts_[i].point, J);
+    if (forces_.col(static_cast<Eigen::Index>(i)).isZero()) continue;
+    const RolloutContact& contact = contacts_[i];
+    const GroundReaction reaction =
+        ReactionOf(settings_.ground, contact.friction, contact.point.normal_W, Gap(contact),
+                   forward_.dynamics()->Velocity(contact.point));
+    forward_.dynamics()->Jacobian(contact.point, J);
     by_position.noalias() += J.transpose() * (reaction.to_position * J);
     by_velocity.noalias() += J.transpose() * (reaction.to_velocity * J);
   }
@@ -129,8 +134,7 @@ RobotMotion CompliantSimulator::MotionAt(const CompliantRollout& rollout, double
   motion.q = rollout.Configuration(t);
   motion.v = rollout.Velocity(t);
   motion.torques = applied_.generalised().tail(model().num_joints());
-  motion.forces.setZero(3, contacts_.size());
-  for (std::size_t i = 0; i < contacts_.size(); ++i) motion.forces.col(i) = reactions_[i].force;
+  motion.forces = forces_;
   return motion;
 }
 

@@ -56,8 +56,9 @@ class CompliantSimulator {
 
  private:
   const MultibodyModel& model() const { return forward_.model(); }
-  /// Sets the state, and reactions_ and generalised_ with it.
+  /// Sets the state, and forces_ and generalised_ with it.
   void SetForces(double t, const Eigen::Ref<const Eigen::VectorXd>& state);
+  double Gap(const RolloutContact& contact);  ///< m above its plane
   bool Bears(const RolloutContact& contact, const Eigen::Ref<const Eigen::VectorXd>& q,
              double gap) const;
   Eigen::VectorXd Accelerate(double t, const Eigen::Ref<const Eigen::VectorXd>& state);
@@ -68,8 +69,8 @@ class CompliantSimulator {
   ForwardDynamics forward_;
   AppliedForces applied_;
   std::vector<RolloutContact> contacts_;
-  std::vector<GroundReaction> reactions_;  ///< by contact
-  Eigen::VectorXd generalised_;            ///< nv
+  Eigen::Matrix3Xd forces_;      ///< of the ground, by contact
+  Eigen::VectorXd generalised_;  ///< nv
 };
 
 }  // namespace possibility::dynamics

@@ -13,7 +13,9 @@ RolloutDynamics::RolloutDynamics(std::shared_ptr<const MultibodyModel> model,
                                  const RobotRolloutSettings& settings)
     : forward_(std::move(model), settings.dynamics),
       applied_(forward_.model(), std::move(control), settings.push),
-      contacts_(std::move(contacts)) {}
+      contacts_(std::move(contacts)),
+      kinematics_(forward_.model().tree()),
+      weight_(dynamics()->kinematics().total_mass() * kGravity) {}
 
 bool RolloutDynamics::Lands(int contact, const VectorXd& state) const {
   return !contacts_[contact].lands || contacts_[contact].lands(state.head(nq()));
@@ -24,12 +26,23 @@ void RolloutDynamics::NormaliseOrientation(VectorXd* state) const {
 }
 
 void RolloutDynamics::SetState(const Eigen::Ref<const VectorXd>& state) {
+  accelerated_ = nullptr;
   forward_.SetState(state.head(nq()), state.tail(nv()));
 }
 
 double RolloutDynamics::Gap(int contact) {
   const ContactPoint& point = contacts_[contact].point;
   return point.normal_W.dot(dynamics()->Position(point)) - contacts_[contact].offset;
+}
+
+double RolloutDynamics::GapAt(const Eigen::Ref<const VectorXd>& state, int contact) {
+  if (position_.size() != nq() || position_ != state.head(nq())) {
+    position_ = state.head(nq());
+    kinematics_.SetPosition(model().TreeConfiguration(position_));
+  }
+  const ContactPoint& point = contacts_[contact].point;
+  return point.normal_W.dot(kinematics_.Position(point.link, point.p_L)) -
+         contacts_[contact].offset;
 }
 
 double RolloutDynamics::KineticEnergy(const Eigen::Ref<const VectorXd>& v) {
@@ -98,11 +111,28 @@ VectorXd RolloutDynamics::Accelerate(double t, const Eigen::Ref<const VectorXd>&
                                      const RolloutStance& stance, Matrix3Xd* forces) {
   SetState(state);
   const VectorXd& joint_forces = Applied(t, state, stance.has_landed);
-  if (forces != nullptr) forces->setZero(3, stance.points.size());
-  if (stance.points.empty()) return forward_.Free(joint_forces);
-  const ConstrainedMotion& motion = forward_.Held(joint_forces, stance.points);
-  if (forces != nullptr) *forces = motion.forces;
-  return motion.acceleration;
+  forces_.setZero(3, stance.points.size());
+  VectorXd acceleration;
+  if (stance.points.empty()) {
+    acceleration = forward_.Free(joint_forces);
+  } else {
+    const ConstrainedMotion& motion = forward_.Held(joint_forces, stance.points);
+    acceleration = motion.acceleration;
+    forces_ = motion.forces;
+  }
+  if (forces != nullptr) *forces = forces_;
+  accelerated_ = &stance;
+  time_ = t;
+  state_ = state;
+  return acceleration;
+}
+
+bool RolloutDynamics::IsNearLastAcceleration(double t, const Eigen::Ref<const VectorXd>& state,
+                                             const RolloutStance& stance, double distance,
+                                             double speed) const {
+  return accelerated_ == &stance && time_ == t &&
+         (state - state_).head(nq()).lpNorm<Eigen::Infinity>() <= distance &&
+         (state - state_).tail(nv()).lpNorm<Eigen::Infinity>() <= speed;
 }
 
 void RolloutDynamics::DifferentiateRate(double t, const Eigen::Ref<const VectorXd>& state,

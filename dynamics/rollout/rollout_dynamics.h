@@ -39,6 +39,8 @@ class RolloutDynamics {
 
   void SetState(const Eigen::Ref<const Eigen::VectorXd>& state);
   double Gap(int contact);  ///< m above its plane
+  /// The same at a state that need not be the current one, at a fraction of SetState's time.
+  double GapAt(const Eigen::Ref<const Eigen::VectorXd>& state, int contact);
   double KineticEnergy(const Eigen::Ref<const Eigen::VectorXd>& v);
   std::vector<HeldPoint> HeldWhereTheyAre(const std::vector<int>& held);
   std::vector<ContactPatchBalance> PatchesOf(const std::vector<int>& held);
@@ -54,6 +56,14 @@ class RolloutDynamics {
   /// Acceleration at a state of a stance, nv. `forces`: 3 x held; may be null.
   Eigen::VectorXd Accelerate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                              const RolloutStance& stance, Eigen::Matrix3Xd* forces);
+  /// Whether the last Accelerate, of this stance at this time, was the last change of the state,
+  /// and no position there is farther from that of `state` than `distance` (rad, m), and no
+  /// velocity than `speed` (rad/s, m/s).
+  bool IsNearLastAcceleration(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
+                              const RolloutStance& stance, double distance, double speed) const;
+  /// Forces of the last Accelerate, 3 x held.
+  const Eigen::Matrix3Xd& forces() const { return forces_; }
+  double weight() const { return weight_; }  ///< N
   /// The stiff part of the derivative of the state's rate with respect to the state: velocities,
   /// joint feedback and the feedback of drift; without bias forces and gravity.
   void DifferentiateRate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
@@ -75,6 +85,13 @@ class RolloutDynamics {
   ForwardDynamics forward_;
   AppliedForces applied_;
   std::vector<RolloutContact> contacts_;
+  TreeKinematics kinematics_;  // of GapAt
+  Eigen::VectorXd position_;   // of kinematics_, nq
+  double weight_;
+  const RolloutStance* accelerated_ = nullptr;  // of the last Accelerate, if at the current state
+  double time_ = 0;                             // of the last Accelerate; so are these
+  Eigen::VectorXd state_;
+  Eigen::Matrix3Xd forces_;
 };
 
 }  // namespace possibility::dynamics

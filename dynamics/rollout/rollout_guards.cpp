@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace possibility::dynamics {
@@ -13,6 +14,14 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Kind = RolloutGuard::Kind;
+
+/// A state so near to one that has been evaluated (rad and m; rad/s and m/s) has gaps that differ
+/// by some 1e-6 m and forces that differ by some newtons. The integrator's corrections are smaller.
+constexpr double kNearby = 1e-6;
+constexpr double kNearbySpeed = 5e-4;
+/// Guards that are farther from zero, m and as a share of the weight, have the same sign at both.
+constexpr double kClearGap = 2e-5;
+constexpr double kClear = 0.02;
 
 std::vector<RolloutGuard> GuardsOf(const RolloutStance& stance,
                                    const RobotRolloutSettings& settings) {
@@ -95,35 +104,64 @@ std::vector<int> RolloutGuards::Tipping(const RolloutGuard& guard) const {
   return tipping;
 }
 
+bool RolloutGuards::ForcesServe(double t, const Eigen::Ref<const VectorXd>& state) const {
+  return robot_->IsNearLastAcceleration(t, state, *stance_, kNearby, kNearbySpeed) &&
+         std::all_of(guards_.begin(), guards_.end(), [&](const RolloutGuard& guard) {
+           if (guard.kind == Kind::kTouchdown) return true;
+           if (guard.kind != Kind::kTipping && guard.kind != Kind::kSlip) return false;
+           return std::abs(Value(t, state, robot_->forces(), guard)) > kClear * robot_->weight();
+         });
+}
+
+bool RolloutGuards::GapsServe(double t, const Eigen::Ref<const VectorXd>& state) const {
+  return robot_->IsNearLastAcceleration(t, state, *stance_, kNearby, kNearbySpeed) &&
+         std::all_of(stance_->free.begin(), stance_->free.end(),
+                     [&](int contact) { return std::abs(robot_->Gap(contact)) > kClearGap; });
+}
+
 void RolloutGuards::Evaluate(double t, const Eigen::Ref<const VectorXd>& state,
                              Eigen::Ref<VectorXd> values) const {
   Matrix3Xd forces;
-  if (stance_->points.empty()) {
-    robot_->SetState(state);
+  bool gaps_serve = GapsServe(t, state);
+  if (ForcesServe(t, state)) {
+    forces = robot_->forces();
+  } else if (stance_->points.empty()) {
+    if (!HasOnlyGaps()) robot_->SetState(state);
   } else {
     robot_->Accelerate(t, state, *stance_, &forces);
+    gaps_serve = true;
   }
-  for (size_t i = 0; i < guards_.size(); ++i) values[i] = Value(t, state, forces, guards_[i]);
+  for (size_t i = 0; i < guards_.size(); ++i) {
+    const RolloutGuard& guard = guards_[i];
+    values[i] = guard.kind == Kind::kTouchdown && gaps_serve ? robot_->Gap(guard.contact)
+                                                             : Value(t, state, forces, guard);
+  }
 }
 
 double RolloutGuards::EvaluateOne(double t, const Eigen::Ref<const VectorXd>& state,
                                   int index) const {
   const RolloutGuard& guard = guards_[index];
   Matrix3Xd forces;
-  // Where a point is takes no dynamics.
-  if (guard.kind == Kind::kTouchdown || stance_->points.empty()) {
-    robot_->SetState(state);
-  } else {
-    robot_->Accelerate(t, state, *stance_, &forces);
+  if (guard.kind != Kind::kTouchdown) {
+    if (stance_->points.empty()) {
+      robot_->SetState(state);
+    } else {
+      robot_->Accelerate(t, state, *stance_, &forces);
+    }
   }
   return Value(t, state, forces, guard);
+}
+
+bool RolloutGuards::HasOnlyGaps() const {
+  return std::all_of(guards_.begin(), guards_.end(),
+                     [](const RolloutGuard& guard) { return guard.kind == Kind::kTouchdown; });
 }
 
 double RolloutGuards::Value(double t, const Eigen::Ref<const VectorXd>& state,
                             const Matrix3Xd& forces, const RolloutGuard& guard) const {
   switch (guard.kind) {
     case Kind::kTouchdown:
-      return robot_->Gap(guard.contact);
+      return robot_->GapAt(state, guard.contact);
     case Kind::kTipping: {
       const ContactPatchBalance& patch = stance_->patches[guard.patch];
       return patch.Moment(patch.edges[guard.edge], forces);

@@ -37,13 +37,19 @@ class RolloutGuards {
   std::vector<int> Tipping(const RolloutGuard& guard) const;
   /// For kTipping or kSlip: a contact that represents the patch.
   const RolloutContact& PatchContact(const RolloutGuard& guard) const;
-  /// `values`: size().
+  /// `values`: size(). Those that are far from zero may be of the state, very near, at which the
+  /// robot was accelerated last.
   void Evaluate(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                 Eigen::Ref<Eigen::VectorXd> values) const;
   /// The same of one guard.
   double EvaluateOne(double t, const Eigen::Ref<const Eigen::VectorXd>& state, int index) const;
 
  private:
+  /// Whether no guard can have another sign at `state` because forces or gaps are not the same
+  /// there as at the current state, that of the robot's last acceleration.
+  bool ForcesServe(double t, const Eigen::Ref<const Eigen::VectorXd>& state) const;
+  bool GapsServe(double t, const Eigen::Ref<const Eigen::VectorXd>& state) const;
+  bool HasOnlyGaps() const;
   double Value(double t, const Eigen::Ref<const Eigen::VectorXd>& state,
                const Eigen::Matrix3Xd& forces, const RolloutGuard& guard) const;
   /// Whether friction jams a point of the patch. Such a point may pull.

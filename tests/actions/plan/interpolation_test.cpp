@@ -49,6 +49,24 @@ std::pair<Knot, Knot> RandomPair(double angle, std::mt19937* generator) {
   return {k0, k1};
 }
 
+TEST(Interpolate, JointsAloneAreThoseOfTheWholeMotion) {
+  std::mt19937 generator(12);
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto [k0, k1] = RandomPair(0.3, &generator);
+    const KnotInterpolant interpolant(k0, k1);
+    for (const double t : {1.9, 2.0, 2.013, 2.05, 2.0999, 2.1, 2.3}) {
+      const Knot knot = interpolant.At(t);
+      VectorXd position, velocity, torque;
+      interpolant.JointsAt(t, &position, &velocity, &torque);
+      const auto n = static_cast<int>(position.size());
+      ASSERT_EQ(n, knot.q.size() - 7);
+      EXPECT_LT((position - knot.q.tail(n)).norm(), 1e-14 * (1 + position.norm()));
+      EXPECT_LT((velocity - knot.v.tail(n)).norm(), 1e-14 * (1 + velocity.norm()));
+      EXPECT_EQ(torque, knot.tau);
+    }
+  }
+}
+
 TEST(Interpolate, ReturnsTheKnotsAtBothEnds) {
   std::mt19937 generator(2);
   const auto [k0, k1] = RandomPair(0.4, &generator);

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <cmath>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
+#include "collocation/problem/function_algebra.h"
 #include "tests/dynamics/richardson.h"
 #include "tests/message_of.h"
 
@@ -156,6 +161,105 @@ TEST_P(EveryScheme, DerivativesAgreeWithDifferences) {
         n, step);
     EXPECT_LT(RelativeError(H, gradient_differences), 1e-8);
   }
+}
+
+TEST_P(EveryScheme, SeveralThreadsGiveTheSameValuesButForRounding) {
+  const auto problem = Medley(GetParam().IsClosed());
+  const std::vector<Mesh> meshes = {{0, 0.3, 1}, {0, 0.5, 0.6, 1}};
+  Transcription alone(*problem, GetParam(), meshes);
+  std::mt19937 random(3);
+  for (const int threads : {2, 5}) {
+    Transcription shared(*problem, GetParam(), meshes, {}, threads);
+    EXPECT_EQ(shared.hessian_pattern().rows, alone.hessian_pattern().rows);
+    EXPECT_EQ(shared.hessian_pattern().columns, alone.hessian_pattern().columns);
+    for (int trial = 0; trial < 20; ++trial) {
+      const VectorXd x = RandomPoint(&random, alone);
+      const VectorXd multipliers = VectorXd::Random(alone.num_constraints());
+      VectorXd expected, values;
+      alone.Constraints(x, &expected);
+      shared.Constraints(x, &values);
+      EXPECT_EQ(values, expected);
+      alone.Jacobian(x, &expected);
+      shared.Jacobian(x, &values);
+      EXPECT_EQ(values, expected);
+      alone.Hessian(x, 0.7, multipliers, &expected);
+      shared.Hessian(x, 0.7, multipliers, &values);
+      EXPECT_LE((values - expected).lpNorm<Eigen::Infinity>(),
+                1e-14 * expected.lpNorm<Eigen::Infinity>());
+    }
+  }
+}
+
+/// y = z^2, slowly. Notes if two threads evaluate it at once.
+class JealousSquare : public Function {
+ public:
+  explicit JealousSquare(bool fails = false) : Function(1, 1), fails_(fails) {}
+
+  void Evaluate(const VectorXd& z, VectorXd* y) override {
+    Guarded([&] { (*y)[0] = z[0] * z[0]; });
+  }
+  void Jacobian(const VectorXd& z, MatrixXd* J) override {
+    Guarded([&] { (*J)(0, 0) = 2 * z[0]; });
+  }
+  void Hessian(const VectorXd&, const VectorXd& multipliers, MatrixXd* H) override {
+    Guarded([&] { (*H)(0, 0) = fails_ ? std::nan("") : 2 * multipliers[0]; });
+  }
+  bool was_shared() const { return was_shared_; }
+
+ private:
+  template <typename Run>
+  void Guarded(const Run& run) {
+    if (busy_.exchange(true)) was_shared_ = true;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    run();
+    busy_ = false;
+  }
+
+  bool fails_;
+  std::atomic<bool> busy_ = false, was_shared_ = false;
+};
+
+/// Two phases that must be above 1 by the same function, one of them by way of another function.
+std::unique_ptr<OptimalControlProblem> WithShared(const std::shared_ptr<Function>& f) {
+  auto problem = std::make_unique<OptimalControlProblem>("sharing");
+  for (const char* name : {"first", "second"}) {
+    Phase& phase = problem->AddPhase(name, 1);
+    const Variable x = phase.AddCoordinate("x");
+    phase.SetDuration(1);
+    phase.SetDynamics(FunctionOf([](auto z) { return -z; }), {x});
+    const bool direct = phase.name() == "first";
+    const std::shared_ptr<Function> g =
+        direct ? f : Composition(LinearMap(MatrixXd::Constant(1, 1, 3)), f);
+    phase.Constrain("jealous", g, {x}, {{1, kInfinity}});
+  }
+  return problem;
+}
+
+TEST(Transcription, AFunctionIsNotEvaluatedByTwoThreadsAtOnce) {
+  const auto f = std::make_shared<JealousSquare>();
+  const auto problem = WithShared(f);
+  Transcription program(*problem, HermiteSimpson(), {UniformMesh(3), UniformMesh(3)}, {}, 3);
+  const VectorXd x = VectorXd::Ones(program.num_variables());
+  for (int trial = 0; trial < 10; ++trial) {
+    VectorXd values;
+    program.Constraints(x, &values);
+    program.Jacobian(x, &values);
+    program.Hessian(x, 1, VectorXd::Ones(program.num_constraints()), &values);
+  }
+  EXPECT_FALSE(f->was_shared());
+}
+
+TEST(Transcription, ThreadsNameTheFunctionThatFails) {
+  const auto problem = WithShared(std::make_shared<JealousSquare>(true));
+  Transcription program(*problem, HermiteSimpson(), {UniformMesh(1), UniformMesh(1)}, {}, 2);
+  VectorXd values;
+  const std::string message = MessageOf<std::runtime_error>([&] {
+    program.Hessian(VectorXd::Ones(program.num_variables()), 1,
+                    VectorXd::Ones(program.num_constraints()), &values);
+  });
+  EXPECT_NE(message.find("constraint 'first, knot 0"), std::string::npos) << message;
+  EXPECT_NE(message.find("jealous"), std::string::npos) << message;
+  EXPECT_NE(message.find("second derivative"), std::string::npos) << message;
 }
 
 TEST_P(EveryScheme, APolynomialMotionIsTranscribedExactly) {

@@ -50,6 +50,22 @@ TEST(CompliantGround, DerivativesAreThoseOfTheForce) {
   }
 }
 
+TEST(CompliantGround, TheForceAloneIsThatOfTheReaction) {
+  std::mt19937 random(7);
+  int bearing = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Case sample = RandomCase(&random);
+    const Vector3d velocity = RandomVector(&random, 3, 0.05);
+    const double gap = Uniform(&random, -1e-3, 3e-4);
+    const Vector3d force = ForceOf(sample.ground, sample.friction, sample.normal, gap, velocity);
+    EXPECT_EQ(force,
+              ReactionOf(sample.ground, sample.friction, sample.normal, gap, velocity).force);
+    bearing += force.norm() > 0;
+  }
+  EXPECT_GT(bearing, 50);
+  EXPECT_LT(bearing, 195);
+}
+
 TEST(CompliantGround, PushesWithinTheFrictionConeAndBrakesSliding) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 200; ++trial) {
