@@ -68,6 +68,11 @@ double TorqueUsed(const dynamics::RobotMotion& motion, const dynamics::Multibody
 dynamics::CompliantRolloutSettings SimulatorSettings(const RolloutReference& reference,
                                                      const PerturbedRolloutSettings& settings) {
   dynamics::CompliantRolloutSettings simulator;
+  const dynamics::MultibodyModel& model = *reference.model();
+  simulator.integration.relative_tolerance = settings.tolerance;
+  simulator.integration.absolute_tolerances.resize(model.nq() + model.nv());
+  simulator.integration.absolute_tolerances << VectorXd::Constant(model.nq(), settings.tolerance),
+      VectorXd::Constant(model.nv(), settings.velocity_tolerance);
   simulator.integration.cancellation = settings.cancellation;
   simulator.push = reference.Push();
   simulator.until = [&reference](double t, const auto& q) { return reference.Uprightness(t, q); };

@@ -14,6 +14,10 @@ struct PerturbedRolloutSettings {
   RolloutGains gains;
   double settling_time = 0.5;  ///< s, hold time of the last posture if the motion ends at rest
   double sample_time = 0.005;  ///< s, between compared states
+  double tolerance = 1e-6;     ///< of the integrator: relative, and absolute of configurations
+  /// Of the integrator: absolute, m/s and rad/s. A twentieth of CompliantGround::slip_speed; with a
+  /// tenth and more, drifts differ by millimetres.
+  double velocity_tolerance = 1e-5;
   /// Departures during the motion, torque and sliding, a tenth of the time. Whether the robot falls
   /// and how it ends are known without them.
   bool compares = true;
