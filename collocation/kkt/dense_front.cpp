@@ -1,16 +1,11 @@
 #include "collocation/kkt/dense_front.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "collocation/kkt/rank_update.h"
-
 namespace possibility::collocation {
 namespace {
-
-using Column = Eigen::Map<Eigen::VectorXd>;
 
 // Pivots are chosen among the next few columns, which each pivot updates at once. The other columns
 // of a block get the updates of a whole window, those behind it the updates of the whole block.
@@ -38,11 +33,7 @@ void DenseFront::Reset(int size) {
 double DenseFront::LargestBeside(int k) const {
   double largest = 0;
   for (int j = num_pivots_; j < k; ++j) largest = std::max(largest, std::abs(column(j)[k]));
-  const int below = size_ - k - 1;
-  if (below == 0) return largest;
-  return std::max(
-      largest,
-      Eigen::Map<const Eigen::VectorXd>(column(k) + k + 1, below).lpNorm<Eigen::Infinity>());
+  return std::max(largest, kernels_->largest_magnitude(column(k) + k + 1, size_ - k - 1));
 }
 
 bool DenseFront::IsZero(int k) const {
@@ -111,9 +102,8 @@ void DenseFront::EliminateSingle(int window) {
   const int k = num_pivots_;
   double* multipliers = column(k);
   const double pivot = multipliers[k];
-  std::copy(multipliers + k, multipliers + size_, scaled(k) + k);
   const double inverse = 1 / pivot;
-  Column(multipliers + k + 1, size_ - k - 1) *= inverse;
+  kernels_->scale(inverse, size_ - k - 1, multipliers + k + 1, scaled(k) + k + 1);
   Update(k, 1, k + 1, window);
   multipliers[k] = 1;
   pivots_.push_back(kSingle);
@@ -130,14 +120,9 @@ void DenseFront::EliminatePair(int window) {
   const double a = first[k], b = first[k + 1], c = second[k + 1];
   const double determinant = a * c - b * b;
   const double ia = c / determinant, ib = -b / determinant, ic = a / determinant;
-  double* scaled_first = scaled(k);
-  double* scaled_second = scaled(k + 1);
-  for (int i = k + 2; i < size_; ++i) {
-    scaled_first[i] = first[i];
-    scaled_second[i] = second[i];
-    first[i] = ia * scaled_first[i] + ib * scaled_second[i];
-    second[i] = ib * scaled_first[i] + ic * scaled_second[i];
-  }
+  const int below = k + 2;
+  kernels_->scale_pair({ia, ib, ic}, size_ - below, first + below, second + below,
+                       scaled(k) + below, scaled(k + 1) + below);
   Update(k, 2, k + 2, window);
   first[k] = second[k + 1] = 1;
   first[k + 1] = 0;
@@ -151,8 +136,8 @@ void DenseFront::EliminatePair(int window) {
 
 void DenseFront::Update(int first_pivot, int count, int from, int to) {
   if (from >= to || count == 0) return;
-  LowerProducts().front()({size_ - from, to - from, count, stride_}, column(first_pivot) + from,
-                          scaled(first_pivot) + from, column(from) + from);
+  kernels_->subtract_product({size_ - from, to - from, count, stride_}, column(first_pivot) + from,
+                             scaled(first_pivot) + from, column(from) + from);
 }
 
 void DenseFront::Eliminate(int candidates, double threshold, bool last,

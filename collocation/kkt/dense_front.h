@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "collocation/kkt/vector_kernels.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::collocation {
@@ -60,6 +61,7 @@ class DenseFront {
     return scaled_.data() + static_cast<size_t>(k - first_scaled_) * stride_;
   }
 
+  const VectorKernels* kernels_ = &WidestKernels();
   int size_ = 0;
   int stride_ = 0;  ///< from column to column, padding included
   int candidates_ = 0;

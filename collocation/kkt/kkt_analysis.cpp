@@ -13,6 +13,12 @@ namespace {
 /// Multiplications per row with which no other order is tried: fronts of a dozen rows.
 constexpr double kFewFlops = 300;
 
+std::vector<int> Inverse(const std::vector<int>& permutation) {
+  std::vector<int> inverse(permutation.size());
+  for (int k = 0; k < static_cast<int>(permutation.size()); ++k) inverse[permutation[k]] = k;
+  return inverse;
+}
+
 /// Neighbours of every row, compressed.
 struct Graph {
   std::vector<int> begin;
@@ -80,6 +86,17 @@ std::vector<int> Postorder(const std::vector<int>& parent) {
   return order;
 }
 
+/// The same tree with the nodes in another order. `order`: new number -> old one.
+std::vector<int> Renumbered(const std::vector<int>& parent, const std::vector<int>& order) {
+  const std::vector<int> number = Inverse(order);
+  std::vector<int> renumbered(parent.size(), -1);
+  for (std::size_t j = 0; j < order.size(); ++j) {
+    const int above = parent[order[j]];
+    if (above >= 0) renumbered[j] = number[above];
+  }
+  return renumbered;
+}
+
 /// Columns that are eliminated together while fronts are being merged.
 struct Group {
   int first_column = 0;  ///< those that it began with are consecutive
@@ -118,41 +135,96 @@ class ChildLists {
   std::vector<int> first_, last_, next_;
 };
 
-/// Groups of consecutive columns with the same rows below them (positions in postorder).
-Groups FundamentalGroups(const Graph& graph, const std::vector<int>& parent) {
-  const int size = static_cast<int>(parent.size());
-  // The rows below all columns, one column after the other.
-  std::vector<int> below, begin(size + 1, 0), mark(size, -1), group_of(size);
-  below.reserve(graph.neighbour.size());
-  ChildLists children(size);
-  std::vector<Group> groups;
-  const auto count = [&](int j) { return begin[j + 1] - begin[j]; };
-  for (int j = 0; j < size; ++j) {
-    mark[j] = j;
-    const auto add = [&](int i) {
-      if (i > j && mark[i] != j) {
-        mark[i] = j;
-        below.push_back(i);
+/// Groups of consecutive columns with the same rows below them, column after column (positions in
+/// postorder).
+class FundamentalGroups {
+ public:
+  FundamentalGroups(const Graph& graph, const std::vector<int>& parent)
+      : graph_(graph),
+        parent_(parent),
+        children_(static_cast<int>(parent.size())),
+        group_with_row_(parent.size(), -1) {}
+
+  Groups Find() {
+    for (int j = 0; j < static_cast<int>(parent_.size()); ++j) {
+      if (Continues(j)) {
+        ++groups_.back().num_columns;
+      } else {
+        End();
+        Begin(j);
       }
-    };
-    for (int e = graph.begin[j]; e < graph.begin[j + 1]; ++e) add(graph.neighbour[e]);
-    for (int child = children.first(j); child >= 0; child = children.next(child)) {
-      for (int k = begin[child]; k < begin[child + 1]; ++k) add(below[k]);
     }
-    begin[j + 1] = static_cast<int>(below.size());
-    const bool continues = j > 0 && parent[j - 1] == j && count(j - 1) == count(j) + 1;
-    if (!continues) groups.push_back({j});
-    group_of[j] = static_cast<int>(groups.size()) - 1;
-    ++groups.back().num_columns;
-    if (parent[j] >= 0) children.Add(parent[j], j);
+    End();
+    return {std::move(groups_), std::move(rows_)};
   }
-  for (Group& group : groups) {
+
+ private:
+  int last_group() const { return static_cast<int>(groups_.size()) - 1; }
+
+  /// Whether column j has no row below it that the column before it does not have.
+  bool Continues(int j) const {
+    if (j == 0 || parent_[j - 1] != j) return false;
+    const auto is_known = [&](int i) { return i <= j || group_with_row_[i] == last_group(); };
+    for (int e = graph_.begin[j]; e < graph_.begin[j + 1]; ++e) {
+      if (!is_known(graph_.neighbour[e])) return false;
+    }
+    for (int child = children_.first(j); child >= 0; child = children_.next(child)) {
+      for (int k = 0; k < groups_[child].num_rows; ++k) {
+        if (!is_known(rows_[groups_[child].first_row + k])) return false;
+      }
+    }
+    return true;
+  }
+
+  void Begin(int j) {
+    groups_.push_back({j, 1, static_cast<int>(rows_.size())});
+    for (int e = graph_.begin[j]; e < graph_.begin[j + 1]; ++e) AddRow(graph_.neighbour[e]);
+    for (int child = children_.first(j); child >= 0; child = children_.next(child)) {
+      for (int k = 0; k < groups_[child].num_rows; ++k) {
+        AddRow(rows_[groups_[child].first_row + k]);
+      }
+    }
+  }
+
+  void AddRow(int i) {
+    if (i <= groups_.back().first_column || group_with_row_[i] == last_group()) return;
+    group_with_row_[i] = last_group();
+    rows_.push_back(i);
+  }
+
+  /// Ends the last group: its own columns are rows of its first column, but not below the group.
+  void End() {
+    if (groups_.empty()) return;
+    Group& group = groups_.back();
     const int last = group.first_column + group.num_columns - 1;
-    group.first_row = begin[last];
-    group.num_rows = count(last);
-    group.parent = parent[last] < 0 ? -1 : group_of[parent[last]];
+    rows_.erase(std::remove_if(rows_.begin() + group.first_row, rows_.end(),
+                               [last](int i) { return i <= last; }),
+                rows_.end());
+    group.num_rows = static_cast<int>(rows_.size()) - group.first_row;
+    if (parent_[last] >= 0) children_.Add(parent_[last], last_group());
   }
-  return {std::move(groups), std::move(below)};
+
+  const Graph& graph_;
+  const std::vector<int>& parent_;
+  ChildLists children_;              ///< groups below a column
+  std::vector<int> group_with_row_;  ///< the last group that has a row
+  std::vector<Group> groups_;
+  std::vector<int> rows_;
+};
+
+/// Groups with the group of each one's parent. `parent`: of the columns.
+Groups FindGroups(const Graph& graph, const std::vector<int>& parent) {
+  Groups found = FundamentalGroups(graph, parent).Find();
+  std::vector<int> group_of(parent.size());
+  for (int g = 0; g < static_cast<int>(found.groups.size()); ++g) {
+    const auto first = group_of.begin() + found.groups[g].first_column;
+    std::fill(first, first + found.groups[g].num_columns, g);
+  }
+  for (Group& group : found.groups) {
+    const int above = parent[group.first_column + group.num_columns - 1];
+    group.parent = above < 0 ? -1 : group_of[above];
+  }
+  return found;
 }
 
 /// What it saves to eliminate a child's columns in its parent's front, in multiplications: the
@@ -281,12 +353,6 @@ void LayOutFronts(const Groups& groups, KktAnalysis* analysis,
   FindRowsInParents(&analysis->fronts);
 }
 
-std::vector<int> Inverse(const std::vector<int>& permutation) {
-  std::vector<int> inverse(permutation.size());
-  for (int k = 0; k < static_cast<int>(permutation.size()); ++k) inverse[permutation[k]] = k;
-  return inverse;
-}
-
 /// Groups the rows into fronts. `variable_at`: elimination position -> row.
 KktAnalysis FrontsOf(const std::vector<int>& variable_at, const std::vector<KktEdge>& edges,
                      const CancellationToken& cancellation) {
@@ -296,12 +362,13 @@ KktAnalysis FrontsOf(const std::vector<int>& variable_at, const std::vector<KktE
   };
   const std::vector<int> parent = step(EliminationTree(
       MakeGraph(static_cast<int>(variable_at.size()), edges, Inverse(variable_at))));
+  const std::vector<int> postorder = Postorder(parent);
   std::vector<int> reordered;
   reordered.reserve(variable_at.size());
-  for (const int position : Postorder(parent)) reordered.push_back(variable_at[position]);
+  for (const int position : postorder) reordered.push_back(variable_at[position]);
   const Graph graph =
       step(MakeGraph(static_cast<int>(variable_at.size()), edges, Inverse(reordered)));
-  Groups groups = step(FundamentalGroups(graph, EliminationTree(graph)));
+  Groups groups = step(FindGroups(graph, Renumbered(parent, postorder)));
   MergeSmallGroups(&groups.groups);
   KktAnalysis analysis;
   LayOutFronts(groups, &analysis, reordered);
@@ -314,11 +381,19 @@ KktAnalysis FrontsOf(const std::vector<int>& variable_at, const std::vector<KktE
 double KktAnalysis::Flops() const {
   double flops = 0;
   for (const KktFront& front : fronts) {
-    const auto size =
-        static_cast<double>(front.num_columns) + static_cast<double>(front.rows.size());
+    const double size = front.size();
     for (int k = 0; k < front.num_columns; ++k) flops += (size - k) * (size - k);
   }
   return flops;
+}
+
+std::size_t KktAnalysis::FactorEntries() const {
+  std::size_t entries = 0;
+  for (const KktFront& front : fronts) {
+    const auto columns = static_cast<std::size_t>(front.num_columns);
+    entries += columns * (columns - 1) / 2 + columns * front.rows.size();
+  }
+  return entries;
 }
 
 KktAnalysis AnalyseKkt(int size, int num_dual, const std::vector<KktEdge>& edges,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "collocation/kkt/kkt_order.h"
@@ -17,6 +18,8 @@ struct KktFront {
   std::vector<int> rows;  ///< positions, ascending, all after the columns
   /// Position of each of `rows` in the parent, whose columns come first, then its rows.
   std::vector<int> rows_in_parent;
+
+  int size() const { return num_columns + static_cast<int>(rows.size()); }
 };
 
 /// The part of a factorisation that depends on the pattern alone.
@@ -27,6 +30,8 @@ struct KktAnalysis {
 
   /// Multiplications of a factorisation without delayed pivots.
   double Flops() const;
+  /// Stored numbers of the factor, likewise.
+  std::size_t FactorEntries() const;
 };
 
 /// Orders the `size` rows of a symmetric indefinite matrix for little fill and groups them into

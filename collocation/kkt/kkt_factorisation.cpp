@@ -15,27 +15,6 @@ constexpr int kMaxRefinements = 3;
 constexpr double kWantedResidual = 1e-10;  // relative to |A| |x| + |b|
 constexpr int kFrontsPerQuestion = 16;
 
-using Numbers = Eigen::Map<const Eigen::VectorXd>;
-
-/// Below this many numbers a plain loop is quicker than vectors.
-constexpr int kShort = 12;
-
-/// y -= factor x.
-void SubtractMultiple(double factor, const double* x, int size, double* y) {
-  if (size < kShort) {
-    for (int i = 0; i < size; ++i) y[i] -= factor * x[i];
-  } else {
-    Eigen::Map<Eigen::VectorXd>(y, size) -= factor * Numbers(x, size);
-  }
-}
-
-double DotProduct(const double* x, const double* y, int size) {
-  if (size >= kShort) return Numbers(x, size).dot(Numbers(y, size));
-  double sum = 0;
-  for (int i = 0; i < size; ++i) sum += x[i] * y[i];
-  return sum;
-}
-
 }  // namespace
 
 KktFactorisation::KktFactorisation(int size, int num_dual, std::vector<int> rows,
@@ -90,6 +69,7 @@ void KktFactorisation::Analyse(const double* values, const CancellationToken& ca
                                      front.rows.begin());
     }
   }
+  factor_.reserve(analysis_.FactorEntries());
   analysed_ = true;
 }
 
@@ -152,8 +132,7 @@ void KktFactorisation::AddContribution(const Contribution& contribution, int fir
   const KktFront& child = analysis_.fronts[contribution.front];
   const KktFront& parent = analysis_.fronts[child.parent];
   const int delayed = static_cast<int>(contribution.delayed.size());
-  const int delayed_here =
-      front_.size() - parent.num_columns - static_cast<int>(parent.rows.size());
+  const int delayed_here = front_.size() - parent.size();
   std::vector<int>& target = target_;
   target.resize(contribution.size);
   for (int k = 0; k < delayed; ++k) target[k] = parent.num_columns + first_delayed + k;
@@ -285,12 +264,7 @@ void KktFactorisation::SolveOnce(Eigen::VectorXd* x) {
     const int* index = index_.data() + part.first_index;
     double* y = gathered_.data();
     for (int i = 0; i < part.size; ++i) y[i] = (*x)[index[i]];
-    const double* factor = factor_.data() + part.first_value;
-    for (int k = 0; k < part.num_pivots; ++k) {
-      const int below = part.size - k - 1;
-      SubtractMultiple(y[k], factor, below, y + k + 1);
-      factor += below;
-    }
+    kernels_->solve_down({part.size, part.num_pivots, factor_.data() + part.first_value}, y);
     for (int k = 0; k < part.num_pivots; ++k) {
       const size_t p = part.first_pivot + k;
       if (pivots_[p] == DenseFront::kPairFirst) {
@@ -304,16 +278,11 @@ void KktFactorisation::SolveOnce(Eigen::VectorXd* x) {
     }
     for (int i = 0; i < part.size; ++i) (*x)[index[i]] = y[i];
   }
-  const double* factor = factor_.data() + factor_.size();
   for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) {
     const int* index = index_.data() + part->first_index;
     double* y = gathered_.data();
     for (int i = 0; i < part->size; ++i) y[i] = (*x)[index[i]];
-    for (int k = part->num_pivots - 1; k >= 0; --k) {
-      const int below = part->size - k - 1;
-      factor -= below;
-      y[k] -= DotProduct(factor, y + k + 1, below);
-    }
+    kernels_->solve_up({part->size, part->num_pivots, factor_.data() + part->first_value}, y);
     for (int i = 0; i < part->num_pivots; ++i) (*x)[index[i]] = y[i];
   }
 }

@@ -6,6 +6,7 @@
 
 #include "collocation/kkt/dense_front.h"
 #include "collocation/kkt/kkt_analysis.h"
+#include "collocation/kkt/vector_kernels.h"
 #include "common/cancellation_token.h"
 
 namespace possibility::collocation {
@@ -81,6 +82,7 @@ class KktFactorisation {
   void SolveOnce(Eigen::VectorXd* x);
   double Residual(const Eigen::VectorXd& b, const Eigen::VectorXd& x, Eigen::VectorXd* r) const;
 
+  const VectorKernels* kernels_ = &WidestKernels();
   int size_;
   int num_dual_;
   std::vector<int> rows_, columns_;

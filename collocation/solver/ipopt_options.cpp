@@ -83,10 +83,14 @@ void SetIpoptOptions(const SolverOptions& options, bool warm, double largest_bou
   // 1000 iterations do not reach Ipopt's own 1e20.
   list.SetNumericValue("diverging_iterates_tol", 1e12);
   list.SetStringValue("mu_strategy", "adaptive");
+  // With the adaptive strategy the restoration wanders where many points violate constraints least.
+  list.SetStringValue("resto.mu_strategy", "monotone");
   if (options.linear_solver == LinearSolver::kSparseLdlt) {
     list.SetStringValue("linear_solver", "ma27");  // hsl_hook.h
     list.SetStringValue("linear_system_scaling", "none");
     list.SetNumericValue("ma27_pivtol", 1e-6);  // as for MUMPS
+    // KktFactorisation refines its solutions itself. Ipopt still does where residuals are large.
+    list.SetIntegerValue("min_refinement_steps", 0);
   } else {
     list.SetStringValue("linear_solver", "mumps");
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 #include <stdexcept>
 
 #include "collocation/study/optimal_control.h"
@@ -51,6 +52,29 @@ TEST(Culprits, InfeasibleNamesTheWorstConstraintItsKnotAndHowFar) {
   const ConstraintViolation& worst = result.violations.at("lift: tunnel");
   EXPECT_NEAR(worst.amount, 3, 1e-4);
   EXPECT_TRUE(Contains(worst.where, "knot 20")) << worst.where;
+}
+
+// The end is fixed outside the tunnel. With a strong force, most points violate the constraints as
+// little as any other, which used to keep the solver busy until its last iteration.
+TEST(Culprits, InfeasibleIsFoundWhateverTheForce) {
+  std::mt19937 random(7);
+  const auto between = [&random](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  for (int k = 0; k < 60; ++k) {
+    const double force = std::pow(10, between(-1, 3)), duration = between(0.3, 4.3);
+    const double bound = between(0.2, 1.2), end = between(1.3, 6.3);
+    Mass mass({-force, force});
+    mass.phase.SetDuration(duration);
+    mass.phase.Fix(mass.q, end, At::kEnd);
+    mass.phase.Constrain(
+        "tunnel", Differentiated<1, 1>([](const auto& z, auto* c) { (*c)[0] = z[0] * z[0]; }),
+        {mass.q}, {{-bound, bound}}, At::kEverywhere, {10});
+    const OptimalControlResult result = SolveOptimalControl(mass.problem);
+    EXPECT_EQ(result.status, SolverStatus::kInfeasible)
+        << "force " << force << ", duration " << duration << ", bound " << bound << ", end " << end
+        << ": " << result.message;
+  }
 }
 
 TEST(Culprits, InfeasibleByABoundOnForceNamesTheConstraint) {
